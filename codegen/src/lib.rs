@@ -1,0 +1,3 @@
+//! Generates spherical-harmonics kernels.
+
+pub mod sh;

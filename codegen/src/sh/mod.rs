@@ -1,0 +1,3 @@
+//! Pure mathematics: exact constants and the tables made of them. Imports nothing else of this crate.
+
+pub mod exact;
