@@ -1,3 +1,5 @@
 //! Pure mathematics: exact constants and the tables made of them. Imports nothing else of this crate.
 
 pub mod exact;
+pub mod index;
+pub mod tables;
