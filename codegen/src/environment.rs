@@ -184,7 +184,10 @@ impl Map {
     /// # Errors
     ///
     /// If the format is another one, the bytes are damaged, the map is empty, not twice as wide as high or wider than
-    /// [`MAX_WIDTH`], or a texel is not finite or negative, or all are zero. No bytes make it panic.
+    /// [`MAX_WIDTH`], or a texel is not finite or negative, or all are zero.
+    ///
+    /// No bytes make it panic. (A damaged OpenEXR file in DWA compression can still name sizes for which its decoder
+    /// asks for more memory than there is, which ends the process.)
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, MapError> {
         // The decoders are not proof against overflow in damaged files.
         let decoded = catch_unwind(AssertUnwindSafe(|| {
@@ -595,7 +598,7 @@ fn check_size(name: &str, width: usize, height: usize) -> Result<(), MapError> {
 fn malformed(name: &str, message: &str) -> MapError {
     MapError::Malformed {
         name: name.to_string(),
-        message: message.to_string(),
+        message: message.replace(char::is_control, " "),
     }
 }
 

@@ -6,6 +6,7 @@ pub mod orthogonal;
 pub mod rotate;
 pub mod tilt;
 pub mod y_rotation;
+pub mod zhf;
 
 use crate::graph::{Graph, Id};
 

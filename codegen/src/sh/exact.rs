@@ -186,9 +186,10 @@ impl Exact {
         match &self.0 {
             Form::Sum(terms) => match &terms[..] {
                 [] => Self::zero(),
-                [term] if term.surd.is_one() => {
-                    Self::sqrt_ratio(term.coefficient.numer().clone(), term.coefficient.denom().clone())
-                }
+                [term] if term.surd.is_one() => Self::sqrt_ratio(
+                    term.coefficient.numer().clone(),
+                    term.coefficient.denom().clone(),
+                ),
                 _ => Self::real(self.to_real().sqrt()),
             },
             Form::Real(r) => Self::real(r.sqrt()),

@@ -3,3 +3,4 @@
 pub mod exact;
 pub mod index;
 pub mod tables;
+pub mod zhf;

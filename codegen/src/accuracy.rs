@@ -1,0 +1,203 @@
+//! How exact a kernel is: the rounding error of its f32 form against its f64 form, measured over seeded inputs, and for
+//! an approximate rotation the error of the method at an angle, computed from its matrix.
+
+use crate::eval::{Contraction, Number, Program};
+use crate::kernels::y_rotation::{Small, about_y};
+use crate::kernels::{rotate, tilt};
+use crate::listing::Listing;
+use crate::samples;
+use crate::spec::{Family, Method, Spec};
+
+/// The tilts in degrees at which a file's head says the method's error.
+pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
+/// How many inputs rounding is measured over.
+pub const SAMPLES: usize = 256;
+/// The measured worst case is multiplied by this before it is promised.
+const MARGIN: f64 = 2.0;
+const SEED: u64 = 0x5a_0a_1;
+
+/// What is promised of a kernel.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Accuracy {
+    /// The f32 rounding error, in the measure of `relative_to`.
+    pub rounding_f32: f64,
+    /// What the rounding error is relative to.
+    pub relative_to: &'static str,
+    /// For an approximate rotation the largest error of any band (spectral norm) at angles in degrees.
+    pub method: Vec<(f64, f64)>,
+}
+
+/// Rounds up to two significant digits.
+pub fn round_up(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let text = format!("{value:.1e}");
+    let rounded: f64 = text.parse().expect("a number prints as a number");
+    if rounded >= value {
+        return rounded;
+    }
+    let (digits, exponent) = text.split_once('e').expect("scientific notation has an exponent");
+    let tenths: i64 = digits.replace('.', "").parse().expect("two digits");
+    let exponent: i32 = exponent.parse().expect("an integer");
+    format!("{}e{}", tenths + 1, exponent - 1).parse().expect("a number")
+}
+
+/// What a rounding error is measured against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Measure {
+    /// Each band's error against the band's norm in the input.
+    Bands,
+    /// The value's error against the norm of all coefficients.
+    Whole,
+    /// The error itself.
+    Absolute,
+}
+
+impl Measure {
+    fn of(spec: &Spec) -> Self {
+        match spec.family {
+            Family::Basis | Family::Angles => Self::Absolute,
+            Family::Eval => Self::Whole,
+            _ => Self::Bands,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Bands => "the norm of a band",
+            Self::Whole => "the norm of the coefficients, each band of norm one",
+            Self::Absolute => "one",
+        }
+    }
+
+    fn error(self, got: &[f64], want: &[f64], order: usize) -> f64 {
+        let difference = |range: std::ops::Range<usize>| {
+            got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+        };
+        match self {
+            Self::Bands => (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger),
+            _ => (0..got.len()).map(|i| difference(i..i + 1)).fold(0.0, larger),
+        }
+    }
+}
+
+/// The larger of two numbers, or NaN if one is.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// The largest rounding error of running in `T`, against f64, over `count` seeded inputs.
+pub fn rounding<T: Number>(spec: &Spec, listing: &Listing, seed: u64, count: usize, contraction: Contraction) -> f64 {
+    let (narrow, wide) = (Program::<T>::new(listing), Program::<f64>::new(listing));
+    let max_angle = spec.max_angle().unwrap_or(std::f64::consts::PI);
+    let measure = Measure::of(spec);
+    samples::inputs(spec, &listing.params, seed, count, max_angle)
+        .iter()
+        .map(|input| {
+            let rounded: Vec<Vec<T>> = input.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
+            let narrow_input: Vec<&[T]> = rounded.iter().map(Vec::as_slice).collect();
+            let wide_input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
+            let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
+            let want = wide.run(&wide_input, contraction);
+            measure.error(&got, &want, spec.order)
+        })
+        .fold(0.0, larger)
+}
+
+impl Accuracy {
+    /// Measures a kernel.
+    pub fn of(spec: &Spec, listing: &Listing) -> Self {
+        let worst = [Contraction::Separate, Contraction::Fused]
+            .map(|contraction| rounding::<f32>(spec, listing, SEED, SAMPLES, contraction))
+            .into_iter()
+            .fold(0.0, larger);
+        Self::with_rounding(spec, worst)
+    }
+
+    /// The same, with the largest rounding error measured already.
+    pub fn with_rounding(spec: &Spec, worst: f64) -> Self {
+        let method = match is_approximate(spec) {
+            true => ANGLES.map(|degrees| (degrees, round_up(method_error(spec, degrees.to_radians())))).to_vec(),
+            false => vec![],
+        };
+        Self {
+            rounding_f32: round_up(worst * MARGIN),
+            relative_to: Measure::of(spec).name(),
+            method,
+        }
+    }
+}
+
+/// Whether a kernel is a rotation only approximately.
+pub fn is_approximate(spec: &Spec) -> bool {
+    match &spec.family {
+        Family::SmallY(_) | Family::Rotate(Method::Small(_)) => true,
+        Family::Tilt => spec.order > 3,
+        _ => false,
+    }
+}
+
+/// The largest error of any band, as a spectral norm, of an approximate rotation by `angle` radians; zero for an exact
+/// one. A rotation about z changes no norm, so that a z, y, z rotation has the error of its y rotation.
+pub fn method_error(spec: &Spec, angle: f64) -> f64 {
+    band_errors(spec, angle).into_iter().fold(0.0, larger)
+}
+
+/// The error of each band, as a spectral norm, of an approximate rotation by `angle` radians.
+pub fn band_errors(spec: &Spec, angle: f64) -> Vec<f64> {
+    let order = spec.order;
+    let exact = Program::<f64>::new(&Listing::new(&rotate::rotate_y(order)));
+    let turn = [angle.cos(), angle.sin()];
+    let (approximate, parameter) = match &spec.family {
+        Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => (small(order, methods), vec![angle]),
+        Family::Tilt => (Program::new(&Listing::new(&tilt::tilt(order))), vec![turn[1], 0.0, turn[0]]),
+        _ => return vec![0.0; order],
+    };
+    (0..order)
+        .map(|l| {
+            let size = 2 * l + 1;
+            let columns: Vec<Vec<f64>> = (0..size)
+                .map(|j| {
+                    let mut unit = vec![0.0; order * order];
+                    unit[l * l + j] = 1.0;
+                    let want = exact.run(&[&turn, &unit], Contraction::Separate);
+                    let got = approximate.run(&[&parameter, &unit], Contraction::Separate);
+                    (l * l..l * l + size).map(|i| got[i] - want[i]).collect()
+                })
+                .collect();
+            spectral_norm(&columns)
+        })
+        .collect()
+}
+
+fn small(order: usize, methods: &[Small]) -> Program<f64> {
+    Program::new(&Listing::new(&about_y(order, methods)))
+}
+
+/// The spectral norm of a square matrix by the power iteration on MᵀM, started from every unit vector's image.
+pub fn spectral_norm(columns: &[Vec<f64>]) -> f64 {
+    let n = columns.len();
+    let gram: Vec<Vec<f64>> = columns
+        .iter()
+        .map(|a| columns.iter().map(|b| a.iter().zip(b).map(|(x, y)| x * y).sum()).collect())
+        .collect();
+    let scale = gram.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    if scale == 0.0 || !scale.is_finite() {
+        return scale;
+    }
+    // Squaring the matrix doubles the exponent of the iteration: forty squarings are 2^40 steps.
+    let mut power: Vec<Vec<f64>> = gram.iter().map(|row| row.iter().map(|x| x / scale).collect()).collect();
+    for _ in 0..40 {
+        let square: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..n).map(|j| (0..n).map(|k| power[i][k] * power[k][j]).sum()).collect())
+            .collect();
+        let size = square.iter().flatten().fold(0.0f64, |m: f64, x: &f64| m.max(x.abs()));
+        power = square.into_iter().map(|row| row.into_iter().map(|x| x / size).collect()).collect();
+    }
+    // Every column is now close to the leading eigenvector; take the Rayleigh quotient of the longest.
+    let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+    let lead = power.iter().max_by(|a, b| length(a).total_cmp(&length(b))).expect("a matrix has a row");
+    let image: Vec<f64> = gram.iter().map(|row| row.iter().zip(lead).map(|(x, y)| x * y).sum()).collect();
+    (image.iter().zip(lead).map(|(x, y)| x * y).sum::<f64>() / length(lead)).sqrt()
+}

@@ -1,0 +1,171 @@
+//! Files as text, and the one place that writes them: inside one folder, nothing half-written, what has not changed
+//! untouched.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+/// A generated file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct File {
+    /// Its path below the output folder, with `/`.
+    pub path: String,
+    /// Its whole text, lines ended by `\n`.
+    pub text: String,
+}
+
+/// Why files could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// A path leads out of the output folder.
+    #[error("`{0}` leads out of the output folder; use a relative path without `..`")]
+    Outside(String),
+    /// The file system refused.
+    #[error("cannot {what} `{}`: {source}; check that the folder exists and may be written", path.display())]
+    Io {
+        /// What was tried.
+        what: &'static str,
+        /// Where.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+fn io_error(what: &'static str, path: &Path) -> impl FnOnce(io::Error) -> FileError {
+    let path = path.to_owned();
+    move |source| FileError::Io { what, path, source }
+}
+
+/// Whether a path stays below the folder that it is joined to.
+pub fn stays_inside(path: &str) -> bool {
+    !path.is_empty() && Path::new(path).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir))
+}
+
+/// How a folder differs from what it should hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Difference {
+    /// A file that should be there is not.
+    Missing(String),
+    /// A file holds another text.
+    Stale(String),
+    /// A file that nothing generates any more.
+    Orphaned(String),
+}
+
+impl std::fmt::Display for Difference {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Missing(path) => write!(f, "missing: {path}"),
+            Self::Stale(path) => write!(f, "stale: {path}"),
+            Self::Orphaned(path) => write!(f, "orphaned: {path}"),
+        }
+    }
+}
+
+/// Writes files below a folder and returns how many changed. Every text is first written beside its place; only when all
+/// of them are there are they renamed, so that a failure leaves the folder as it was.
+///
+/// # Errors
+///
+/// If a path leads out of the folder or the file system refuses.
+pub fn write(folder: &Path, files: &[File]) -> Result<usize, FileError> {
+    if let Some(file) = files.iter().find(|file| !stays_inside(&file.path)) {
+        return Err(FileError::Outside(file.path.clone()));
+    }
+    let mut staged: Vec<(PathBuf, PathBuf)> = Vec::new();
+    let result = stage(folder, files, &mut staged);
+    if let Err(error) = result {
+        for (temporary, _) in &staged {
+            let _ = fs::remove_file(temporary);
+        }
+        return Err(error);
+    }
+    let changed = staged.len();
+    for (temporary, place) in &staged {
+        fs::rename(temporary, place).map_err(io_error("write", place))?;
+    }
+    Ok(changed)
+}
+
+fn stage(folder: &Path, files: &[File], staged: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), FileError> {
+    fs::create_dir_all(folder).map_err(io_error("create", folder))?;
+    for file in files {
+        let place = folder.join(&file.path);
+        if fs::read(&place).is_ok_and(|text| text == file.text.as_bytes()) {
+            continue;
+        }
+        let parent = place.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).map_err(io_error("create", parent))?;
+        let name = place.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = parent.join(format!(".{name}.{}.tmp", std::process::id()));
+        staged.push((temporary.clone(), place));
+        fs::write(&temporary, &file.text).map_err(io_error("write", &temporary))?;
+    }
+    Ok(())
+}
+
+/// Compares a folder with what it should hold, all of it.
+///
+/// # Errors
+///
+/// If a folder cannot be read.
+pub fn differences(folder: &Path, files: &[File]) -> Result<Vec<Difference>, FileError> {
+    let mut found = Vec::new();
+    for file in files {
+        match fs::read(folder.join(&file.path)) {
+            Ok(text) if text == file.text.as_bytes() => {}
+            Ok(_) => found.push(Difference::Stale(file.path.clone())),
+            Err(_) => found.push(Difference::Missing(file.path.clone())),
+        }
+    }
+    let known: BTreeSet<&str> = files.iter().map(|file| file.path.as_str()).collect();
+    for path in below(folder)? {
+        if !known.contains(path.as_str()) {
+            found.push(Difference::Orphaned(path));
+        }
+    }
+    Ok(found)
+}
+
+/// Removes the files of a folder that nothing generates, and the folders that they leave empty.
+///
+/// # Errors
+///
+/// If the file system refuses.
+pub fn remove_orphans(folder: &Path, files: &[File]) -> Result<usize, FileError> {
+    let mut removed = 0;
+    for difference in differences(folder, files)? {
+        if let Difference::Orphaned(path) = difference {
+            let place = folder.join(path);
+            fs::remove_file(&place).map_err(io_error("remove", &place))?;
+            let _ = place.parent().map(fs::remove_dir);
+            removed += 1;
+        }
+    }
+    Ok(removed)
+}
+
+/// Every file below a folder, sorted, with `/`; none if there is no such folder.
+fn below(folder: &Path) -> Result<Vec<String>, FileError> {
+    let mut files = Vec::new();
+    let mut open = vec![(folder.to_owned(), String::new())];
+    while let Some((place, prefix)) = open.pop() {
+        let entries = match fs::read_dir(&place) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            entries => entries.map_err(io_error("read", &place))?,
+        };
+        for entry in entries {
+            let entry = entry.map_err(io_error("read", &place))?;
+            let path = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                open.push((entry.path(), format!("{path}/")));
+            } else {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,503 @@
+//! What to generate: a family, an order and a few options, written as `rotate:5:zxzxz:rgb`. A spec names exactly one
+//! function in each language.
+
+use crate::kernels::y_rotation::Small;
+use std::fmt;
+use std::ops::Range;
+use std::str::FromStr;
+
+/// The smallest order of a kernel.
+pub const MIN_ORDER: usize = 2;
+/// The largest order of an unrolled kernel: beyond it, text grows past what shader compilers take.
+pub const MAX_ORDER: usize = 16;
+/// The largest order of a kernel in loop form.
+pub const MAX_LOOP_ORDER: usize = 64;
+
+/// How a rotation is done.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Method {
+    /// z, y, z from a unit quaternion, every angle.
+    Zyz,
+    /// Vector and tensor from a unit quaternion, orders 2 and 3.
+    Tensor,
+    /// Vector and tensor from a 3×3 matrix, orders 2 and 3.
+    Matrix,
+    /// z, y, z from three (cos, sin) pairs.
+    Euler,
+    /// z, y, z from all multiples of the three angles, as the family `angles` makes them.
+    Angles,
+    /// z, x, z, x, z with sparse x rotations: the papers' baseline.
+    Zxzxz,
+    /// The z axis to a normal, spin irrelevant.
+    Align,
+    /// A zonal signal's axis to a direction.
+    Zonal,
+    /// z, y, z with a small y angle, a method for each band from 1.
+    Small(Vec<Small>),
+}
+
+/// What a kernel does.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Family {
+    /// All values at a direction.
+    Basis,
+    /// Σ c_i y_i at a direction.
+    Eval,
+    /// About z by (cos, sin).
+    RotateZ,
+    /// About y by (cos, sin), exactly.
+    RotateY,
+    /// The exchange of y and z.
+    SwapYz,
+    /// About x by +90 degrees.
+    RotateXPlus90,
+    /// About x by −90 degrees.
+    RotateXMinus90,
+    /// A rotation.
+    Rotate(Method),
+    /// The multiples of the three angles of a quaternion.
+    Angles,
+    /// About y by a small angle, a method for each band from 1.
+    SmallY(Vec<Small>),
+    /// z to a normal, bands 1 and 2 exactly, the others by shears.
+    Tilt,
+    /// Rotation by a sparse zonal factorisation over 2n − 1 shared lobes.
+    Zhf,
+    /// The lobe weights Âᵀ c.
+    ZhfWeights,
+    /// Coefficients from samples at the rotated lobes: Â f.
+    ZhfTailored,
+}
+
+/// Unrolled or a loop over tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Form {
+    /// Straight lines, every index a constant.
+    Unrolled,
+    /// Tables and a loop.
+    Loop,
+}
+
+/// What to generate.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Spec {
+    /// The order n: bands 0 to n − 1, n² coefficients.
+    pub order: usize,
+    /// What it does.
+    pub family: Family,
+    /// The bands that exist; the others are zero and not stored. All of them for every family but `basis` and `eval`.
+    pub bands: Vec<usize>,
+    /// Whether the signal has three channels that share the parameters.
+    pub rgb: bool,
+    /// Unrolled or a loop.
+    pub form: Form,
+}
+
+/// Why a text is no spec.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}; {help}")]
+pub struct SpecError {
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+    /// Which bytes of the spec are meant.
+    pub at: Range<usize>,
+}
+
+/// The families that take no method, with their names.
+const PLAIN: [(Family, &str); 13] = [
+    (Family::Basis, "basis"),
+    (Family::Eval, "eval"),
+    (Family::RotateZ, "rotate_z"),
+    (Family::RotateY, "rotate_y"),
+    (Family::SwapYz, "swap_yz"),
+    (Family::RotateXPlus90, "rotate_x_plus_90"),
+    (Family::RotateXMinus90, "rotate_x_minus_90"),
+    (Family::Angles, "angles"),
+    (Family::Tilt, "tilt"),
+    (Family::Zhf, "zhf"),
+    (Family::ZhfWeights, "zhf_weights"),
+    (Family::ZhfTailored, "zhf_tailored"),
+    // `rotate` alone: the method is the cheapest exact one.
+    (Family::Rotate(Method::Zyz), "rotate"),
+];
+
+/// The methods of `rotate` but for the small-angle ones, with their names.
+const METHODS: [(Method, &str); 8] = [
+    (Method::Zyz, "zyz"),
+    (Method::Tensor, "tensor"),
+    (Method::Matrix, "matrix"),
+    (Method::Euler, "euler"),
+    (Method::Angles, "angles"),
+    (Method::Zxzxz, "zxzxz"),
+    (Method::Align, "align"),
+    (Method::Zonal, "zonal"),
+];
+
+/// Every family name that a spec may start with.
+pub fn family_names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = PLAIN.iter().map(|(_, name)| *name).collect();
+    names.extend(Small::ALL.iter().map(|(_, name)| *name));
+    names.push("mix");
+    names
+}
+
+/// Every method name that `rotate` takes.
+pub fn method_names() -> Vec<&'static str> {
+    let mut names: Vec<&str> = METHODS.iter().map(|(_, name)| *name).collect();
+    names.extend(Small::ALL.iter().map(|(_, name)| *name));
+    names
+}
+
+fn small(name: &str) -> Option<Small> {
+    Small::ALL.iter().find(|(_, known)| *known == name).map(|(small, _)| *small)
+}
+
+/// The same method for all bands once, or one a band joined by `+`.
+fn small_list(methods: &[Small]) -> String {
+    match methods.iter().all(|method| *method == methods[0]) {
+        true => methods[0].name().to_owned(),
+        false => methods.iter().map(|method| method.name()).collect::<Vec<_>>().join("+"),
+    }
+}
+
+fn suggest<'a>(got: &str, known: &[&'a str]) -> Option<&'a str> {
+    let distance = |a: &str, b: &str| -> usize {
+        let b: Vec<char> = b.chars().collect();
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        for (i, x) in a.chars().enumerate() {
+            let mut before = row[0];
+            row[0] = i + 1;
+            for (j, y) in b.iter().enumerate() {
+                let change = before + usize::from(x != *y);
+                before = row[j + 1];
+                row[j + 1] = change.min(row[j] + 1).min(before + 1);
+            }
+        }
+        row[b.len()]
+    };
+    let best = known.iter().min_by_key(|name| distance(got, name))?;
+    (distance(got, best) <= 3).then_some(*best)
+}
+
+/// "did you mean …", or the list of what is known.
+pub(crate) fn hint(got: &str, known: &[&str]) -> String {
+    match suggest(got, known) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("known are {}", known.join(", ")),
+    }
+}
+
+impl Spec {
+    /// A spec of all bands, one channel, unrolled.
+    pub fn new(family: Family, order: usize) -> Self {
+        Self {
+            order,
+            family,
+            bands: (0..order).collect(),
+            rgb: false,
+            form: Form::Unrolled,
+        }
+    }
+
+    /// The same for three channels.
+    #[must_use]
+    pub fn rgb(mut self) -> Self {
+        self.rgb = true;
+        self
+    }
+
+    /// The method that `rotate` means at this order: the cheapest exact one from a quaternion.
+    pub fn default_method(order: usize, rgb: bool) -> Method {
+        match (order, rgb) {
+            (2, _) | (3, false) => Method::Tensor,
+            _ => Method::Zyz,
+        }
+    }
+
+    /// How many channels the signal has.
+    pub fn channels(&self) -> usize {
+        if self.rgb { 3 } else { 1 }
+    }
+
+    /// Whether all bands exist.
+    pub fn is_whole(&self) -> bool {
+        self.bands.len() == self.order
+    }
+
+    /// The largest y angle in radians at which the method means anything, if it has one.
+    pub fn max_angle(&self) -> Option<f64> {
+        match &self.family {
+            Family::SmallY(_) | Family::Rotate(Method::Small(_)) => Some(std::f64::consts::FRAC_PI_4),
+            Family::Tilt => Some(std::f64::consts::FRAC_PI_4),
+            _ => None,
+        }
+    }
+
+    /// What the function is called after its prefix `sh<order>_`; unique among specs of one order. It never ends in a
+    /// digit and never holds `__`, since naga renames such names.
+    pub fn stem(&self) -> String {
+        let mut name = String::new();
+        if !self.is_whole() {
+            let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
+            name += &format!("bands_{}_", bands.join("_"));
+        }
+        name += &match &self.family {
+            Family::Rotate(method) if *method == Self::default_method(self.order, self.rgb) => "rotate".to_owned(),
+            Family::Rotate(Method::Small(methods)) => format!("{}_zyz", small_list(methods).replace('+', "_")),
+            Family::Rotate(method) => format!("rotate_{}", name_of(&METHODS, method)),
+            Family::SmallY(methods) => format!("{}_y", small_list(methods).replace('+', "_")),
+            Family::RotateXPlus90 => "rotate_x_plus_90deg".to_owned(),
+            Family::RotateXMinus90 => "rotate_x_minus_90deg".to_owned(),
+            family => name_of(&PLAIN, family).to_owned(),
+        };
+        if self.rgb {
+            name += "_rgb";
+        }
+        if self.form == Form::Loop {
+            name += "_loop";
+        }
+        name
+    }
+
+    /// The function's name in shaders.
+    pub fn name(&self) -> String {
+        format!("sh{}_{}", self.order, self.stem())
+    }
+}
+
+fn name_of<T: PartialEq>(table: &[(T, &'static str)], wanted: &T) -> &'static str {
+    table.iter().find(|(item, _)| item == wanted).map_or("", |(_, name)| name)
+}
+
+impl fmt::Display for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let order = self.order;
+        match &self.family {
+            Family::Rotate(method) if *method == Self::default_method(order, self.rgb) => write!(f, "rotate:{order}")?,
+            Family::Rotate(Method::Small(methods)) => write!(f, "rotate:{order}:{}", small_list(methods))?,
+            Family::Rotate(method) => write!(f, "rotate:{order}:{}", name_of(&METHODS, method))?,
+            Family::SmallY(methods) => {
+                let list = small_list(methods);
+                match list.contains('+') {
+                    true => write!(f, "mix:{order}:{list}")?,
+                    false => write!(f, "{list}:{order}")?,
+                }
+            }
+            family => write!(f, "{}:{order}", name_of(&PLAIN, family))?,
+        }
+        if !self.is_whole() {
+            let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
+            write!(f, ":bands={}", bands.join("+"))?;
+        }
+        if self.rgb {
+            write!(f, ":rgb")?;
+        }
+        if self.form == Form::Loop {
+            write!(f, ":loop")?;
+        }
+        Ok(())
+    }
+}
+
+/// A piece of a spec's text and where it stands.
+struct Piece<'a> {
+    text: &'a str,
+    at: Range<usize>,
+}
+
+impl Piece<'_> {
+    fn error(&self, message: String, help: impl Into<String>) -> SpecError {
+        SpecError {
+            message,
+            help: help.into(),
+            at: self.at.clone(),
+        }
+    }
+}
+
+fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut start = 0;
+    text.split(':')
+        .map(|piece| {
+            let at = start..start + piece.len();
+            start = at.end + 1;
+            Piece { text: piece, at }
+        })
+        .collect()
+}
+
+fn parse_small(piece: &Piece<'_>, order: usize) -> Result<Vec<Small>, SpecError> {
+    let names: Vec<&str> = piece.text.split('+').collect();
+    let known: Vec<&str> = Small::ALL.iter().map(|(_, name)| *name).collect();
+    let mut methods = Vec::new();
+    for name in &names {
+        let method = small(name)
+            .ok_or_else(|| piece.error(format!("`{name}` is no small-angle method"), hint(name, &known)))?;
+        methods.push(method);
+    }
+    if methods.len() == 1 {
+        methods = vec![methods[0]; order - 1];
+    }
+    if methods.len() != order - 1 {
+        let message = format!("{} methods for the bands 1 to {}", methods.len(), order - 1);
+        return Err(piece.error(message, format!("name one for all bands or {} joined by `+`", order - 1)));
+    }
+    Ok(methods)
+}
+
+fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>, SpecError> {
+    let mut bands = Vec::new();
+    for text in list.split('+') {
+        let band: usize = text
+            .parse()
+            .map_err(|_| piece.error(format!("`{text}` is no band"), "write bands as in `bands=0+1+2+4`"))?;
+        if band >= order {
+            let message = format!("band {band} is not below the order {order}");
+            return Err(piece.error(message, format!("an order n has the bands 0 to n − 1: raise it to {}", band + 1)));
+        }
+        bands.push(band);
+    }
+    bands.sort_unstable();
+    bands.dedup();
+    Ok(bands)
+}
+
+fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
+    let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
+    let order: usize = piece
+        .text
+        .parse()
+        .map_err(|_| piece.error(format!("`{}` is no order", piece.text), range.clone()))?;
+    if !(MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
+        return Err(piece.error(format!("order {order} is out of range"), range));
+    }
+    Ok(order)
+}
+
+impl FromStr for Spec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let all = pieces(text);
+        let [head, rest @ ..] = &all[..] else {
+            unreachable!("splitting always gives one piece");
+        };
+        let names = family_names();
+        if !names.contains(&head.text) {
+            return Err(head.error(format!("`{}` is no family of kernels", head.text), hint(head.text, &names)));
+        }
+        let Some((order_piece, mut options)) = rest.split_first() else {
+            let help = format!("write it as in `{}:5`", head.text);
+            return Err(head.error(format!("`{text}` names no order"), help));
+        };
+        let order = parse_order(order_piece)?;
+        let mut spec = Self::new(Family::Basis, order);
+        let mut method = None;
+        spec.family = match (head.text, small(head.text)) {
+            (_, Some(small)) => Family::SmallY(vec![small; order - 1]),
+            ("mix", _) => {
+                let Some((list, others)) = options.split_first() else {
+                    return Err(order_piece.error(
+                        "`mix` names no methods".to_owned(),
+                        "write one a band, as in `mix:5:taylor15+taylor15+taylor15+taylor1`",
+                    ));
+                };
+                options = others;
+                Family::SmallY(parse_small(list, order)?)
+            }
+            (name, None) => PLAIN.iter().find(|(_, known)| *known == name).map(|(family, _)| family.clone()).expect("is known"),
+        };
+        let is_rotate = head.text == "rotate";
+        for option in options {
+            match option.text {
+                "rgb" if spec.rgb => return Err(option.error("`rgb` stands twice".to_owned(), "leave one out")),
+                "rgb" => spec.rgb = true,
+                "loop" => spec.form = Form::Loop,
+                _ if option.text.starts_with("bands=") => {
+                    spec.bands = parse_bands(option, &option.text["bands=".len()..], order)?;
+                }
+                name if is_rotate && method.is_none() => {
+                    let known = method_names();
+                    let first = name.split('+').next().unwrap_or(name);
+                    if !known.contains(&first) {
+                        let all = [known, vec!["rgb", "loop"]].concat();
+                        return Err(option.error(format!("`{name}` is no method of `rotate`"), hint(name, &all)));
+                    }
+                    method = Some(match METHODS.iter().find(|(_, known)| *known == name) {
+                        Some((method, _)) => method.clone(),
+                        None => Method::Small(parse_small(option, order)?),
+                    });
+                }
+                name => {
+                    let known = ["rgb", "loop", "bands=0+1+2"];
+                    return Err(option.error(format!("`{name}` is no option of `{}`", head.text), hint(name, &known)));
+                }
+            }
+        }
+        if is_rotate {
+            spec.family = Family::Rotate(method.unwrap_or_else(|| match spec.form {
+                Form::Loop => Method::Zyz,
+                Form::Unrolled => Self::default_method(order, spec.rgb),
+            }));
+        }
+        let whole = Piece { text, at: 0..text.len() };
+        spec.check(&whole)?;
+        Ok(spec)
+    }
+}
+
+impl Spec {
+    /// Refuses combinations that no kernel exists for.
+    fn check(&self, whole: &Piece<'_>) -> Result<(), SpecError> {
+        let order = self.order;
+        let has_signal = !matches!(self.family, Family::Basis | Family::Angles);
+        if self.rgb && !has_signal {
+            let message = format!("`{}` has no signal that could be RGB", whole.text);
+            return Err(whole.error(message, "leave `rgb` out: its result serves every channel"));
+        }
+        if !self.is_whole() && !matches!(self.family, Family::Basis | Family::Eval) {
+            return Err(whole.error(
+                "only `basis` and `eval` take `bands=`".to_owned(),
+                "leave it out: a rotation leaves bands apart, so call it at the order that you store",
+            ));
+        }
+        if self.bands.is_empty() {
+            return Err(whole.error("no band is left".to_owned(), "name one at least, as in `bands=0+1+2`"));
+        }
+        if matches!(&self.family, Family::Rotate(Method::Tensor | Method::Matrix)) && order > 3 {
+            return Err(whole.error(
+                format!("this method has orders 2 and 3 only, not {order}"),
+                "from order 4 on `zyz` is the cheapest exact rotation: leave the method out",
+            ));
+        }
+        let zhf = matches!(self.family, Family::Zhf | Family::ZhfWeights | Family::ZhfTailored);
+        if zhf && order > 10 {
+            return Err(whole.error(
+                format!("no lobe directions are known for order {order}"),
+                "the zonal factorisation has orders 2 to 10",
+            ));
+        }
+        let loops = match &self.family {
+            Family::Basis => self.is_whole(),
+            Family::Rotate(Method::Zyz) => true,
+            Family::SmallY(methods) => methods.iter().all(|method| *method == Small::Taylor15),
+            _ => false,
+        };
+        if self.form == Form::Loop && !loops {
+            return Err(whole.error(
+                format!("`{}` has no loop form", whole.text),
+                "`basis`, `rotate` and `taylor15` have one: leave `loop` out",
+            ));
+        }
+        if self.form == Form::Unrolled && order > MAX_ORDER {
+            let help = match loops {
+                true => format!("write `{}:loop`", whole.text),
+                false => format!("unrolled kernels have orders {MIN_ORDER} to {MAX_ORDER}"),
+            };
+            return Err(whole.error(format!("order {order} is too long unrolled"), help));
+        }
+        Ok(())
+    }
+}
