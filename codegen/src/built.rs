@@ -1,6 +1,7 @@
 //! A spec's kernel: built, laid out, counted and measured, once for all languages.
 
-use crate::accuracy::Accuracy;
+use crate::accuracy::{self, Accuracy};
+use crate::eval::{Contraction, Number, Program};
 use crate::graph::Kind;
 use crate::kernel::{Kernel, Param, Shape};
 use crate::kernels::{basis, rotate, tilt, y_rotation, zhf};
@@ -68,11 +69,6 @@ impl Built {
         }
     }
 
-    /// What it costs for the channels of its spec.
-    pub fn cost(&self) -> Cost {
-        self.cost_of(self.spec.channels())
-    }
-
     /// What it costs for so many channels.
     pub fn cost_of(&self, channels: usize) -> Cost {
         match &self.code {
@@ -105,6 +101,24 @@ impl Built {
     pub fn result_doc(&self) -> &str {
         match &self.code {
             Code::Straight(listing) => &listing.result_doc,
+        }
+    }
+
+    /// Runs it for one channel; see [`Program::run`].
+    ///
+    /// # Panics
+    ///
+    /// If an input is shorter than its parameter's shape.
+    pub fn run<T: Number>(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
+        match &self.code {
+            Code::Straight(listing) => Program::new(listing).run(inputs, contraction),
+        }
+    }
+
+    /// Its largest rounding error in `T` over seeded inputs; see [`accuracy::rounding`].
+    pub fn rounding<T: Number>(&self, seed: u64, count: usize, contraction: Contraction) -> f64 {
+        match &self.code {
+            Code::Straight(listing) => accuracy::rounding::<T>(&self.spec, listing, seed, count, contraction),
         }
     }
 

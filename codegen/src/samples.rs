@@ -126,12 +126,12 @@ fn signal(random: &mut Random, count: usize) -> Vec<f64> {
 }
 
 /// `count` sets of inputs for a kernel's parameters, extremes first; `max_angle` bounds `beta` and the tilt of `n` in
-/// radians. Each input is one list of numbers a parameter, in flat order, every number an f32.
+/// radians (an exact tilt takes every normal with n.z ≥ 0). Each input is one list of numbers a parameter, in flat order, every number an f32.
 pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle: f64) -> Vec<Vec<Vec<f64>>> {
     let mut random = Random::new(seed);
     let multiples = matches!(spec.family, Family::Rotate(Method::Angles))
         .then(|| Program::<f64>::new(&Listing::new(&rotate::angles(spec.order))));
-    let whole_sphere = !matches!(spec.family, Family::Tilt);
+    let tilts = matches!(spec.family, Family::Tilt);
     (0..count)
         .map(|i| {
             let values = params.iter().map(|param| match (param.name, param.shape) {
@@ -139,7 +139,11 @@ pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle:
                     const FRACTIONS: [f64; 6] = [0.0, 1.0, -1.0, 1e-7, 1e-20, -0.5];
                     vec![FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed()) * max_angle]
                 }
-                ("n", _) if !whole_sphere => tilted(&mut random, i, max_angle).to_vec(),
+                ("n", _) if tilts && spec.max_angle().is_some() => tilted(&mut random, i, max_angle).to_vec(),
+                ("n", _) if tilts => {
+                    let [x, y, z] = direction(&mut random, i);
+                    vec![x, y, z.abs()]
+                }
                 (_, Shape::Vec3) => direction(&mut random, i).to_vec(),
                 (_, Shape::Vec4) => quaternion(&mut random, i).to_vec(),
                 (_, Shape::Mat3) => matrix_of(quaternion(&mut random, i)).to_vec(),

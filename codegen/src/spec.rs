@@ -13,6 +13,9 @@ pub const MAX_ORDER: usize = 16;
 /// The largest order of a kernel in loop form.
 pub const MAX_LOOP_ORDER: usize = 64;
 
+/// The largest angle in degrees that an approximate rotation is meant for: paper 000's "up to 25 degrees".
+pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
+
 /// How a rotation is done.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Method {
@@ -226,13 +229,14 @@ impl Spec {
         self.bands.len() == self.order
     }
 
-    /// The largest y angle in radians at which the method means anything, if it has one.
+    /// The largest y angle in radians that the method is meant for, if it is an approximation.
     pub fn max_angle(&self) -> Option<f64> {
-        match &self.family {
-            Family::SmallY(_) | Family::Rotate(Method::Small(_)) => Some(std::f64::consts::FRAC_PI_4),
-            Family::Tilt => Some(std::f64::consts::FRAC_PI_4),
-            _ => None,
-        }
+        let approximate = match &self.family {
+            Family::SmallY(_) | Family::Rotate(Method::Small(_)) => true,
+            Family::Tilt => self.order > 3,
+            _ => false,
+        };
+        approximate.then(|| SMALL_ANGLE_DEGREES.to_radians())
     }
 
     /// What the function is called after its prefix `sh<order>_`; unique among specs of one order. It never ends in a

@@ -99,7 +99,7 @@ impl Real for f64 {
     const TINY: Self = 1e-30;
     #[inline(always)]
     fn lit(value: f64) -> Self {
-        value as f64
+        value
     }
     #[inline(always)]
     fn lit2(_: f32, value: f64) -> Self {

@@ -1,3 +1,97 @@
-//! Helpers that the tests share.
+//! Helpers that the tests share: golden values, running a kernel in the interpreter, errors by band, shader text run
+//! without a GPU.
 
 pub mod shader;
+
+use serde_json::Value;
+use std::path::PathBuf;
+use zonal_codegen::built;
+use zonal_codegen::eval::{Contraction, Number, Program};
+use zonal_codegen::listing::Listing;
+use zonal_codegen::spec::Spec;
+
+/// A path below the repository.
+pub fn repository(path: &str) -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(path)
+}
+
+/// A file of golden values.
+///
+/// # Panics
+///
+/// If there is no such file or it is no JSON.
+pub fn golden(name: &str) -> Value {
+    let path = repository(&format!("tests/golden/{name}.json"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// A JSON list of numbers.
+///
+/// # Panics
+///
+/// If it is anything else.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().expect("a list of numbers");
+    list.iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+/// A spec from its text.
+///
+/// # Panics
+///
+/// If it is none.
+pub fn spec(text: &str) -> Spec {
+    text.parse().unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// A kernel that can be run again and again.
+#[derive(Clone, Debug)]
+pub struct Runner<T>(Program<T>);
+
+impl<T: Number> Runner<T> {
+    /// The kernel of a spec.
+    pub fn new(spec: &Spec) -> Self {
+        Self(Program::new(&Listing::new(&built::kernel(spec))))
+    }
+
+    /// Runs it unfused on inputs that are rounded to `T`.
+    pub fn run(&self, inputs: &[Vec<f64>]) -> Vec<f64> {
+        let rounded: Vec<Vec<T>> = inputs.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
+        let slices: Vec<&[T]> = rounded.iter().map(Vec::as_slice).collect();
+        self.0.run(&slices, Contraction::Separate).into_iter().map(Number::to_f64).collect()
+    }
+}
+
+/// The largest error of any band relative to the band's norm in `want`; NaN if there is one.
+pub fn band_error(got: &[f64], want: &[f64]) -> f64 {
+    (0..got.len().isqrt())
+        .map(|l| {
+            let range = l * l..(l + 1) * (l + 1);
+            let difference: Vec<f64> = got[range.clone()].iter().zip(&want[range.clone()]).map(|(a, b)| a - b).collect();
+            norm(&difference) / norm(&want[range])
+        })
+        .fold(0.0, larger)
+}
+
+/// The Euclidean norm.
+pub fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The larger of two numbers, or NaN if one is.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// The Hamilton product of two quaternions (x, y, z, w): first `b`, then `a`.
+pub fn quaternion_product(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let [x, y, z, w] = [a[0], a[1], a[2], a[3]];
+    let [p, q, r, s] = [b[0], b[1], b[2], b[3]];
+    vec![
+        w * p + x * s + y * r - z * q,
+        w * q - x * r + y * s + z * p,
+        w * r + x * q - y * p + z * s,
+        w * s - x * p - y * q - z * r,
+    ]
+}

@@ -4,7 +4,7 @@
 use crate::accuracy::Accuracy;
 use crate::built::Built;
 use crate::kernel::Param;
-use crate::spec::{Family, Method, Spec};
+use crate::spec::{Family, Method, SMALL_ANGLE_DEGREES, Spec};
 
 const WIDTH: usize = 100;
 
@@ -134,10 +134,11 @@ pub fn cost(built: &Built, channels: usize) -> String {
 
 /// How exact a kernel is and where, in sentences.
 pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
+    let small = format!("for an angle up to {SMALL_ANGLE_DEGREES} degrees");
     let domain = match &spec.family {
+        _ if spec.max_angle().is_some() => &small,
         Family::Basis | Family::Eval => "for dir of unit length",
-        Family::Tilt => "for n of unit length within 45 degrees of z",
-        Family::SmallY(_) | Family::Rotate(Method::Small(_)) => "for |beta| up to 45 degrees",
+        Family::Tilt => "for every n of unit length with n.z >= 0",
         Family::Rotate(Method::Zyz | Method::Zxzxz | Method::Tensor) | Family::Angles => "for every unit q",
         Family::Rotate(Method::Align) => "for every n of unit length",
         Family::Rotate(Method::Zonal) => "for dir of unit length",
@@ -146,9 +147,10 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
         _ => "for every input",
     };
     let mut text = format!(
-        "Error: f32 rounding at most {:e} of {}, {domain} (twice the worst of {} measured).",
+        "Error: f32 rounding at most {:e} of {}, {domain} ({} times the worst of {} measured).",
         accuracy.rounding_f32,
         accuracy.relative_to,
+        crate::accuracy::MARGIN,
         crate::accuracy::SAMPLES
     );
     if !accuracy.method.is_empty() {

@@ -30,7 +30,7 @@ fn roots(std: Std) -> [TokenStream; 2] {
 /// The text of the module `real`.
 pub fn real(std: Std) -> String {
     let [root32, root64] = roots(std);
-    let float = |float: TokenStream, tiny: TokenStream, root: TokenStream, both: TokenStream| {
+    let float = |float: TokenStream, tiny: TokenStream, root: TokenStream, lit: TokenStream, both: TokenStream| {
         quote! {
             impl Signal<#float> for #float {
                 #[inline(always)]
@@ -45,7 +45,7 @@ pub fn real(std: Std) -> String {
             impl Real for #float {
                 const TINY: Self = #tiny;
                 #[inline(always)]
-                fn lit(value: f64) -> Self { value as #float }
+                fn lit(value: f64) -> Self { #lit }
                 #[inline(always)]
                 fn lit2(#both) -> Self { value }
                 #[inline(always)]
@@ -55,8 +55,8 @@ pub fn real(std: Std) -> String {
             }
         }
     };
-    let narrow = float(quote! { f32 }, quote! { 1e-15 }, root32, quote! { value: f32, _: f64 });
-    let wide = float(quote! { f64 }, quote! { 1e-30 }, root64, quote! { _: f32, value: f64 });
+    let narrow = float(quote! { f32 }, quote! { 1e-15 }, root32, quote! { value as f32 }, quote! { value: f32, _: f64 });
+    let wide = float(quote! { f64 }, quote! { 1e-30 }, root64, quote! { value }, quote! { _: f32, value: f64 });
     // A tuple of numbers that is worked on number by number; a factor is one number or one for each.
     let tuple = |name: TokenStream, factor: TokenStream, of_factor: TokenStream| {
         let each = |item: TokenStream| quote! { Self(core::array::from_fn(#[inline(always)] |i| #item)) };

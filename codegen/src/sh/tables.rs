@@ -9,6 +9,8 @@ use num_integer::{Integer, binomial};
 use num_traits::{One, Signed, Zero};
 
 use super::exact::Exact;
+use super::index::degrees;
+use std::sync::OnceLock;
 
 /// The norm `K_l^m = √((2l+1)(l-m)! / (4π(l+m)!))`, 0 ≤ m ≤ l.
 pub fn k(l: usize, m: usize) -> Exact {
@@ -90,9 +92,26 @@ pub fn ddy_diag(l: usize, m: isize) -> Exact {
     Exact::ratio(quarters, 4)
 }
 
+/// The bands below this are kept once computed: every rotation reads them again.
+const KEPT_BANDS: usize = 16;
+
 /// The entry [a, b] of J, the action of swapping y and z on band `l`: a symmetric involution. It is `±√n/2^l` with a
 /// natural n.
 pub fn swap_yz(l: usize, a: isize, b: isize) -> Exact {
+    static KEPT: [OnceLock<Vec<Exact>>; KEPT_BANDS] = [const { OnceLock::new() }; KEPT_BANDS];
+    let Some(band) = KEPT.get(l) else {
+        return swap_entry(l, a, b);
+    };
+    let size = 2 * l + 1;
+    let entries = band.get_or_init(|| {
+        let all = degrees(l).flat_map(|a| degrees(l).map(move |b| swap_entry(l, a, b)));
+        all.collect()
+    });
+    let place = |m: isize| m.wrapping_add_unsigned(l) as usize;
+    entries[place(a) * size + place(b)].clone()
+}
+
+fn swap_entry(l: usize, a: isize, b: isize) -> Exact {
     let odd = |m: isize| (l + m.unsigned_abs()) % 2 == 1;
     if (a < 0) != odd(b) || (b < 0) != odd(a) {
         return Exact::zero();

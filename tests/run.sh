@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# The whole test command: format, lints, every test, the fixture crate, documentation. It stops at the first failure.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+step() { printf '\n== %s\n' "$1"; }
+
+command -v cargo >/dev/null || {
+    echo "cargo is missing: install a Rust toolchain from https://rustup.rs, then run this again" >&2
+    exit 1
+}
+for part in rustfmt clippy; do
+    cargo "${part/rustfmt/fmt}" --version >/dev/null 2>&1 || rustup component add "$part"
+done
+
+step "format"
+cargo fmt --all --check
+step "lints"
+cargo clippy --quiet --workspace --all-targets --features zonal-codegen/cli -- -D warnings
+step "runtime without std"
+cargo check --quiet -p zonal --no-default-features --features libm
+step "tests"
+cargo test --workspace --features zonal-codegen/cli --no-fail-fast
+step "documentation"
+RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps --features zonal-codegen/cli
+step "everything passed"

@@ -1,0 +1,101 @@
+//! What the files' heads promise, measured over inputs that the promise was not made from.
+
+use zonal_codegen::accuracy::{Accuracy, method_errors, round_up, rounding, spectral_norm};
+use zonal_codegen::catalog::{build, standard};
+use zonal_codegen::eval::Contraction;
+
+#[test]
+fn every_kernel_keeps_its_rounding_bound() {
+    let functions: Vec<_> = build(&standard()).into_iter().filter(|function| !function.spec.rgb).collect();
+    assert!(functions.len() > 200);
+    std::thread::scope(|scope| {
+        for half in 0..2 {
+            let functions = &functions;
+            scope.spawn(move || {
+                for function in functions.iter().skip(half).step_by(2) {
+                    let promised = function.built.accuracy.rounding_f32;
+                    for contraction in [Contraction::Separate, Contraction::Fused] {
+                        let measured = function.built.rounding::<f32>(99, 2000, contraction);
+                        assert!(measured <= promised, "{}: {measured:e} above {promised:e}", function.spec);
+                    }
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn method_errors_follow_their_laws() {
+    // MATH section 2: T1 = L²/2, T2 = L³/6, LF3 = L³/24 with L = lβ, the largest band's, for small L.
+    let beta = 0.02;
+    for order in [4usize, 6, 9] {
+        let l = (order - 1) as f64;
+        let error = |method: &str| method_errors(&zonal_tests::spec(&format!("{method}:{order}")), &[beta])[0];
+        let even = |l: f64| if l as usize % 2 == 0 { l * l * l } else { l * l * l - l };
+        let laws = [
+            ("taylor1", (l * beta).powi(2) / 2.0),
+            ("taylor2", (l * beta).powi(3) / 6.0),
+            ("lf3", even(l) * beta.powi(3) / 24.0),
+        ];
+        for (method, law) in laws {
+            assert!((error(method) / law - 1.0).abs() < 0.03, "{method}:{order}: {:e}, law {law:e}", error(method));
+        }
+        // Taylor 1.5 is about L²/4.
+        assert!((error("taylor15") / (l * beta).powi(2) / 0.25 - 1.0).abs() < 0.2, "taylor15:{order}");
+    }
+}
+
+#[test]
+fn method_errors_equal_the_measured_figure_3() {
+    // MATH section 2: degrees at which the largest error reaches 1e-2.
+    for (text, degrees) in [
+        ("taylor1:5", 2.03),
+        ("taylor15:5", 3.00),
+        ("taylor2:5", 5.61),
+        ("taylor1:8", 1.16),
+        ("taylor15:8", 1.68),
+        ("taylor2:8", 3.21),
+    ] {
+        let error = method_errors(&zonal_tests::spec(text), &[f64::to_radians(degrees)])[0];
+        assert!((error / 1e-2 - 1.0).abs() < 0.02, "{text} at {degrees}: {error:e}");
+    }
+    // MATH section 9.3: the shears' and the tilt's error a band.
+    for (text, degrees, error) in [("tilt:5", 10.0, 1.4e-2), ("tilt:8", 10.0, 8.1e-2), ("lf3:5", 5.0, 1.8e-3)] {
+        let measured = method_errors(&zonal_tests::spec(text), &[f64::to_radians(degrees)])[0];
+        assert!((measured / error - 1.0).abs() < 0.05, "{text} at {degrees}: {measured:e}");
+    }
+}
+
+#[test]
+fn exact_kernels_have_no_method_error() {
+    for text in ["rotate:5", "tilt:3", "rotate_y:8", "zhf:4"] {
+        let built = zonal_codegen::built::Built::new(&zonal_tests::spec(text));
+        assert!(built.accuracy.method.is_empty(), "{text}");
+    }
+    let tilt: Accuracy = zonal_codegen::built::Built::new(&zonal_tests::spec("tilt:4")).accuracy;
+    assert_eq!(tilt.method.len(), 4);
+}
+
+#[test]
+fn bounds_are_rounded_up_to_two_digits() {
+    for (value, want) in [(1.234e-7, 1.3e-7), (9.96e-3, 1.0e-2), (2.0, 2.0), (0.0, 0.0), (1.2001e5, 1.3e5)] {
+        assert_eq!(round_up(value), want);
+    }
+}
+
+#[test]
+fn the_spectral_norm_of_a_known_matrix() {
+    // [[3, 0], [4, 5]] has the singular values 3√5 and √5.
+    let norm = spectral_norm(&[vec![3.0, 4.0], vec![0.0, 5.0]]);
+    assert!((norm - 3.0 * 5f64.sqrt()).abs() < 1e-12, "{norm}");
+    assert_eq!(spectral_norm(&[vec![0.0]]), 0.0);
+}
+
+#[test]
+fn rounding_is_what_separates_f32_from_f64() {
+    use zonal_codegen::listing::Listing;
+    let spec = zonal_tests::spec("rotate:4");
+    let listing = Listing::new(&zonal_codegen::built::kernel(&spec));
+    assert_eq!(rounding::<f64>(&spec, &listing, 1, 50, Contraction::Separate), 0.0);
+    assert!(rounding::<f32>(&spec, &listing, 1, 50, Contraction::Separate) > 1e-8);
+}

@@ -1,0 +1,125 @@
+//! The shader texts of the whole catalogue, read back through naga and run: equal to the f32 interpreter to the last
+//! bit, with the operations that the graph counts.
+
+use zonal_codegen::catalog::{build, standard};
+use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::{Function, Module};
+use zonal_codegen::eval::Contraction;
+use zonal_codegen::graph::Kind;
+use zonal_codegen::kernel::{Param, Shape};
+use zonal_codegen::samples;
+use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
+
+/// How many inputs each kernel is run on; the first are the extremes.
+const CASES: usize = 20;
+
+fn module(function: &Function) -> Module {
+    Module {
+        name: function.shader_name(),
+        origin: format!("`{}`", function.spec),
+        functions: vec![function.clone()],
+        constants: vec![],
+    }
+}
+
+/// An argument from one list of numbers a channel.
+fn argument(param: &Param, channels: &[Vec<f32>]) -> Value {
+    let first = &channels[0];
+    let vector = |i: usize, size: usize| Value::Vec(first[size * i..size * (i + 1)].to_vec());
+    let number = |i: usize| match channels.len() {
+        1 => Value::F32(first[i]),
+        _ => Value::Vec(channels.iter().map(|channel| channel[i]).collect()),
+    };
+    match param.shape {
+        Shape::Scalar => number(0),
+        Shape::Vec3 | Shape::Vec4 | Shape::Pair => Value::Vec(first.clone()),
+        Shape::Mat3 => Value::Mat(first.chunks(3).map(<[f32]>::to_vec).collect()),
+        Shape::Pairs(n) => Value::Array((0..n).map(|i| vector(i, 2)).collect()),
+        Shape::Vectors(n) => Value::Array((0..n).map(|i| vector(i, 3)).collect()),
+        Shape::Array(n) => Value::Array((0..n).map(number).collect()),
+    }
+}
+
+/// The numbers of a result, channel by channel.
+fn channels_of(value: &Value, shape: Shape, kind: Kind, channels: usize) -> Vec<Vec<f32>> {
+    let split = |value: &Value| -> Vec<f32> {
+        match value {
+            Value::F32(x) => vec![*x],
+            Value::Vec(v) => v.clone(),
+            other => panic!("a result holds numbers, not {other:?}"),
+        }
+    };
+    let items: Vec<Vec<f32>> = match value {
+        Value::Array(items) => items.iter().map(split).collect(),
+        other => vec![split(other)],
+    };
+    match (kind, channels, shape) {
+        (Kind::Signal, 3, _) => (0..3).map(|channel| items.iter().map(|item| item[channel]).collect()).collect(),
+        _ => vec![items.concat()],
+    }
+}
+
+fn check(function: &Function, target: Target, language: Language) {
+    let text = module(function).shader(target).expect("the catalogue fits its targets");
+    let name = function.shader_name();
+    let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));
+    assert_eq!(shader.functions(), [name.clone()], "{target}");
+    let (params, channels) = (function.built.params(), function.spec.channels());
+    let (shape, kind) = function.built.result();
+    let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
+    let inputs = samples::inputs(&function.spec, params, 21, CASES + 2, max_angle);
+    let cost = function.built.cost_of(channels);
+    for case in 0..CASES {
+        let of_channel = |channel: usize| -> Vec<Vec<f32>> {
+            // Channels differ in their signals and share their parameters.
+            let from = |param: &Param| if param.kind == Kind::Signal { case + channel } else { case };
+            let list = |(i, param): (usize, &Param)| inputs[from(param)][i].iter().map(|&x| x as f32).collect();
+            params.iter().enumerate().map(list).collect()
+        };
+        let all: Vec<Vec<Vec<f32>>> = (0..channels).map(of_channel).collect();
+        let arguments: Vec<Value> = params
+            .iter()
+            .enumerate()
+            .map(|(i, param)| {
+                let lists: Vec<Vec<f32>> = match param.kind {
+                    Kind::Signal => all.iter().map(|channel| channel[i].clone()).collect(),
+                    Kind::Scalar => vec![all[0][i].clone()],
+                };
+                argument(param, &lists)
+            })
+            .collect();
+        let mut counts = Counts::default();
+        let result = shader.call(&name, &arguments, &mut counts, Fma::Separate).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let got = channels_of(&result, shape, kind, channels);
+        for (channel, got) in got.iter().enumerate() {
+            let slices: Vec<&[f32]> = all[channel].iter().map(Vec::as_slice).collect();
+            let want = function.built.run(&slices, Contraction::Separate);
+            let bits = |values: &[f32]| -> Vec<u32> { values.iter().map(|x| if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }).collect() };
+            assert_eq!(bits(got), bits(&want), "{name} in {target}, case {case}, channel {channel}");
+        }
+        let found = [counts.mul + counts.fma, counts.add + counts.fma, counts.special];
+        let expected = [cost.mul + cost.fma, cost.add + cost.fma, cost.special].map(|n| n as u64);
+        assert_eq!(found, expected, "{name} in {target}: multiplications, additions, special ones");
+    }
+}
+
+fn check_all(target: Target, language: Language) {
+    let functions = build(&standard());
+    assert!(functions.len() > 400);
+    std::thread::scope(|scope| {
+        for half in 0..2 {
+            let functions = &functions;
+            scope.spawn(move || functions.iter().skip(half).step_by(2).for_each(|f| check(f, target, language)));
+        }
+    });
+}
+
+#[test]
+fn every_wgsl_function_computes_what_the_interpreter_does() {
+    check_all(Target::Wgsl, Language::Wgsl);
+}
+
+#[test]
+fn every_glsl_function_computes_what_the_interpreter_does() {
+    check_all(Target::Glsl, Language::Glsl);
+}
