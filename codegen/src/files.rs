@@ -106,20 +106,25 @@ fn stage(folder: &Path, files: &[File], staged: &mut Vec<(PathBuf, PathBuf)>) ->
     Ok(())
 }
 
+/// Compares the files of a folder with what they should hold; others are left alone.
+pub fn changes(folder: &Path, files: &[File]) -> Vec<Difference> {
+    files
+        .iter()
+        .filter_map(|file| match fs::read(folder.join(&file.path)) {
+            Ok(text) if text == file.text.as_bytes() => None,
+            Ok(_) => Some(Difference::Stale(file.path.clone())),
+            Err(_) => Some(Difference::Missing(file.path.clone())),
+        })
+        .collect()
+}
+
 /// Compares a folder with what it should hold, all of it.
 ///
 /// # Errors
 ///
 /// If a folder cannot be read.
 pub fn differences(folder: &Path, files: &[File]) -> Result<Vec<Difference>, FileError> {
-    let mut found = Vec::new();
-    for file in files {
-        match fs::read(folder.join(&file.path)) {
-            Ok(text) if text == file.text.as_bytes() => {}
-            Ok(_) => found.push(Difference::Stale(file.path.clone())),
-            Err(_) => found.push(Difference::Missing(file.path.clone())),
-        }
-    }
+    let mut found = changes(folder, files);
     let known: BTreeSet<&str> = files.iter().map(|file| file.path.as_str()).collect();
     for path in below(folder)? {
         if !known.contains(path.as_str()) {

@@ -1,8 +1,10 @@
 //! Generates spherical-harmonics kernels.
 
 pub mod accuracy;
+pub mod builder;
 pub mod built;
 pub mod catalog;
+pub mod diagnostic;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;
@@ -12,7 +14,10 @@ pub mod graph;
 pub mod kernel;
 pub mod kernels;
 pub mod listing;
+pub mod names;
+pub mod plan;
 pub mod samples;
+pub mod scene;
 pub mod sh;
 pub mod spec;
 pub mod validate;

@@ -77,7 +77,7 @@ pub mod costs {}
 ///
 /// ```
 /// let y = zonal::evaluate_basis::<[f32; 9]>(glam::Vec3::Z);
-/// assert_eq!(y[2], 0.4886025);
+/// assert!((y[2] - 0.488_602_5).abs() < 1e-7);
 /// ```
 #[inline]
 pub fn evaluate_basis<C: Coefficients<Basis = C>>(dir: C::Vec3) -> C {
@@ -147,8 +147,8 @@ pub fn swap_yz<C: Coefficients>(c: &C) -> C {
 /// trigonometry.
 ///
 /// Bands 1 and 2 are exact for every normal but −z, at which they are NaN or infinite; the bands from 3 on are
-/// approximate and meant for tilts up to 45 degrees: [`sh5::tilt`], the kernel `tilt:n`, says the error at some angles.
-/// Beyond, or where that is too much, take [`rotate`] with `Quat::from_rotation_arc(Vec3::Z, normal)`.
+/// approximate and meant for small tilts: [`sh5::tilt`], the kernel `tilt:n`, says the error at some angles and the
+/// largest angle that it is for. Beyond, or where the error is too much, take [`rotate`] with `Quat::from_rotation_arc(Vec3::Z, normal)`.
 #[inline]
 pub fn tilt<C: Coefficients>(normal: C::Vec3, c: &C) -> C {
     C::tilt(C::Scalar::vector(normal), c)

@@ -216,7 +216,7 @@ impl Function {
     }
 
     /// The name of the generic function in Rust, and that of its RGB twin if the spec is RGB.
-    fn rust_names(&self) -> (String, Option<String>) {
+    pub(crate) fn rust_names(&self) -> (String, Option<String>) {
         match (&self.name, self.spec.rgb) {
             (Some(name), false) => (name.clone(), None),
             (Some(name), true) => (format!("{name}_channels"), Some(name.clone())),

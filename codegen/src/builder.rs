@@ -1,0 +1,229 @@
+//! The way in for a build script and for the command line: specs or a scene, to files. [`Builder::generate`] is pure
+//! but for reading the scene and its map; what writes is thin.
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), zonal_codegen::builder::Error> {
+//!     zonal_codegen::builder::Builder::new("kernels")
+//!         .spec("eval:3:rgb")
+//!         .named("turn", "rotate:3:rgb")
+//!         .write_to_out_dir()
+//! }
+//! ```
+//!
+//! Then `include!(concat!(env!("OUT_DIR"), "/kernels.rs"));` in a module of its own, and `include_str!` for the shaders.
+
+use crate::catalog::{self, GenerateError};
+use crate::diagnostic::{Diagnostic, Place};
+use crate::emit::dialect::Target;
+use crate::files::{self, Difference, File, FileError};
+use crate::plan::Plan;
+use crate::scene::{Located, Maps, Scene, Wanted};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why nothing was generated or written.
+#[derive(thiserror::Error)]
+pub enum Error {
+    /// A scene, a spec, a name or a map is at fault.
+    #[error(transparent)]
+    Scene(#[from] Diagnostic),
+    /// A text could not be made, or a validator refused it.
+    #[error(transparent)]
+    Generate(#[from] GenerateError),
+    /// The files could not be written.
+    #[error(transparent)]
+    Files(#[from] FileError),
+    /// There is no build script around.
+    #[error("`OUT_DIR` is not set: `write_to_out_dir` is for build scripts; call `write` with a folder elsewhere")]
+    NoOutDir,
+}
+
+/// The same as [`Display`](fmt::Display), since this is what a build script that returns the error shows.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Where a builder's scene comes from.
+#[derive(Clone, Debug)]
+enum Origin {
+    File(PathBuf),
+    Scene(Box<Scene>),
+}
+
+/// Generates kernels: collects what is wanted, then [`generate`](Self::generate)s, [`write`](Self::write)s or
+/// [`check`](Self::check)s.
+#[derive(Clone, Debug)]
+pub struct Builder {
+    origin: Origin,
+    kernels: Vec<Wanted>,
+    targets: Vec<Target>,
+}
+
+fn located(source: &str, text: &str) -> Located<String> {
+    Located {
+        value: text.to_owned(),
+        place: Place::whole(source, text),
+    }
+}
+
+impl Builder {
+    fn from_origin(origin: Origin) -> Self {
+        Self {
+            origin,
+            kernels: vec![],
+            targets: vec![],
+        }
+    }
+
+    /// An empty builder whose files are called `name`.
+    pub fn new(name: &str) -> Self {
+        Scene::new(located("Builder::new", name)).into()
+    }
+
+    /// What a scene file asks for. The file is read later, by what generates.
+    pub fn scene(path: impl Into<PathBuf>) -> Self {
+        Self::from_origin(Origin::File(path.into()))
+    }
+
+    /// Adds a kernel by its spec, as in `rotate:5:rgb`.
+    #[must_use]
+    pub fn spec(mut self, spec: &str) -> Self {
+        self.kernels.push(Wanted {
+            spec: located("Builder::spec", spec),
+            name: None,
+            max_angle: None,
+        });
+        self
+    }
+
+    /// Adds a kernel by its spec, under a name of your own.
+    #[must_use]
+    pub fn named(mut self, name: &str, spec: &str) -> Self {
+        self.kernels.push(Wanted {
+            spec: located("Builder::named", spec),
+            name: Some(located("Builder::named", name)),
+            max_angle: None,
+        });
+        self
+    }
+
+    /// Adds a language; without any, those of the scene are printed, or all.
+    #[must_use]
+    pub fn target(mut self, target: Target) -> Self {
+        self.targets.push(target);
+        self
+    }
+
+    fn resolved(&self) -> Result<Scene, Diagnostic> {
+        let mut scene = match &self.origin {
+            Origin::File(path) => Scene::read(path)?,
+            Origin::Scene(scene) => (**scene).clone(),
+        };
+        scene.kernels.extend(self.kernels.iter().cloned());
+        if !self.targets.is_empty() {
+            scene.targets.clone_from(&self.targets);
+            scene.targets.sort();
+            scene.targets.dedup();
+        }
+        Ok(scene)
+    }
+
+    /// What would be generated, and why.
+    ///
+    /// # Errors
+    ///
+    /// If the scene, a spec, a name or the map is at fault.
+    pub fn plan(&self) -> Result<Plan, Error> {
+        Ok(Plan::new(&self.resolved()?)?)
+    }
+
+    /// The files: one a language and a report of costs, `<name>.md`. They were parsed and validated.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::plan`], or if a kernel is too long for a language.
+    pub fn generate(&self) -> Result<Vec<File>, Error> {
+        files_of(&self.plan()?)
+    }
+
+    /// Writes the files below a folder, those that changed, and returns how many did.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::generate`], or if the file system refuses; then nothing is written.
+    pub fn write(&self, folder: impl AsRef<Path>) -> Result<usize, Error> {
+        let files = self.generate()?;
+        Ok(files::write(folder.as_ref(), &files)?)
+    }
+
+    /// How the files in a folder differ from what would be written; other files there are left alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::generate`], or if the folder cannot be read.
+    pub fn check(&self, folder: impl AsRef<Path>) -> Result<Vec<Difference>, Error> {
+        let files = self.generate()?;
+        Ok(files::changes(folder.as_ref(), &files))
+    }
+
+    /// From a build script: writes the files into `OUT_DIR`, and tells cargo to run the script again when it, the scene
+    /// or the map changes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::write`], or if there is no build script around.
+    pub fn write_to_out_dir(&self) -> Result<(), Error> {
+        let folder = std::env::var_os("OUT_DIR").ok_or(Error::NoOutDir)?;
+        println!("cargo::rerun-if-changed=build.rs");
+        if let Origin::File(path) = &self.origin {
+            println!("cargo::rerun-if-changed={}", path.display());
+        }
+        let scene = self.resolved()?;
+        if let (Some(environment), Maps::Folder(maps)) = (&scene.environment, &scene.maps) {
+            println!("cargo::rerun-if-changed={}", maps.join(&environment.map.value).display());
+        }
+        files::write(Path::new(&folder), &files_of(&Plan::new(&scene)?)?)?;
+        Ok(())
+    }
+}
+
+impl From<Scene> for Builder {
+    fn from(scene: Scene) -> Self {
+        Self::from_origin(Origin::Scene(Box::new(scene)))
+    }
+}
+
+/// The files of a plan, validated.
+///
+/// # Errors
+///
+/// If a kernel is too long for a language, or a validator refuses a text, which is a fault of zonal.
+pub fn files_of(plan: &Plan) -> Result<Vec<File>, Error> {
+    let name = &plan.scene;
+    let mut files = Vec::new();
+    for &target in &plan.targets {
+        let path = format!("{name}.{}", target.extension());
+        let file = catalog::file(&plan.module, target, path).map_err(|error| located_limit(plan, error))?;
+        files.push(file);
+    }
+    files.push(File {
+        path: format!("{name}.md"),
+        text: format!("<!-- @generated by zonal from the scene `{name}`; do not edit, generate it again. -->\n\n{plan}"),
+    });
+    Ok(files)
+}
+
+/// A kernel that is too long is shown where it was asked for.
+fn located_limit(plan: &Plan, error: GenerateError) -> Error {
+    let GenerateError::Limit(limit) = &error else {
+        return error.into();
+    };
+    let asked = plan.module.functions.iter().position(|function| function.spec.to_string() == limit.spec);
+    match asked {
+        Some(i) => Diagnostic::at(&plan.places[i], limit.to_string(), "").into(),
+        None => error.into(),
+    }
+}

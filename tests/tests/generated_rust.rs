@@ -1,0 +1,277 @@
+//! The emitted Rust is the interpreter, to the last bit: every function of `generated/rust` runs on seeded inputs,
+//! extremes first, in f32 and f64, one channel and three, and its results are compared with `to_bits`. The table of
+//! functions is checked against the standard catalogue, so that none can be forgotten.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+use zonal::real::{Channels, Lanes};
+use zonal_codegen::built::{self, Built};
+use zonal_codegen::catalog;
+use zonal_codegen::eval::{Contraction, Number, Program};
+use zonal_codegen::graph::Kind;
+use zonal_codegen::kernel::Param;
+use zonal_codegen::listing::Listing;
+use zonal_codegen::samples::{self, Random};
+use zonal_codegen::spec::Spec;
+
+const SEED: u64 = 0x9e_11;
+const SAMPLES: usize = 24;
+
+/// A value that is read from a row of numbers and written to one.
+trait Flat<T>: Sized {
+    fn read(numbers: &mut impl Iterator<Item = T>) -> Self;
+    fn write(&self, numbers: &mut Vec<T>);
+}
+
+macro_rules! flat_number {
+    ($($number:ident)*) => { $(
+        impl Flat<$number> for $number {
+            fn read(numbers: &mut impl Iterator<Item = $number>) -> Self {
+                numbers.next().expect("a number for each place")
+            }
+            fn write(&self, numbers: &mut Vec<$number>) {
+                numbers.push(*self);
+            }
+        }
+    )* };
+}
+flat_number!(f32 f64);
+
+impl<T, V: Flat<T>, const N: usize> Flat<T> for [V; N] {
+    fn read(numbers: &mut impl Iterator<Item = T>) -> Self {
+        std::array::from_fn(|_| V::read(numbers))
+    }
+    fn write(&self, numbers: &mut Vec<T>) {
+        self.iter().for_each(|value| value.write(numbers));
+    }
+}
+
+fn read<T: Copy, V: Flat<T>>(numbers: &[T]) -> V {
+    let mut numbers = numbers.iter().copied();
+    let value = V::read(&mut numbers);
+    assert_eq!(numbers.count(), 0, "no number is left over");
+    value
+}
+
+fn written<T, V: Flat<T>>(value: V) -> Vec<T> {
+    let mut numbers = Vec::new();
+    value.write(&mut numbers);
+    numbers
+}
+
+/// A kernel on rows of numbers, one a parameter.
+type Flattened<T> = Box<dyn Fn(&[Vec<T>]) -> Vec<T>>;
+
+macro_rules! adapters {
+    ($($name:ident($($kind:ident: [$($by:tt)?]),*);)*) => { $(
+        #[allow(non_snake_case)]
+        fn $name<T: Copy, $($kind: Flat<T>,)* R: Flat<T>>(f: impl Fn($($($by)? $kind),*) -> R + 'static) -> Flattened<T> {
+            Box::new(move |rows| {
+                let mut rows = rows.iter();
+                $(let $kind: $kind = read(rows.next().expect("a row for each parameter"));)*
+                written(f($($($by)? $kind),*))
+            })
+        }
+    )* };
+}
+adapters! {
+    value(A: []);
+    signal(C: [&]);
+    value_signal(A: [], C: [&]);
+    list_signal(A: [&], C: [&]);
+    list_value_signal(A: [&], B: [], C: [&]);
+}
+
+/// Every function of one order under its name in shaders.
+macro_rules! functions {
+    ($scalar:ident, $table:ident, $module:ident, $($adapter:ident: $($one:ident $(/ $rgb:ident)?),*;)*) => {
+        $($(
+            functions!(@ $scalar, $table, $module, $adapter, $one);
+            $($table.insert(
+                concat!(stringify!($module), "_", stringify!($rgb)),
+                $adapter(zonal::$module::$rgb::<$scalar>),
+            );)?
+        )*)*
+    };
+    (@ $scalar:ident, $table:ident, $module:ident, value, $one:ident) => {
+        $table.insert(concat!(stringify!($module), "_", stringify!($one)), value(zonal::$module::$one::<$scalar>));
+    };
+    (@ $scalar:ident, $table:ident, $module:ident, $adapter:ident, $one:ident) => {
+        $table.insert(
+            concat!(stringify!($module), "_", stringify!($one)),
+            $adapter(zonal::$module::$one::<$scalar, $scalar>),
+        );
+    };
+}
+
+macro_rules! order {
+    ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
+        functions! {
+            $scalar, $table, $module,
+            value: basis, angles, basis_loop;
+            signal: swap_yz / swap_yz_rgb, rotate_x_plus_90deg / rotate_x_plus_90deg_rgb,
+                rotate_x_minus_90deg / rotate_x_minus_90deg_rgb, zhf_weights / zhf_weights_rgb,
+                zhf_tailored / zhf_tailored_rgb;
+            value_signal: eval / eval_rgb, rotate_z / rotate_z_rgb, rotate_y / rotate_y_rgb, rotate / rotate_rgb,
+                rotate_zxzxz / rotate_zxzxz_rgb, rotate_align / rotate_align_rgb, rotate_zonal / rotate_zonal_rgb,
+                tilt / tilt_rgb, taylor1_y / taylor1_y_rgb, taylor15_y / taylor15_y_rgb, taylor2_y / taylor2_y_rgb,
+                lf3_y / lf3_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop;
+            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb;
+            list_value_signal: taylor1_zyz / taylor1_zyz_rgb, taylor15_zyz / taylor15_zyz_rgb,
+                taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb;
+            $($more)*
+        }
+    };
+}
+
+macro_rules! every_order {
+    ($scalar:ident) => {{
+        let mut table: BTreeMap<&'static str, Flattened<$scalar>> = BTreeMap::new();
+        order!($scalar, table, sh2,
+            value_signal: rotate_zyz / rotate_zyz_rgb, rotate_zyz_loop / rotate_zyz_rgb_loop;
+            list_signal: rotate_matrix / rotate_matrix_rgb;);
+        order!($scalar, table, sh3,
+            value_signal: rotate_zyz / rotate_tensor_rgb, rotate_zyz_loop / rotate_rgb_loop;
+            list_signal: rotate_matrix / rotate_matrix_rgb;);
+        order!($scalar, table, sh4, value_signal: rotate_loop / rotate_rgb_loop;);
+        order!($scalar, table, sh5,
+            value_signal: rotate_loop / rotate_rgb_loop, bands_0_1_2_4_eval / bands_0_1_2_4_eval_rgb,
+                taylor15_taylor15_taylor15_taylor1_y;);
+        order!($scalar, table, sh6, value_signal: rotate_loop / rotate_rgb_loop;);
+        order!($scalar, table, sh7, value_signal: rotate_loop / rotate_rgb_loop;);
+        order!($scalar, table, sh8, value_signal: rotate_loop / rotate_rgb_loop;);
+        order!($scalar, table, sh9, value_signal: rotate_loop / rotate_rgb_loop;);
+        order!($scalar, table, sh10, value_signal: rotate_loop / rotate_rgb_loop;);
+        table
+    }};
+}
+
+/// Equality to the last bit, but for NaN, which has many.
+trait Same: Number {
+    fn same(self, other: Self) -> bool;
+}
+
+macro_rules! same {
+    ($($number:ident)*) => { $(
+        impl Same for $number {
+            fn same(self, other: Self) -> bool {
+                self.to_bits() == other.to_bits() || (self.is_nan() && other.is_nan())
+            }
+        }
+    )* };
+}
+same!(f32 f64);
+
+fn assert_same<T: Same + Debug>(got: &[T], want: &[T], what: impl Fn() -> String) {
+    let same = got.len() == want.len() && got.iter().zip(want).all(|(a, b)| a.same(*b));
+    assert!(same, "{}: {got:?} is not {want:?}", what());
+}
+
+/// Runs every spec of the catalogue in one precision, in the interpreter and from the table.
+fn compare<T: Same>(table: &BTreeMap<&'static str, Flattened<T>>) {
+    let specs = catalog::standard();
+    let names: Vec<String> = specs.iter().map(Spec::name).collect();
+    for (name, _) in table {
+        assert!(names.iter().any(|known| known == name), "`{name}` is in the table, but not in the catalogue");
+    }
+    let mut programs: BTreeMap<Spec, Program<T>> = BTreeMap::new();
+    for spec in &specs {
+        let name = spec.name();
+        let function = table.get(&name[..]).unwrap_or_else(|| panic!("`{name}` is missing in the table of this test"));
+        let program = programs
+            .entry(Built::base(spec))
+            .or_insert_with(|| Program::new(&Listing::new(&built::kernel(spec))));
+        compare_one(spec, program, function);
+    }
+}
+
+fn compare_one<T: Same>(spec: &Spec, program: &Program<T>, function: &Flattened<T>) {
+    let params = &program.listing().params;
+    let inputs: Vec<Vec<Vec<T>>> = samples::inputs(spec, params, SEED, SAMPLES, 0.5)
+        .iter()
+        .map(|input| input.iter().map(|row| row.iter().map(|&x| T::from_f64(x)).collect()).collect())
+        .collect();
+    let channels = spec.channels();
+    for i in 0..SAMPLES {
+        // The parameters of one input, the signals of as many inputs as there are channels.
+        let one = |channel: usize| -> Vec<&[T]> {
+            let of = |param: &Param| if param.kind == Kind::Signal { (i + channel) % SAMPLES } else { i };
+            params.iter().enumerate().map(|(place, param)| &inputs[of(param)][place][..]).collect()
+        };
+        let each: Vec<Vec<T>> = (0..channels).map(|channel| program.run(&one(channel), Contraction::Separate)).collect();
+        let rows: Vec<Vec<T>> = (0..params.len())
+            .map(|place| match params[place].kind {
+                Kind::Signal => interleaved(&(0..channels).map(|channel| one(channel)[place]).collect::<Vec<_>>()),
+                Kind::Scalar => one(0)[place].to_vec(),
+            })
+            .collect();
+        let want = interleaved(&each.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        assert_same(&function(&rows), &want, || format!("{spec} at input {i}"));
+    }
+}
+
+fn interleaved<T: Copy>(rows: &[&[T]]) -> Vec<T> {
+    (0..rows[0].len()).flat_map(|i| rows.iter().map(move |row| row[i])).collect()
+}
+
+#[test]
+fn every_function_equals_the_interpreter_bit_for_bit_in_f32() {
+    compare::<f32>(&every_order!(f32));
+}
+
+#[test]
+fn every_function_equals_the_interpreter_bit_for_bit_in_f64() {
+    compare::<f64>(&every_order!(f64));
+}
+
+const LANES: usize = 16;
+
+/// Sixteen problems at once and one by one.
+fn lanes<const P: usize, const N: usize, const R: usize>(
+    seed: u64,
+    at_once: impl Fn([Lanes<f32, LANES>; P], &[Lanes<f32, LANES>; N]) -> [Lanes<f32, LANES>; R],
+    one: impl Fn([f32; P], &[f32; N]) -> [f32; R],
+) {
+    let mut random = Random::new(seed);
+    let params: [[f32; P]; LANES] = std::array::from_fn(|_| random.unit().map(|x| x as f32));
+    let signals: [[f32; N]; LANES] = std::array::from_fn(|_| std::array::from_fn(|_| random.signed() as f32));
+    let got = at_once(across(&params), &across(&signals));
+    for lane in 0..LANES {
+        let want = one(params[lane], &signals[lane]);
+        assert_same(&got.map(|value| value.0[lane]), &want, || format!("lane {lane}"));
+    }
+}
+
+fn across<const N: usize>(rows: &[[f32; N]; LANES]) -> [Lanes<f32, LANES>; N] {
+    std::array::from_fn(|i| Lanes(rows.map(|row| row[i])))
+}
+
+#[test]
+fn lanes_equal_single_runs_bit_for_bit() {
+    lanes(1, |dir, _: &[_; 0]| zonal::sh5::basis(dir), |dir, _| zonal::sh5::basis(dir));
+    lanes(2, |dir, c| [zonal::sh8::eval(dir, c)], |dir, c| [zonal::sh8::eval(dir, c)]);
+    lanes(3, zonal::sh3::rotate, zonal::sh3::rotate);
+    lanes(4, zonal::sh5::rotate, zonal::sh5::rotate);
+    lanes(5, zonal::sh4::rotate_align, zonal::sh4::rotate_align);
+    lanes(6, zonal::sh5::tilt, zonal::sh5::tilt);
+    lanes(7, |[beta], c| zonal::sh5::lf3_y(beta, c), |[beta], c| zonal::sh5::lf3_y(beta, c));
+}
+
+#[test]
+fn channels_of_lanes_equal_single_runs_bit_for_bit() {
+    type Wide = Lanes<f32, LANES>;
+    let mut random = Random::new(8);
+    let q: [[f32; 4]; LANES] = std::array::from_fn(|_| random.unit().map(|x| x as f32));
+    let signals: [[[f32; 25]; LANES]; 3] =
+        std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| random.signed() as f32)));
+    let wide = signals.map(|channel| across(&channel));
+    let c: [Channels<Wide, 3>; 25] = std::array::from_fn(|i| Channels([wide[0][i], wide[1][i], wide[2][i]]));
+    let got = zonal::sh5::rotate(across(&q), &c);
+    for (channel, signal) in signals.iter().enumerate() {
+        for lane in 0..LANES {
+            let want = zonal::sh5::rotate(q[lane], &signal[lane]);
+            assert_same(&got.map(|value| value.0[channel].0[lane]), &want, || format!("channel {channel}, lane {lane}"));
+        }
+    }
+}
