@@ -1,6 +1,7 @@
 //! How exact a kernel is: the rounding error of its f32 form against its f64 form, measured over seeded inputs, and for
 //! an approximate rotation the error of the method at an angle, computed from its matrix.
 
+use crate::code::Code;
 use crate::eval::{Contraction, Number, Program};
 use crate::kernels::y_rotation::about_y;
 use crate::kernels::{rotate, tilt};
@@ -88,11 +89,11 @@ fn larger(a: f64, b: f64) -> f64 {
 }
 
 /// The largest rounding error of running in `T`, against f64, over `count` seeded inputs.
-pub fn rounding<T: Number>(spec: &Spec, listing: &Listing, seed: u64, count: usize, contraction: Contraction) -> f64 {
-    let (narrow, wide) = (Program::<T>::new(listing), Program::<f64>::new(listing));
+pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, contraction: Contraction) -> f64 {
+    let (narrow, wide) = (code.runner::<T>(), code.runner::<f64>());
     let max_angle = spec.max_angle().unwrap_or(std::f64::consts::PI);
     let measure = Measure::of(spec);
-    samples::inputs(spec, &listing.params, seed, count, max_angle)
+    samples::inputs(spec, code.params(), seed, count, max_angle)
         .iter()
         .map(|input| {
             let rounded: Vec<Vec<T>> = input.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
@@ -107,9 +108,9 @@ pub fn rounding<T: Number>(spec: &Spec, listing: &Listing, seed: u64, count: usi
 
 impl Accuracy {
     /// Measures a kernel.
-    pub fn of(spec: &Spec, listing: &Listing) -> Self {
+    pub fn of(spec: &Spec, code: &Code) -> Self {
         let worst = [Contraction::Separate, Contraction::Fused]
-            .map(|contraction| rounding::<f32>(spec, listing, SEED, SAMPLES, contraction))
+            .map(|contraction| rounding::<f32>(spec, code, SEED, SAMPLES, contraction))
             .into_iter()
             .fold(0.0, larger);
         Self::with_rounding(spec, worst)

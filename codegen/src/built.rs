@@ -1,12 +1,11 @@
 //! A spec's kernel: built, laid out, counted and measured, once for all languages.
 
-use crate::accuracy::{self, Accuracy};
-use crate::eval::{Contraction, Number, Program};
-use crate::graph::Kind;
-use crate::kernel::{Kernel, Param, Shape};
-use crate::kernels::{basis, rotate, tilt, y_rotation, zhf};
-use crate::listing::{Cost, Footprint, Listing};
-use crate::spec::{Family, Method, Spec};
+use crate::accuracy::Accuracy;
+use crate::code::Code;
+use crate::kernel::Kernel;
+use crate::kernels::{basis, loops, rotate, tilt, y_rotation, zhf};
+use crate::listing::Listing;
+use crate::spec::{Family, Form, Method, Spec};
 
 /// A kernel that is ready to print.
 #[derive(Clone, Debug)]
@@ -17,13 +16,6 @@ pub struct Built {
     pub code: Code,
     /// How exact it is.
     pub accuracy: Accuracy,
-}
-
-/// The operations of a kernel.
-#[derive(Clone, Debug)]
-pub enum Code {
-    /// Straight lines.
-    Straight(Listing),
 }
 
 /// The kernel of an unrolled spec, or the unrolled twin of a loop.
@@ -57,76 +49,26 @@ pub fn kernel(spec: &Spec) -> Kernel {
     }
 }
 
+/// The operations of a spec in the form that it names.
+pub fn code(spec: &Spec) -> Code {
+    match (spec.form, &spec.family) {
+        (Form::Loop, Family::Basis) => Code::Loop(loops::basis_loop(spec.order)),
+        (Form::Loop, Family::SmallY(_)) => Code::Loop(loops::taylor15_loop(spec.order)),
+        (Form::Loop, Family::Rotate(_)) => Code::Loop(loops::rotate_loop(spec.order)),
+        _ => Code::Straight(Listing::new(&kernel(spec))),
+    }
+}
+
 impl Built {
     /// Builds, lays out and measures.
     pub fn new(spec: &Spec) -> Self {
-        let listing = Listing::new(&kernel(spec));
-        let accuracy = Accuracy::of(spec, &listing);
-        Self {
-            spec: spec.clone(),
-            code: Code::Straight(listing),
-            accuracy,
-        }
-    }
-
-    /// What it costs for so many channels.
-    pub fn cost_of(&self, channels: usize) -> Cost {
-        match &self.code {
-            Code::Straight(listing) => listing.cost(channels),
-        }
-    }
-
-    /// What it needs besides operations.
-    pub fn footprint(&self) -> Footprint {
-        match &self.code {
-            Code::Straight(listing) => listing.footprint(),
-        }
-    }
-
-    /// Its parameters, in order.
-    pub fn params(&self) -> &[Param] {
-        match &self.code {
-            Code::Straight(listing) => &listing.params,
-        }
-    }
-
-    /// The shape and the kind of its result.
-    pub fn result(&self) -> (Shape, Kind) {
-        match &self.code {
-            Code::Straight(listing) => (listing.result, listing.result_kind),
-        }
-    }
-
-    /// What its result holds.
-    pub fn result_doc(&self) -> &str {
-        match &self.code {
-            Code::Straight(listing) => &listing.result_doc,
-        }
-    }
-
-    /// Runs it for one channel; see [`Program::run`].
-    ///
-    /// # Panics
-    ///
-    /// If an input is shorter than its parameter's shape.
-    pub fn run<T: Number>(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
-        match &self.code {
-            Code::Straight(listing) => Program::new(listing).run(inputs, contraction),
-        }
-    }
-
-    /// Its largest rounding error in `T` over seeded inputs; see [`accuracy::rounding`].
-    pub fn rounding<T: Number>(&self, seed: u64, count: usize, contraction: Contraction) -> f64 {
-        match &self.code {
-            Code::Straight(listing) => accuracy::rounding::<T>(&self.spec, listing, seed, count, contraction),
-        }
+        let code = code(spec);
+        let accuracy = Accuracy::of(spec, &code);
+        Self { spec: spec.clone(), code, accuracy }
     }
 
     /// The spec of the kernel itself, without what only its text depends on: the number of channels.
     pub fn base(spec: &Spec) -> Spec {
-        Spec {
-            rgb: false,
-            ..spec.clone()
-        }
+        Spec { rgb: false, ..spec.clone() }
     }
 }

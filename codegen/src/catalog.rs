@@ -154,8 +154,8 @@ impl Row {
             name: function.shader_name(),
             order: spec.order,
             channels: spec.channels(),
-            cost: function.built.cost_of(spec.channels()),
-            footprint: function.built.footprint(),
+            cost: function.built.code.cost(spec.channels()),
+            footprint: function.built.code.footprint(),
             accuracy: function.built.accuracy.clone(),
             nonzeros: factorised.then(|| zhf::nonzeros(spec.order)),
         }

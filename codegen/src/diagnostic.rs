@@ -26,14 +26,8 @@ pub struct Place {
 impl Place {
     /// The whole of a short text, as an argument is.
     pub fn whole(name: &str, text: &str) -> Self {
-        let source = Source {
-            name: name.to_owned(),
-            text: text.to_owned(),
-        };
-        Self {
-            span: 0..text.len(),
-            source: Arc::new(source),
-        }
+        let source = Source { name: name.to_owned(), text: text.to_owned() };
+        Self { span: 0..text.len(), source: Arc::new(source) }
     }
 
     /// The text of the place.
@@ -50,10 +44,7 @@ impl Place {
             _ => return self.clone(),
         };
         let span = self.span.start + start + at.start..self.span.start + start + at.end;
-        Self {
-            source: Arc::clone(&self.source),
-            span,
-        }
+        Self { source: Arc::clone(&self.source), span }
     }
 
     /// The line and the column where the place starts, both from 1, columns counted in characters.
@@ -84,19 +75,12 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// A fault at a place.
     pub fn at(place: &Place, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self {
-            place: Some(place.clone()),
-            ..Self::nowhere(message, help)
-        }
+        Self { place: Some(place.clone()), ..Self::nowhere(message, help) }
     }
 
     /// A fault that stands in no text.
     pub fn nowhere(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self {
-            message: message.into(),
-            help: help.into(),
-            place: None,
-        }
+        Self { message: message.into(), help: help.into(), place: None }
     }
 }
 
@@ -129,10 +113,7 @@ mod tests {
 
     #[test]
     fn places_are_counted_in_characters_from_one() {
-        let source = Arc::new(Source {
-            name: "a.toml".to_owned(),
-            text: "x = 1\nβ = \"ab\"\n".to_owned(),
-        });
+        let source = Arc::new(Source { name: "a.toml".to_owned(), text: "x = 1\nβ = \"ab\"\n".to_owned() });
         let place = Place { source, span: 11..15 };
         assert_eq!(place.text(), "\"ab\"");
         assert_eq!(place.line_column(), (2, 5));

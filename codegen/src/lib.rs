@@ -5,6 +5,7 @@ pub mod builder;
 pub mod built;
 pub mod catalog;
 pub mod diagnostic;
+pub mod code;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;
@@ -16,6 +17,7 @@ pub mod kernels;
 pub mod listing;
 pub mod names;
 pub mod plan;
+pub mod program;
 pub mod samples;
 pub mod scene;
 pub mod sh;

@@ -29,7 +29,20 @@ const GLSL: &str = "active asm atomic_uint attribute bool break buffer case cast
 const GLSL_OPAQUE: ([&str; 5], [&str; 14]) = (
     ["sampler", "image", "texture", "subpassInput", "imageBuffer"],
     [
-        "1D", "2D", "3D", "Cube", "Rect", "Array", "Buffer", "MS", "Shadow", "1DArray", "2DArray", "CubeArray", "2DRect", "2DMS",
+        "1D",
+        "2D",
+        "3D",
+        "Cube",
+        "Rect",
+        "Array",
+        "Buffer",
+        "MS",
+        "Shadow",
+        "1DArray",
+        "2DArray",
+        "CubeArray",
+        "2DRect",
+        "2DMS",
     ],
 );
 
@@ -72,7 +85,8 @@ fn reserved(name: &str) -> Option<&'static str> {
     }
     let bare = name.strip_prefix(['i', 'u']).unwrap_or(name);
     let (heads, tails) = GLSL_OPAQUE;
-    let is_opaque = |text: &str| heads.iter().any(|head| text.strip_prefix(head).is_some_and(|tail| tails.contains(&tail)));
+    let is_opaque =
+        |text: &str| heads.iter().any(|head| text.strip_prefix(head).is_some_and(|tail| tails.contains(&tail)));
     (is_opaque(bare) || is_opaque(name)).then_some("reserved in GLSL")
 }
 

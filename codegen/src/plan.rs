@@ -196,7 +196,7 @@ fn small(kind: Turn, methods: Vec<Small>) -> Family {
 /// A number with two digits, as errors are shown.
 fn short(error: f64) -> String {
     match error {
-        0.0 => "0".to_owned(),
+        _ if error < 1e-12 => "0".to_owned(),
         _ if (1e-3..1e3).contains(&error) => format!("{}", round_up(error)),
         _ => format!("{:e}", round_up(error)),
     }
@@ -221,11 +221,7 @@ struct Contest<'a> {
 
 impl<'a> Contest<'a> {
     fn new(rotation: &'a Rotation, order: usize) -> Self {
-        let mut contest = Self {
-            rotation,
-            order,
-            entries: vec![],
-        };
+        let mut contest = Self { rotation, order, entries: vec![] };
         let (specs, why): (Vec<_>, Vec<_>) = candidates(rotation.kind, order, rotation.rgb).into_iter().unzip();
         for (function, why) in catalog::build(&specs).into_iter().zip(why) {
             contest.enter(function, why);
@@ -242,7 +238,7 @@ impl<'a> Contest<'a> {
     fn enter(&mut self, function: Function, why: Option<&'static str>) {
         let (spec, built) = (&function.spec, &function.built);
         let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
-        let cost = built.cost_of(spec.channels());
+        let cost = built.code.cost(spec.channels());
         let method_error = accuracy::method_error(spec, degrees.to_radians());
         let rounding_f32 = built.accuracy.rounding_f32;
         let limit = spec.max_angle().filter(|limit| degrees.to_radians() > *limit);
@@ -252,7 +248,7 @@ impl<'a> Contest<'a> {
             (None, None) if method_error + rounding_f32 <= max_error => None,
             (None, None) => Some(format!("errs by more than {max_error}")),
         };
-        let takes = built.params().iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name);
+        let takes = built.code.params().iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name);
         let rival = Rival {
             spec: spec.to_string(),
             takes: takes.collect(),
@@ -279,17 +275,15 @@ impl<'a> Contest<'a> {
             if self.rotation.kind == Turn::Tilt || function.spec.max_angle().is_some_and(|limit| angle > limit) {
                 return None;
             }
-            let errors = accuracy::band_errors(&function.spec, angle);
+            let errors = accuracy::band_errors(&function.spec, &[angle]).remove(0);
             methods.push((rival.price, list[0], errors.iter().map(|error| error + rival.rounding_f32).collect()));
         }
         methods.sort_by_key(|(price, ..)| *price);
-        let best = |l: usize| methods.iter().find(|(_, _, errors)| errors[l] <= max_error).map(|(_, method, _)| *method);
+        let best =
+            |l: usize| methods.iter().find(|(_, _, errors)| errors[l] <= max_error).map(|(_, method, _)| *method);
         let list: Vec<Small> = (1..self.order).map(best).collect::<Option<_>>()?;
         let mixed = list.iter().any(|method| *method != list[0]);
-        mixed.then(|| Spec {
-            rgb: self.rotation.rgb,
-            ..Spec::new(small(self.rotation.kind, list), self.order)
-        })
+        mixed.then(|| Spec { rgb: self.rotation.rgb, ..Spec::new(small(self.rotation.kind, list), self.order) })
     }
 
     /// The cheapest method that keeps the error, and all of them with the reasons.
@@ -505,13 +499,11 @@ impl EnvironmentPlan {
     }
 
     fn count_operations(&mut self) {
-        let eval = |order: usize, bands: &[usize]| Spec {
-            bands: bands.to_vec(),
-            ..Spec::new(Family::Eval, order).rgb()
-        };
+        let eval =
+            |order: usize, bands: &[usize]| Spec { bands: bands.to_vec(), ..Spec::new(Family::Eval, order).rgb() };
         let all: Vec<usize> = (0..self.max_order).collect();
         let functions = catalog::build(&[eval(self.order, &self.bands), eval(self.max_order, &all)]);
-        self.operations = [0, 1].map(|i| functions[i].built.cost_of(3).total);
+        self.operations = [0, 1].map(|i| functions[i].built.code.cost(3).total);
         self.coefficients = [self.values.len(), self.max_order * self.max_order];
     }
 
@@ -519,7 +511,9 @@ impl EnvironmentPlan {
         let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
         let what = match self.signal {
             crate::scene::Light::Radiance => "radiance",
-            crate::scene::Light::Irradiance => "irradiance by the surface's normal (times albedo / π it is what a diffuse surface sends out)",
+            crate::scene::Light::Irradiance => {
+                "irradiance by the surface's normal (times albedo / π it is what a diffuse surface sends out)"
+            }
         };
         let which = match self.bands.len() == self.order {
             true => format!("order {}, index l(l+1)+m", self.order),
@@ -527,7 +521,11 @@ impl EnvironmentPlan {
         };
         Constants {
             name: self.name.clone(),
-            doc: format!("The {what} of `{}`: RGB coefficients of {which}. Error against the whole map: {}.", self.map, percent(self.errors[self.order - 1])),
+            doc: format!(
+                "The {what} of `{}`: RGB coefficients of {which}. Error against the whole map: {}.",
+                self.map,
+                percent(self.errors[self.order - 1])
+            ),
             values: self.values.clone(),
         }
     }
@@ -553,7 +551,8 @@ impl EnvironmentPlan {
             ),
         };
         text += &format!(". Against the whole map it errs by {error}.");
-        let missing: Vec<String> = self.vanishing.iter().filter(|l| !self.bands.contains(l)).map(usize::to_string).collect();
+        let missing: Vec<String> =
+            self.vanishing.iter().filter(|l| !self.bands.contains(l)).map(usize::to_string).collect();
         if !missing.is_empty() {
             let (bands, hold) = if missing.len() == 1 { ("Band", "holds") } else { ("Bands", "hold") };
             text += &format!(" {bands} {} {hold} nothing.", missing.join(", "));
@@ -651,10 +650,10 @@ mod environment {
 pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let cell = |row: &Vec<String>, i: usize| row.get(i).cloned().unwrap_or_default();
-    let widths: Vec<usize> = (0..columns)
-        .map(|i| rows.iter().map(|row| cell(row, i).chars().count()).max().unwrap_or(0).max(2))
-        .collect();
-    let is_number = |i: usize| rows[1..].iter().all(|row| cell(row, i).starts_with(|c: char| c.is_ascii_digit() || c == '<'));
+    let widths: Vec<usize> =
+        (0..columns).map(|i| rows.iter().map(|row| cell(row, i).chars().count()).max().unwrap_or(0).max(2)).collect();
+    let is_number =
+        |i: usize| rows[1..].iter().all(|row| cell(row, i).starts_with(|c: char| c.is_ascii_digit() || c == '<'));
     let mut text = String::new();
     for (line, row) in rows.iter().enumerate() {
         for (i, &width) in widths.iter().enumerate() {
@@ -720,7 +719,17 @@ impl fmt::Display for Plan {
         if self.kernels.is_empty() {
             return Ok(());
         }
-        let mut rows = vec![row(["kernel", "function", "total", "special", "constants", "live", "f32 rounding", "method error", "why"])];
+        let mut rows = vec![row([
+            "kernel",
+            "function",
+            "total",
+            "special",
+            "constants",
+            "live",
+            "f32 rounding",
+            "method error",
+            "why",
+        ])];
         for chosen in &self.kernels {
             rows.push(vec![
                 format!("`{}`", chosen.row.spec),
@@ -731,7 +740,7 @@ impl fmt::Display for Plan {
                 chosen.row.footprint.live.to_string(),
                 short(chosen.row.accuracy.rounding_f32),
                 match (chosen.method_error, chosen.max_angle) {
-                    (Some(error), Some(angle)) if error > 0.0 => format!("{} at {angle} degrees", short(error)),
+                    (Some(error), Some(angle)) if error > 1e-12 => format!("{} at {angle} degrees", short(error)),
                     (None, _) if !chosen.row.accuracy.method.is_empty() => "grows with the angle".to_owned(),
                     _ => "none".to_owned(),
                 },
@@ -740,10 +749,14 @@ impl fmt::Display for Plan {
         }
         writeln!(f, "## Kernels\n")?;
         f.write_str(&table(&rows))?;
-        writeln!(f, "\nTotal: multiplications, additions and multiply-adds, one each. Special: inverse square roots and reciprocals.")?;
+        writeln!(
+            f,
+            "\nTotal: multiplications, additions and multiply-adds, one each. Special: inverse square roots and reciprocals."
+        )?;
         for chosen in self.kernels.iter().filter(|chosen| !chosen.rivals.is_empty()) {
             writeln!(f, "\n## Why `{}`\n\nThe {}.\n", chosen.row.spec, chosen.reason)?;
-            let mut rows = vec![row(["method", "takes", "total", "special", "price", "method error", "f32 rounding", "verdict"])];
+            let mut rows =
+                vec![row(["method", "takes", "total", "special", "price", "method error", "f32 rounding", "verdict"])];
             for rival in &chosen.rivals {
                 rows.push(vec![
                     format!("`{}`", rival.spec),
@@ -757,7 +770,10 @@ impl fmt::Display for Plan {
                 ]);
             }
             f.write_str(&table(&rows))?;
-            writeln!(f, "\nThe price is the total plus {SPECIAL_WEIGHT} for each special; errors are of the worst band's norm, at the largest angle.")?;
+            writeln!(
+                f,
+                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special; errors are of the worst band's norm, at the largest angle."
+            )?;
         }
         Ok(())
     }

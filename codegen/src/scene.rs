@@ -208,7 +208,9 @@ impl<'de> Deserialize<'de> for Order {
             fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Order, E> {
                 match usize::try_from(value) {
                     Ok(order) if (MIN_ORDER..=MAX_ORDER).contains(&order) => Ok(Order::Number(order)),
-                    _ => Err(E::custom(format!("order {value} is out of range: orders are {MIN_ORDER} to {MAX_ORDER}"))),
+                    _ => {
+                        Err(E::custom(format!("order {value} is out of range: orders are {MIN_ORDER} to {MAX_ORDER}")))
+                    }
                 }
             }
             fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Order, E> {
@@ -237,10 +239,7 @@ impl<'de> Deserialize<'de> for Target {
 fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic {
     let message = error.message().trim().replace('\n', "; ");
     let span = error.span().unwrap_or(0..0);
-    let place = Place {
-        source: Arc::clone(source),
-        span,
-    };
+    let place = Place { source: Arc::clone(source), span };
     let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match (message.split_once(", expected"), &words[..]) {
         (Some((unknown, _)), [got, known @ ..]) if message.starts_with("unknown") && !known.is_empty() => {
@@ -259,14 +258,8 @@ struct Locator(Arc<Source>);
 
 impl Locator {
     fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
-        let place = Place {
-            source: Arc::clone(&self.0),
-            span: spanned.span(),
-        };
-        Located {
-            value: spanned.into_inner(),
-            place,
-        }
+        let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
+        Located { value: spanned.into_inner(), place }
     }
 
     /// A number within bounds, of which the lower may be excluded.
@@ -328,13 +321,13 @@ impl Scene {
     ///
     /// If it is no TOML, or a key is unknown, missing, or of the wrong type or range.
     pub fn parse(name: &str, text: &str, maps: Maps) -> Result<Self, Diagnostic> {
-        let source = Arc::new(Source {
-            name: name.to_owned(),
-            text: text.to_owned(),
-        });
+        let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
         if text.trim().is_empty() {
             let message = format!("{name}: is empty");
-            return Err(Diagnostic::nowhere(message, "begin with `name = \"...\"`, then a `[[kernel]]` with its `spec`"));
+            return Err(Diagnostic::nowhere(
+                message,
+                "begin with `name = \"...\"`, then a `[[kernel]]` with its `spec`",
+            ));
         }
         let manifest: Manifest = toml::from_str(text).map_err(|error| toml_diagnostic(&error, &source))?;
         let locate = Locator(source);
@@ -405,7 +398,11 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
     let budget = locate.at(table.budget);
     if !(0.0..1.0).contains(&budget.value) {
         let message = format!("a budget of {} is out of range", budget.value);
-        return Err(Diagnostic::at(&budget.place, message, "write a share of the whole, from 0 to below 1, as in 0.05"));
+        return Err(Diagnostic::at(
+            &budget.place,
+            message,
+            "write a share of the whole, from 0 to below 1, as in 0.05",
+        ));
     }
     Ok(Environment {
         map: locate.at(table.map),
@@ -413,10 +410,7 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
         budget: budget.value,
         max_order,
         name: table.name.map_or_else(
-            || Located {
-                value: format!("{}_environment", scene.value),
-                place: scene.place.clone(),
-            },
+            || Located { value: format!("{}_environment", scene.value), place: scene.place.clone() },
             |name| locate.at(name),
         ),
     })

@@ -8,7 +8,8 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 4.4e-8 of one, for dir of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 6.6e-8 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 4] {
@@ -27,7 +28,7 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 4] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11 live
 ///     values.
-/// Error: f32 rounding at most 2e0 of one, for every unit q (twice the worst of 256 measured).
+/// Error: f32 rounding at most 3e0 of one, for every unit q (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 4] {
@@ -56,8 +57,8 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 4] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 7 (4 mul, 0 add, 3 fma); 2 constants, 2 live values.
-/// Error: f32 rounding at most 1.9e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 2.8e-7 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
@@ -78,7 +79,7 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 1.9e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -102,7 +103,7 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -125,7 +126,7 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -148,7 +149,7 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -171,7 +172,7 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -197,7 +198,7 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// Returns the rotated coefficients.
 /// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 ///     values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 9.5e-7 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -240,7 +241,7 @@ pub fn rotate_zyz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -268,7 +269,7 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 2.3e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 3.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -297,7 +298,7 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 4], c: &[[T; 3]; 4]) -> [[T; 3];
 /// Returns the rotated coefficients.
 /// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 ///     values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 9.5e-7 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -341,7 +342,7 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// Returns the rotated coefficients.
 /// Operations: 14 (8 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 ///     values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of a band, for every n of unit length (twice the
+/// Error: f32 rounding at most 5.5e-7 of the norm of a band, for every n of unit length (3 times the
 ///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -373,8 +374,8 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
-/// Error: f32 rounding at most 7.2e-8 of the norm of a band, for dir of unit length (twice the worst of
-///     256 measured).
+/// Error: f32 rounding at most 1.1e-7 of the norm of a band, for dir of unit length (3 times the worst
+///     of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 2]) -> [V; 4] {
@@ -398,8 +399,8 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 2]) -> [[T; 3]; 4] {
 /// Returns the tilted coefficients.
 /// Operations: 7 (1 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 1 constants, 3 live
 ///     values.
-/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for n of unit length within 45 degrees of
-///     z (twice the worst of 256 measured).
+/// Error: f32 rounding at most 4.8e-7 of the norm of a band, for every n of unit length with n.z >= 0
+///     (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 4]) -> [V; 4] {
@@ -425,8 +426,8 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 21 (15 mul, 0 add, 6 fma); 2 constants, 7 live values.
-/// Error: f32 rounding at most 3.5e-7 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 5.2e-7 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 4]) -> [V; 4] {
@@ -455,7 +456,7 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 /// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 6e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -479,7 +480,7 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 /// Returns the rotated coefficients.
 /// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 6e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -504,7 +505,7 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 2 (0 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 1.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at
 ///     10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -531,7 +532,7 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 3.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at
 ///     10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -560,7 +561,7 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 6 (3 mul, 0 add, 3 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 1.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 ///     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -588,7 +589,7 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 5 live values.
-/// Error: f32 rounding at most 2.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 3.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 ///     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -618,7 +619,7 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 5 (1 mul, 0 add, 4 fma); 1 constants, 2 live values.
-/// Error: f32 rounding at most 1.4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 ///     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -646,7 +647,7 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 13 (5 mul, 0 add, 8 fma); 1 constants, 5 live values.
-/// Error: f32 rounding at most 2.4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 ///     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -676,7 +677,7 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 8 (3 mul, 0 add, 5 fma); 4 constants, 3 live values.
-/// Error: f32 rounding at most 1.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at
 ///     10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -707,7 +708,7 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 16 (7 mul, 0 add, 9 fma); 4 constants, 5 live values.
-/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 3.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at
 ///     10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -738,7 +739,7 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [[T; 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
-/// Error: f32 rounding at most 3.6e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 5.4e-7 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -769,8 +770,8 @@ pub fn rotate_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
-/// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_matrix<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 4]) -> [V; 4] {
@@ -788,60 +789,169 @@ pub fn rotate_matrix_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 
     rotate_matrix::<T, Channels<T, 3>>(m, &c.map(Channels)).map(|v| v.0)
 }
 
+// y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_A: [f64; 1] = [
+    1.7320508075688772
+];
+
+// b, at the same places
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_B: [f64; 1] = [
+    0.0
+];
+
+// y_mm by y_(m-1)(m-1) and x + iy, from m = 1
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_SECTORAL: [f64; 1] = [
+    -1.7320508075688772
+];
+
 /// `basis:2:loop`: The spherical harmonics of order 2 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 4.4e-8 of one, for dir of unit length (twice the worst of 256 measured).
+/// Operations: 9 (6 mul, 0 add, 3 fma); 3 constants, 4 live values.
+/// Error: f32 rounding at most 1.4e-7 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 4] {
-    [
-        T::lit(0.28209479177387814),
-        -(T::lit(0.4886025119029199) * dir[1]),
-        T::lit(0.4886025119029199) * dir[2],
-        -(T::lit(0.4886025119029199) * dir[0]),
-    ]
+    let mut r = [T::zero(); 4];
+    r[0] = T::lit(0.28209479177387814);
+    let mut cos_last = T::lit(0.28209479177387814);
+    let mut cos_before = T::lit(0.0);
+    for l in 1..2 {
+        let at = l * (l - 1) / 2;
+        let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+        let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+        cos_before = cos_last;
+        cos_last = cos_next;
+        r[l * l + l] = cos_next;
+    }
+    let mut re = T::lit(0.28209479177387814);
+    let mut im = T::lit(0.0);
+    for m in 1..2 {
+        let kx = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[0];
+        let ky = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[1];
+        let turned = im.fnma(ky, re * kx);
+        im = re.fma(ky, im * kx);
+        re = turned;
+        r[m * m + m * 2] = re;
+        r[m * m] = im;
+        cos_last = re;
+        cos_before = T::lit(0.0);
+        let mut sin_last = im;
+        let mut sin_before = T::lit(0.0);
+        for l in m + 1..2 {
+            let at = l * (l - 1) / 2 + m;
+            let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+            let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+            cos_before = cos_last;
+            cos_last = cos_next;
+            r[l * l + l + m] = cos_next;
+            let sin_next = sin_before.fnma(T::lit(BASIS_LOOP_B[at]), sin_last * az);
+            sin_before = sin_last;
+            sin_last = sin_next;
+            r[l * l + l - m] = sin_next;
+        }
+    }
+
+        r
+
 }
+
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+#[allow(clippy::approx_constant)]
+static ROTATE_ZYZ_LOOP_J: [f64; 3] = [
+    -1.0, -1.0, 1.0
+];
 
 /// `rotate:2:zyz:loop`: Rotates order 2 exactly, by z, y, z from a quaternion: no trigonometry, no
 /// branch, every angle.
 /// q: the rotation, a unit quaternion (x, y, z, w).
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
+/// Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 ///     values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 9.8e-7 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zyz_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    let t9 = t0.fms(t6, t8);
-    let t10 = q[0] * t6;
-    let t11 = t0.fma(t7, t10);
-    let t12 = c[1].fma(t9, c[3] * t11);
-    let t13 = t0.fma(t6, t8);
-    let t14 = c[3].fms(t9, c[1] * t11);
-    let t15 = t2 - t3;
-    let t16 = T::lit(2.0) * (t4 * t5);
-    let t17 = t14.fms(t15, c[2] * t16);
-    let t18 = t0.fms(t7, t10);
-    [
-        c[0],
-        t12.fma(t13, t17 * t18),
-        c[2].fma(t15, t14 * t16),
-        t17.fms(t13, t12 * t18),
-    ]
+    let mut r = [V::zero(); 4];
+    let mut phase_cos = [T::zero(); 6];
+    let mut phase_sin = [T::zero(); 6];
+    let x = q[0];
+    let y = q[1] + T::TINY;
+    let z = q[2];
+    let w = q[3] + T::TINY;
+    let ww_zz = z.fma(z, w * w);
+    let xx_yy = y.fma(y, x * x);
+    let product = ww_zz * xx_yy;
+    let scale = T::rsqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(T::lit(2.0) * product * scale);
+    phase_cos[3] = wy + zx;
+    phase_sin[3] = zy - wx;
+    phase_cos[5] = wy - zx;
+    phase_sin[5] = zy + wx;
+    for angle in 0..3 {
+        let base = angle * 2;
+        for m in 2..2 {
+            phase_cos[base + m] = phase_sin[base + m - 1].fnma(phase_sin[base + 1], phase_cos[base + m - 1] * phase_cos[base + 1]);
+            phase_sin[base + m] = phase_cos[base + m - 1].fma(phase_sin[base + 1], phase_sin[base + m - 1] * phase_cos[base + 1]);
+        }
+    }
+    let mut swapped = [V::zero(); 3];
+    r[0] = c[0];
+    for l in 1..2 {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for m in 1..l + 1 {
+            let co = phase_cos[4 + m];
+            let si = phase_sin[4 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = minus.fnma(si, plus * co);
+            r[middle - m] = plus.fma(si, minus * co);
+        }
+        for stage in 0..2 {
+            let mut k = l * (l * l + 2) / 3 - 1;
+            for row in 0..l * 2 + 1 {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                let mut sum = r[l * l + first] * T::lit(ROTATE_ZYZ_LOOP_J[k]);
+                k += 1;
+                for i in (first + 2..start + l + even).step_by(2) {
+                    sum = r[l * l + i].fma(T::lit(ROTATE_ZYZ_LOOP_J[k]), sum);
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for m in 1..l + 1 {
+                let co = phase_cos[stage * 2 + m];
+                let si = phase_sin[stage * 2 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = minus.fnma(si, plus * co);
+                r[middle - m] = plus.fma(si, minus * co);
+            }
+        }
+    }
+
+        r
+
 }
 
 /// [`rotate_zyz_loop`] of three channels that share the parameters, as plain arrays.
@@ -850,25 +960,40 @@ pub fn rotate_zyz_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
     rotate_zyz_loop::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
+// dD/dbeta at 0, from m - 1 to m
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DY_SUB_DIAG: [f64; 4] = [
+    0.0, 0.0, 0.0, -1.0
+];
+
+// the diagonal of the second derivative of D at 0
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 4] = [
+    0.0, 0.0, -1.0, -1.0
+];
+
 /// `taylor15:2:loop`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
 /// beta: the angle about y in radians, small.
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 6 (3 mul, 0 add, 3 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 1.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Operations: 16 (8 mul, 0 add, 8 fma); 8 constants, 4 live values.
+/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 ///     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
-    let t0 = T::lit(0.5).fnma(beta * beta, T::lit(1.0));
-    [
-        c[0],
-        c[1],
-        c[2].fma(t0, c[3] * beta),
-        c[3].fms(t0, c[2] * beta),
-    ]
+    let mut r = [V::zero(); 4];
+    let half_square = T::lit(0.5) * beta * beta;
+    r[0] = c[0];
+    for i in 1..3 {
+        r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
+    }
+    r[3] = (c[2] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[3])).fma(beta, c[3] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[3]), T::lit(1.0)));
+
+        r
+
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

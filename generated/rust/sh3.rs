@@ -8,7 +8,8 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 13 (11 mul, 0 add, 2 fma); 6 constants, 9 live values.
-/// Error: f32 rounding at most 1.6e-7 of one, for dir of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 2.4e-7 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 9] {
@@ -35,7 +36,7 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 9] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 31 (17 mul, 5 add, 9 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 ///     values.
-/// Error: f32 rounding at most 4e0 of one, for every unit q (twice the worst of 256 measured).
+/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 7] {
@@ -75,8 +76,8 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 7] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 19 (8 mul, 0 add, 11 fma); 7 constants, 5 live values.
-/// Error: f32 rounding at most 2.8e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
@@ -102,7 +103,7 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 16 (8 mul, 1 add, 7 fma); 0 constants, 7 live values.
-/// Error: f32 rounding at most 1.5e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -134,7 +135,7 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 19 (9 mul, 1 add, 9 fma); 2 constants, 9 live values.
-/// Error: f32 rounding at most 3.9e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 5.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -166,7 +167,7 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 6 live values.
-/// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -194,7 +195,7 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 5 live values.
-/// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -222,7 +223,7 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 5 live values.
-/// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -253,7 +254,7 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// Returns the rotated coefficients.
 /// Operations: 69 (34 mul, 6 add, 29 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 ///     values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -319,7 +320,7 @@ pub fn rotate_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 51 (25 mul, 3 add, 23 fma); 2 constants, 15 live values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 5.6e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -370,7 +371,7 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 39 (18 mul, 1 add, 20 fma); 1 constants, 11 live values.
-/// Error: f32 rounding at most 3.4e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 5e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -414,7 +415,7 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 7], c: &[[T; 3]; 9]) -> [[T; 3];
 /// Returns the rotated coefficients.
 /// Operations: 74 (37 mul, 6 add, 31 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 ///     values.
-/// Error: f32 rounding at most 8.6e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -483,7 +484,7 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// Returns the rotated coefficients.
 /// Operations: 41 (21 mul, 3 add, 17 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 ///     values.
-/// Error: f32 rounding at most 7.2e-7 of the norm of a band, for every n of unit length (twice the
+/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every n of unit length (3 times the
 ///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -531,8 +532,8 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 18 (16 mul, 0 add, 2 fma); 4 constants, 8 live values.
-/// Error: f32 rounding at most 2.3e-7 of the norm of a band, for dir of unit length (twice the worst of
-///     256 measured).
+/// Error: f32 rounding at most 3.4e-7 of the norm of a band, for dir of unit length (3 times the worst
+///     of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 3]) -> [V; 9] {
@@ -562,8 +563,8 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [[T; 3]; 9] {
 /// Returns the tilted coefficients.
 /// Operations: 37 (9 mul, 2 add, 26 fma) and 1 inverse square root or reciprocal; 4 constants, 12 live
 ///     values.
-/// Error: f32 rounding at most 3e-7 of the norm of a band, for n of unit length within 45 degrees of z
-///     (twice the worst of 256 measured).
+/// Error: f32 rounding at most 9.9e-7 of the norm of a band, for every n of unit length with n.z >= 0
+///     (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9] {
@@ -604,8 +605,8 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 130 (70 mul, 1 add, 59 fma); 12 constants, 29 live values.
-/// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 9.8e-7 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 9]) -> [V; 9] {
@@ -677,7 +678,7 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 /// Operations: 13 (7 mul, 1 add, 5 fma); 6 constants, 9 live values.
-/// Error: f32 rounding at most 8.1e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -709,7 +710,7 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 /// Returns the rotated coefficients.
 /// Operations: 13 (7 mul, 2 add, 4 fma); 6 constants, 9 live values.
-/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -743,7 +744,7 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 9 (1 mul, 0 add, 8 fma); 1 constants, 7 live values.
-/// Error: f32 rounding at most 2.4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at
 ///     10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -776,7 +777,7 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 41 (17 mul, 2 add, 22 fma); 1 constants, 13 live values.
-/// Error: f32 rounding at most 3.9e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at
 ///     10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -825,7 +826,7 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 9]) -> [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 20 (9 mul, 0 add, 11 fma); 5 constants, 9 live values.
-/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 ///     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -860,7 +861,7 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 52 (25 mul, 2 add, 25 fma); 5 constants, 15 live values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 ///     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -911,7 +912,7 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 9]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 19 (3 mul, 0 add, 16 fma); 3 constants, 9 live values.
-/// Error: f32 rounding at most 4.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
 ///     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -947,7 +948,7 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 51 (19 mul, 2 add, 30 fma); 3 constants, 15 live values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
 ///     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -999,7 +1000,7 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 9]) -> [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 23 (7 mul, 0 add, 16 fma); 6 constants, 10 live values.
-/// Error: f32 rounding at most 3.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 2.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at
 ///     10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -1043,7 +1044,7 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 55 (23 mul, 2 add, 30 fma); 6 constants, 13 live values.
-/// Error: f32 rounding at most 3.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at
 ///     10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -1097,7 +1098,7 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 9]) -> [[T; 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 64 (22 mul, 2 add, 40 fma); 5 constants, 20 live values.
-/// Error: f32 rounding at most 7.1e-7 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1153,8 +1154,8 @@ pub fn rotate_tensor_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 47 (16 mul, 2 add, 29 fma); 4 constants, 12 live values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 9.6e-7 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_matrix<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 9]) -> [V; 9] {
@@ -1187,91 +1188,168 @@ pub fn rotate_matrix_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 
     rotate_matrix::<T, Channels<T, 3>>(m, &c.map(Channels)).map(|v| v.0)
 }
 
+// y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_A: [f64; 3] = [
+    1.7320508075688772, 1.9364916731037085, 2.23606797749979
+];
+
+// b, at the same places
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_B: [f64; 3] = [
+    0.0, 1.118033988749895, 0.0
+];
+
+// y_mm by y_(m-1)(m-1) and x + iy, from m = 1
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_SECTORAL: [f64; 2] = [
+    -1.7320508075688772, -1.118033988749895
+];
+
 /// `basis:3:loop`: The spherical harmonics of order 3 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 13 (11 mul, 0 add, 2 fma); 6 constants, 9 live values.
-/// Error: f32 rounding at most 1.6e-7 of one, for dir of unit length (twice the worst of 256 measured).
+/// Operations: 23 (15 mul, 0 add, 8 fma); 8 constants, 9 live values.
+/// Error: f32 rounding at most 3e-7 of one, for dir of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 9] {
-    let t0 = T::lit(0.4886025119029199) * dir[1];
-    let t1 = T::lit(0.4886025119029199) * dir[0];
-    let t2 = T::lit(2.23606797749979) * dir[2];
-    [
-        T::lit(0.28209479177387814),
-        -t0,
-        T::lit(0.4886025119029199) * dir[2],
-        -t1,
-        t0 * (T::lit(2.23606797749979) * dir[0]),
-        -(t0 * t2),
-        T::lit(0.94617469575756).fms(dir[2] * dir[2], T::lit(0.31539156525252)),
-        -(t1 * t2),
-        T::lit(2.2882280821594225) * t1.fms(t1, t0 * t0),
-    ]
+    let mut r = [T::zero(); 9];
+    r[0] = T::lit(0.28209479177387814);
+    let mut cos_last = T::lit(0.28209479177387814);
+    let mut cos_before = T::lit(0.0);
+    for l in 1..3 {
+        let at = l * (l - 1) / 2;
+        let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+        let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+        cos_before = cos_last;
+        cos_last = cos_next;
+        r[l * l + l] = cos_next;
+    }
+    let mut re = T::lit(0.28209479177387814);
+    let mut im = T::lit(0.0);
+    for m in 1..3 {
+        let kx = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[0];
+        let ky = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[1];
+        let turned = im.fnma(ky, re * kx);
+        im = re.fma(ky, im * kx);
+        re = turned;
+        r[m * m + m * 2] = re;
+        r[m * m] = im;
+        cos_last = re;
+        cos_before = T::lit(0.0);
+        let mut sin_last = im;
+        let mut sin_before = T::lit(0.0);
+        for l in m + 1..3 {
+            let at = l * (l - 1) / 2 + m;
+            let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+            let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+            cos_before = cos_last;
+            cos_last = cos_next;
+            r[l * l + l + m] = cos_next;
+            let sin_next = sin_before.fnma(T::lit(BASIS_LOOP_B[at]), sin_last * az);
+            sin_before = sin_last;
+            sin_last = sin_next;
+            r[l * l + l - m] = sin_next;
+        }
+    }
+
+        r
+
 }
+
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+#[allow(clippy::approx_constant)]
+static ROTATE_ZYZ_LOOP_J: [f64; 10] = [
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254037844386, -1.0, -0.8660254037844386, 0.5
+];
 
 /// `rotate:3:zyz:loop`: Rotates order 3 exactly, by z, y, z from a quaternion: no trigonometry, no
 /// branch, every angle.
 /// q: the rotation, a unit quaternion (x, y, z, w).
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 69 (34 mul, 6 add, 29 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
-///     values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Operations: 88 (51 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 10 constants, 32
+///     live values.
+/// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zyz_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V; 9] {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    let t9 = t0.fms(t6, t8);
-    let t10 = q[0] * t6;
-    let t11 = t0.fma(t7, t10);
-    let t12 = c[1].fma(t9, c[3] * t11);
-    let t13 = t0.fma(t6, t8);
-    let t14 = c[3].fms(t9, c[1] * t11);
-    let t15 = t2 - t3;
-    let t16 = T::lit(2.0) * (t4 * t5);
-    let t17 = t14.fms(t15, c[2] * t16);
-    let t18 = t0.fms(t7, t10);
-    let t19 = t9.fms(t9, t11 * t11);
-    let t20 = t9 * t11;
-    let t21 = t20 + t20;
-    let t22 = c[8].fms(t19, c[4] * t21);
-    let t23 = c[6].fnma(T::lit(1.7320508075688772), t22);
-    let t24 = t16 * t16;
-    let t25 = c[7].fms(t9, c[5] * t11);
-    let t26 = t15 * t16;
-    let t27 = t23.fma(T::lit(0.5) * t24, t25 * t26);
-    let t28 = t22 - t27;
-    let t29 = t13 * t18;
-    let t30 = t29 + t29;
-    let t31 = c[5].fma(t9, c[7] * t11);
-    let t32 = c[4].fma(t19, c[8] * t21);
-    let t33 = t31.fms(t16, t32 * t15);
-    let t34 = t13.fms(t13, t18 * t18);
-    let t35 = t31.fma(t15, t32 * t16);
-    let t36 = t25.fma(t15.fms(t15, t24), t23 * t26);
-    [
-        c[0],
-        t12.fma(t13, t17 * t18),
-        c[2].fma(t15, t14 * t16),
-        t17.fms(t13, t12 * t18),
-        t28.fms(t30, t33 * t34),
-        t35.fma(t13, t36 * t18),
-        t27.fma(T::lit(1.7320508075688772), c[6]),
-        t36.fms(t13, t35 * t18),
-        t28.fma(t34, t33 * t30),
-    ]
+    let mut r = [V::zero(); 9];
+    let mut phase_cos = [T::zero(); 9];
+    let mut phase_sin = [T::zero(); 9];
+    let x = q[0];
+    let y = q[1] + T::TINY;
+    let z = q[2];
+    let w = q[3] + T::TINY;
+    let ww_zz = z.fma(z, w * w);
+    let xx_yy = y.fma(y, x * x);
+    let product = ww_zz * xx_yy;
+    let scale = T::rsqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(T::lit(2.0) * product * scale);
+    phase_cos[4] = wy + zx;
+    phase_sin[4] = zy - wx;
+    phase_cos[7] = wy - zx;
+    phase_sin[7] = zy + wx;
+    for angle in 0..3 {
+        let base = angle * 3;
+        for m in 2..3 {
+            phase_cos[base + m] = phase_sin[base + m - 1].fnma(phase_sin[base + 1], phase_cos[base + m - 1] * phase_cos[base + 1]);
+            phase_sin[base + m] = phase_cos[base + m - 1].fma(phase_sin[base + 1], phase_sin[base + m - 1] * phase_cos[base + 1]);
+        }
+    }
+    let mut swapped = [V::zero(); 5];
+    r[0] = c[0];
+    for l in 1..3 {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for m in 1..l + 1 {
+            let co = phase_cos[6 + m];
+            let si = phase_sin[6 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = minus.fnma(si, plus * co);
+            r[middle - m] = plus.fma(si, minus * co);
+        }
+        for stage in 0..2 {
+            let mut k = l * (l * l + 2) / 3 - 1;
+            for row in 0..l * 2 + 1 {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                let mut sum = r[l * l + first] * T::lit(ROTATE_ZYZ_LOOP_J[k]);
+                k += 1;
+                for i in (first + 2..start + l + even).step_by(2) {
+                    sum = r[l * l + i].fma(T::lit(ROTATE_ZYZ_LOOP_J[k]), sum);
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for m in 1..l + 1 {
+                let co = phase_cos[stage * 3 + m];
+                let si = phase_sin[stage * 3 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = minus.fnma(si, plus * co);
+                r[middle - m] = plus.fma(si, minus * co);
+            }
+        }
+    }
+
+        r
+
 }
 
 /// [`rotate_zyz_loop`] of three channels that share the parameters, as plain arrays.
@@ -1280,32 +1358,40 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
     rotate_zyz_loop::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
+// dD/dbeta at 0, from m - 1 to m
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DY_SUB_DIAG: [f64; 9] = [
+    0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508075688772, -1.0
+];
+
+// the diagonal of the second derivative of D at 0
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 9] = [
+    0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0
+];
+
 /// `taylor15:3:loop`: Rotates order 3 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
 /// beta: the angle about y in radians, small.
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 20 (9 mul, 0 add, 11 fma); 5 constants, 9 live values.
-/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Operations: 41 (18 mul, 0 add, 23 fma); 18 constants, 9 live values.
+/// Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 ///     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 9]) -> [V; 9] {
-    let t0 = beta * beta;
-    let t1 = T::lit(0.5).fnma(t0, T::lit(1.0));
-    let t2 = T::lit(1.7320508075688772) * beta;
-    [
-        c[0],
-        c[1],
-        c[2].fma(t1, c[3] * beta),
-        c[3].fms(t1, c[2] * beta),
-        c[4].fms(t1, c[5] * beta),
-        c[5].fma(t1, c[4] * beta),
-        c[6].fma(T::lit(1.5).fnma(t0, T::lit(1.0)), c[7] * t2),
-        c[8].fma(beta, c[7].fms(T::lit(2.0).fnma(t0, T::lit(1.0)), c[6] * t2)),
-        c[8].fms(t1, c[7] * beta),
-    ]
+    let mut r = [V::zero(); 9];
+    let half_square = T::lit(0.5) * beta * beta;
+    r[0] = c[0];
+    for i in 1..8 {
+        r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
+    }
+    r[8] = (c[7] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[8])).fma(beta, c[8] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[8]), T::lit(1.0)));
+
+        r
+
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

@@ -8,7 +8,8 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 24 live values.
-/// Error: f32 rounding at most 4.1e-7 of one, for dir of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 6.2e-7 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 25] {
@@ -69,7 +70,7 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 25] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 26 live
 ///     values.
-/// Error: f32 rounding at most 4e0 of one, for every unit q (twice the worst of 256 measured).
+/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 13] {
@@ -127,8 +128,8 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 13] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 53 (16 mul, 0 add, 37 fma); 24 constants, 7 live values.
-/// Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 8.3e-7 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 25]) -> V {
@@ -167,7 +168,7 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 25]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 52 (26 mul, 1 add, 25 fma); 0 constants, 23 live values.
-/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 3.3e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -219,7 +220,7 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
-/// Error: f32 rounding at most 4.3e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -309,7 +310,7 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -356,7 +357,7 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -403,7 +404,7 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 2.5e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -453,7 +454,7 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// Returns the rotated coefficients.
 /// Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 ///     live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -605,7 +606,7 @@ pub fn rotate_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
-/// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 9.3e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -742,7 +743,7 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 25]) -> [[T; 3];
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
-/// Error: f32 rounding at most 4.5e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -858,7 +859,7 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 13], c: &[[T; 3]; 25]) -> [[T; 3
 /// Returns the rotated coefficients.
 /// Operations: 248 (121 mul, 6 add, 121 fma) and 1 inverse square root or reciprocal; 15 constants, 47
 ///     live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 2.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1012,7 +1013,7 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// Returns the rotated coefficients.
 /// Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 ///     live values.
-/// Error: f32 rounding at most 9.4e-7 of the norm of a band, for every n of unit length (twice the
+/// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every n of unit length (3 times the
 ///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1132,8 +1133,8 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
-/// Error: f32 rounding at most 3.1e-7 of the norm of a band, for dir of unit length (twice the worst of
-///     256 measured).
+/// Error: f32 rounding at most 4.6e-7 of the norm of a band, for dir of unit length (3 times the worst
+///     of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 5]) -> [V; 25] {
@@ -1198,9 +1199,9 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 5]) -> [[T; 3]; 25] {
 /// Returns the tilted coefficients.
 /// Operations: 133 (28 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 19 constants, 33
 ///     live values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for n of unit length within 45 degrees of
-///     z (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at
-///     5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
+///     10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1300,8 +1301,8 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 636 (331 mul, 13 add, 292 fma); 69 constants, 130 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 2.7e-6 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 25]) -> [V; 25] {
@@ -1607,7 +1608,7 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 /// Operations: 68 (22 mul, 4 add, 42 fma); 43 constants, 27 live values.
-/// Error: f32 rounding at most 6.6e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1668,7 +1669,7 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 /// Returns the rotated coefficients.
 /// Operations: 67 (21 mul, 1 add, 45 fma); 43 constants, 25 live values.
-/// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1732,9 +1733,9 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 40 (8 mul, 0 add, 32 fma); 8 constants, 23 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-///     of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10,
-///     5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
+///     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -1788,7 +1789,7 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 144 (60 mul, 2 add, 82 fma); 8 constants, 36 live values.
-/// Error: f32 rounding at most 6.1e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 5.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
 ///     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -1896,9 +1897,9 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 77 (32 mul, 1 add, 44 fma); 21 constants, 28 live values.
-/// Error: f32 rounding at most 6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-///     of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10,
-///     3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
+///     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -1959,7 +1960,7 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 181 (84 mul, 3 add, 94 fma); 21 constants, 38 live values.
-/// Error: f32 rounding at most 6.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
 ///     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -2074,7 +2075,7 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) ->
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 79 (15 mul, 0 add, 64 fma); 15 constants, 28 live values.
-/// Error: f32 rounding at most 9.8e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 5.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at
 ///     10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -2146,7 +2147,7 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 183 (67 mul, 2 add, 114 fma); 15 constants, 41 live values.
-/// Error: f32 rounding at most 9.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 5.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at
 ///     10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -2270,9 +2271,9 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 81 (25 mul, 0 add, 56 fma); 16 constants, 28 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-///     of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10,
-///     5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
+///     10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2362,9 +2363,9 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 185 (77 mul, 2 add, 106 fma); 16 constants, 37 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-///     of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10,
-///     5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
+///     10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2487,8 +2488,8 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> [[T;
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn bands_0_1_2_4_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 18]) -> V {
@@ -2525,7 +2526,7 @@ pub fn bands_0_1_2_4_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 18]) -> [T; 3] 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 62 (23 mul, 0 add, 39 fma); 16 constants, 23 live values.
-/// Error: f32 rounding at most 3.9e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 3.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
 ///     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -2572,211 +2573,178 @@ pub fn taylor15_taylor15_taylor15_taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &
     ]
 }
 
+// y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_A: [f64; 10] = [
+    1.7320508075688772, 1.9364916731037085, 2.23606797749979, 1.9720265943665387, 2.091650066335189,
+    2.6457513110645907, 1.984313483298443, 2.04939015319192, 2.29128784747792, 3.0
+];
+
+// b, at the same places
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_B: [f64; 10] = [
+    0.0, 1.118033988749895, 0.0, 1.0183501544346312, 0.9354143466934853, 0.0, 1.0062305898749053,
+    0.9797958971132712, 0.8660254037844386, 0.0
+];
+
+// y_mm by y_(m-1)(m-1) and x + iy, from m = 1
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_SECTORAL: [f64; 4] = [
+    -1.7320508075688772, -1.118033988749895, -1.0801234497346435, -1.0606601717798212
+];
+
 /// `basis:5:loop`: The spherical harmonics of order 5 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 24 live values.
-/// Error: f32 rounding at most 4.1e-7 of one, for dir of unit length (twice the worst of 256 measured).
+/// Operations: 66 (42 mul, 0 add, 24 fma); 24 constants, 25 live values.
+/// Error: f32 rounding at most 9.8e-7 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 25] {
-    let t0 = T::lit(0.4886025119029199) * dir[1];
-    let t1 = T::lit(0.4886025119029199) * dir[2];
-    let t2 = T::lit(0.4886025119029199) * dir[0];
-    let t3 = t0 * (T::lit(2.23606797749979) * dir[0]);
-    let t4 = T::lit(2.23606797749979) * dir[2];
-    let t5 = t0 * t4;
-    let t6 = dir[2] * dir[2];
-    let t7 = T::lit(0.94617469575756).fms(t6, T::lit(0.31539156525252));
-    let t8 = t2 * t4;
-    let t9 = t2.fms(t2, t0 * t0);
-    let t10 = T::lit(2.2882280821594225) * t9;
-    let t11 = T::lit(1.0801234497346435) * dir[0];
-    let t12 = T::lit(1.0801234497346435) * dir[1];
-    let t13 = t3.fma(t11, t10 * t12);
-    let t14 = T::lit(2.6457513110645907) * dir[2];
-    let t15 = T::lit(4.677071733467427).fms(t6, T::lit(0.9354143466934853));
-    let t16 = t3.fms(t12, t10 * t11);
-    let t17 = T::lit(3.0) * dir[2];
-    let t18 = T::lit(6.06217782649107).fms(t6, T::lit(0.8660254037844386));
-    let t19 = T::lit(4.286607049870562).fms(t6, T::lit(1.8371173070873836));
-    let t20 = t7.fms(T::lit(3.913118960624632).fms(t6, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
-    [
-        T::lit(0.28209479177387814),
-        -t0,
-        t1,
-        -t2,
-        t3,
-        -t5,
-        t7,
-        -t8,
-        t10,
-        -t13,
-        t3 * t14,
-        -(t0 * t15),
-        T::lit(3.8188130791298667).fms(t6, T::lit(2.29128784747792)) * t1,
-        -(t2 * t15),
-        t10 * t14,
-        t16,
-        t3 * (T::lit(9.597724091861606) * t9),
-        -(t13 * t17),
-        t3 * t18,
-        -(t19 * t5),
-        t20,
-        -(t19 * t8),
-        t10 * t18,
-        t16 * t17,
-        T::lit(2.097195678763837) * t10.fms(t10, t3 * t3),
-    ]
+    let mut r = [T::zero(); 25];
+    r[0] = T::lit(0.28209479177387814);
+    let mut cos_last = T::lit(0.28209479177387814);
+    let mut cos_before = T::lit(0.0);
+    for l in 1..5 {
+        let at = l * (l - 1) / 2;
+        let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+        let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+        cos_before = cos_last;
+        cos_last = cos_next;
+        r[l * l + l] = cos_next;
+    }
+    let mut re = T::lit(0.28209479177387814);
+    let mut im = T::lit(0.0);
+    for m in 1..5 {
+        let kx = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[0];
+        let ky = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[1];
+        let turned = im.fnma(ky, re * kx);
+        im = re.fma(ky, im * kx);
+        re = turned;
+        r[m * m + m * 2] = re;
+        r[m * m] = im;
+        cos_last = re;
+        cos_before = T::lit(0.0);
+        let mut sin_last = im;
+        let mut sin_before = T::lit(0.0);
+        for l in m + 1..5 {
+            let at = l * (l - 1) / 2 + m;
+            let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+            let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+            cos_before = cos_last;
+            cos_last = cos_next;
+            r[l * l + l + m] = cos_next;
+            let sin_next = sin_before.fnma(T::lit(BASIS_LOOP_B[at]), sin_last * az);
+            sin_before = sin_last;
+            sin_last = sin_next;
+            r[l * l + l - m] = sin_next;
+        }
+    }
+
+        r
+
 }
+
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+#[allow(clippy::approx_constant)]
+static ROTATE_LOOP_J: [f64; 44] = [
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254037844386, -1.0, -0.8660254037844386, 0.5,
+    0.7905694150420949, -0.6123724356957945, 1.0, 0.6123724356957945, 0.7905694150420949,
+    0.7905694150420949, 0.6123724356957945, -0.25, -0.9682458365518543, -0.6123724356957945,
+    0.7905694150420949, -0.9682458365518543, 0.25, 0.9354143466934853, -0.3535533905932738, 0.75,
+    -0.6614378277661477, 0.3535533905932738, 0.9354143466934853, -0.6614378277661477, -0.75, 0.375,
+    0.5590169943749475, 0.739509972887452, 0.9354143466934853, 0.3535533905932738,
+    0.5590169943749475, 0.5, -0.6614378277661477, -0.3535533905932738, 0.9354143466934853,
+    0.739509972887452, -0.6614378277661477, 0.125
+];
 
 /// `rotate:5:loop`: Rotates order 5 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
 /// q: the rotation, a unit quaternion (x, y, z, w).
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
+/// Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 ///     live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 2.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    let t9 = t0.fms(t6, t8);
-    let t10 = q[0] * t6;
-    let t11 = t0.fma(t7, t10);
-    let t12 = c[1].fma(t9, c[3] * t11);
-    let t13 = t0.fma(t6, t8);
-    let t14 = c[3].fms(t9, c[1] * t11);
-    let t15 = t2 - t3;
-    let t16 = T::lit(2.0) * (t4 * t5);
-    let t17 = t14.fms(t15, c[2] * t16);
-    let t18 = t0.fms(t7, t10);
-    let t19 = t9.fms(t9, t11 * t11);
-    let t20 = t9 * t11;
-    let t21 = t20 + t20;
-    let t22 = c[8].fms(t19, c[4] * t21);
-    let t23 = c[6].fnma(T::lit(1.7320508075688772), t22);
-    let t24 = t16 * t16;
-    let t25 = c[7].fms(t9, c[5] * t11);
-    let t26 = t15 * t16;
-    let t27 = t23.fma(T::lit(0.5) * t24, t25 * t26);
-    let t28 = t22 - t27;
-    let t29 = t13 * t18;
-    let t30 = t29 + t29;
-    let t31 = c[5].fma(t9, c[7] * t11);
-    let t32 = c[4].fma(t19, c[8] * t21);
-    let t33 = t31.fms(t16, t32 * t15);
-    let t34 = t13.fms(t13, t18 * t18);
-    let t35 = t31.fma(t15, t32 * t16);
-    let t36 = t15.fms(t15, t24);
-    let t37 = t25.fma(t36, t23 * t26);
-    let t38 = t9.fms(t19, t11 * t21);
-    let t39 = t9.fma(t21, t11 * t19);
-    let t40 = c[9].fma(t38, c[15] * t39);
-    let t41 = c[10].fma(t19, c[14] * t21);
-    let t42 = T::lit(2.0) * t26;
-    let t43 = c[11].fma(t9, c[13] * t11);
-    let t44 = t43.fms(T::lit(0.7905694150420949), t40 * T::lit(0.6123724356957945));
-    let t45 = t41.fma(t42, t44.fms(t36, t44));
-    let t46 = t45.fnma(T::lit(0.6123724356957945), t40);
-    let t47 = t13.fms(t34, t18 * t30);
-    let t48 = c[15].fms(t38, c[9] * t39);
-    let t49 = t48.fms(T::lit(0.12701665379258312), c[13].fms(t9, c[11] * t11));
-    let t50 = t49.fms(T::lit(0.25), t48);
-    let t51 = t50.fnma(T::lit(0.12701665379258312), t49);
-    let t52 = t15.fms(t36, t16 * t42);
-    let t53 = c[14].fms(t19, c[10] * t21);
-    let t54 = t53.fnma(T::lit(0.3419987131196464), c[12]);
-    let t55 = t54.fma(T::lit(0.6123724356957945), t53);
-    let t56 = t55.fnma(T::lit(0.3419987131196464), t54);
-    let t57 = t15.fma(t42, t16 * t36);
-    let t58 = t51.fma(t52, t56 * t57);
-    let t59 = t58.fms(T::lit(0.12701665379258312), t50.fma(t15, t55 * t16));
-    let t60 = t59.fms(T::lit(0.25), t58);
-    let t61 = t60.fnma(T::lit(0.12701665379258312), t59);
-    let t62 = t13.fma(t30, t18 * t34);
-    let t63 = t41.fms(t36, t44 * t42);
-    let t64 = t56.fms(t52, t51 * t57);
-    let t65 = t64.fnma(T::lit(0.3419987131196464), t55.fms(t15, t50 * t16));
-    let t66 = t65.fma(T::lit(0.6123724356957945), t64);
-    let t67 = t66.fnma(T::lit(0.3419987131196464), t65);
-    let t68 = t45.fma(T::lit(0.7905694150420949), t43);
-    let t69 = t9.fms(t38, t11 * t39);
-    let t70 = t9.fma(t39, t11 * t38);
-    let t71 = c[16].fma(t69, c[24] * t70);
-    let t72 = t71.fnma(T::lit(0.18267581368159952), c[18].fma(t19, c[22] * t21));
-    let t73 = t72.fma(T::lit(0.3535533905932738), t71);
-    let t74 = c[19].fma(t9, c[21] * t11);
-    let t75 = t74.fnma(T::lit(0.37796447300922725), c[17].fma(t38, c[23] * t39));
-    let t76 = t75.fma(T::lit(0.6614378277661477), t74);
-    let t77 = t73.fnma(T::lit(0.18267581368159952), t72);
-    let t78 = t76.fnma(T::lit(0.37796447300922725), t75);
-    let t79 = t77.fma(t52, t78 * t57);
-    let t80 = t79.fnma(T::lit(0.18267581368159952), t73.fms(t15, t76 * t16));
-    let t81 = t80.fma(T::lit(0.3535533905932738), t79);
-    let t82 = t81.fnma(T::lit(0.18267581368159952), t80);
-    let t83 = t13.fms(t47, t18 * t62);
-    let t84 = c[24].fms(t69, c[16] * t70);
-    let t85 = c[23].fms(t38, c[17] * t39);
-    let t86 = t85.fnma(T::lit(0.18267581368159952), c[21].fms(t9, c[19] * t11));
-    let t87 = t86.fma(T::lit(0.3535533905932738), t85);
-    let t88 = t87.fnma(T::lit(0.18267581368159952), t86);
-    let t89 = t15.fma(t57, t16 * t52);
-    let t90 = c[22].fms(t19, c[18] * t21);
-    let t91 = c[20].fma(T::lit(0.739509972887452), t84.fms(T::lit(0.125), t90 * T::lit(0.6614378277661477)));
-    let t92 = t15.fms(t52, t16 * t57);
-    let t93 = t88.fma(t89, t91.fms(t92, t91));
-    let t94 = c[20].fma(T::lit(0.5590169943749475), t90.fms(T::lit(0.5), t84 * T::lit(0.6614378277661477)));
-    let t95 = t87.fma(t42, t94.fms(t36, t94));
-    let t96 = t95.fnma(T::lit(0.6614378277661477), t93.fma(T::lit(0.125), t84));
-    let t97 = t13.fma(t62, t18 * t47);
-    let t98 = t76.fma(t15, t73 * t16);
-    let t99 = t98.fma(T::lit(0.37796447300922725), t78.fms(t52, t77 * t57));
-    let t100 = t99.fnma(T::lit(0.6614378277661477), t98);
-    let t101 = t100.fma(T::lit(0.37796447300922725), t99);
-    let t102 = t88.fms(t92, t91 * t89);
-    let t103 = t102.fnma(T::lit(0.18267581368159952), t87.fms(t36, t94 * t42));
-    let t104 = t103.fma(T::lit(0.3535533905932738), t102);
-    let t105 = t104.fnma(T::lit(0.18267581368159952), t103);
-    let t106 = t95.fma(T::lit(0.5), t93.fnma(T::lit(0.6614378277661477), t90));
-    [
-        c[0],
-        t12.fma(t13, t17 * t18),
-        c[2].fma(t15, t14 * t16),
-        t17.fms(t13, t12 * t18),
-        t28.fms(t30, t33 * t34),
-        t35.fma(t13, t37 * t18),
-        t27.fma(T::lit(1.7320508075688772), c[6]),
-        t37.fms(t13, t35 * t18),
-        t28.fma(t34, t33 * t30),
-        t46.fma(t47, t61 * t62),
-        t63.fma(t34, t67 * t30),
-        t68.fma(t13, t60 * t18),
-        t66,
-        t60.fms(t13, t68 * t18),
-        t67.fms(t34, t63 * t30),
-        t61.fms(t47, t46 * t62),
-        t82.fma(t83, t96 * t97),
-        t101.fma(t47, t105 * t62),
-        t81.fma(t34, t106 * t30),
-        t100.fma(t13, t104 * t18),
-        t95.fma(T::lit(0.5590169943749475), t93.fma(T::lit(0.739509972887452), c[20])),
-        t104.fms(t13, t100 * t18),
-        t106.fms(t34, t81 * t30),
-        t105.fms(t47, t101 * t62),
-        t96.fms(t83, t82 * t97),
-    ]
+    let mut r = [V::zero(); 25];
+    let mut phase_cos = [T::zero(); 15];
+    let mut phase_sin = [T::zero(); 15];
+    let x = q[0];
+    let y = q[1] + T::TINY;
+    let z = q[2];
+    let w = q[3] + T::TINY;
+    let ww_zz = z.fma(z, w * w);
+    let xx_yy = y.fma(y, x * x);
+    let product = ww_zz * xx_yy;
+    let scale = T::rsqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(T::lit(2.0) * product * scale);
+    phase_cos[6] = wy + zx;
+    phase_sin[6] = zy - wx;
+    phase_cos[11] = wy - zx;
+    phase_sin[11] = zy + wx;
+    for angle in 0..3 {
+        let base = angle * 5;
+        for m in 2..5 {
+            phase_cos[base + m] = phase_sin[base + m - 1].fnma(phase_sin[base + 1], phase_cos[base + m - 1] * phase_cos[base + 1]);
+            phase_sin[base + m] = phase_cos[base + m - 1].fma(phase_sin[base + 1], phase_sin[base + m - 1] * phase_cos[base + 1]);
+        }
+    }
+    let mut swapped = [V::zero(); 9];
+    r[0] = c[0];
+    for l in 1..5 {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for m in 1..l + 1 {
+            let co = phase_cos[10 + m];
+            let si = phase_sin[10 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = minus.fnma(si, plus * co);
+            r[middle - m] = plus.fma(si, minus * co);
+        }
+        for stage in 0..2 {
+            let mut k = l * (l * l + 2) / 3 - 1;
+            for row in 0..l * 2 + 1 {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                let mut sum = r[l * l + first] * T::lit(ROTATE_LOOP_J[k]);
+                k += 1;
+                for i in (first + 2..start + l + even).step_by(2) {
+                    sum = r[l * l + i].fma(T::lit(ROTATE_LOOP_J[k]), sum);
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for m in 1..l + 1 {
+                let co = phase_cos[stage * 5 + m];
+                let si = phase_sin[stage * 5 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = minus.fnma(si, plus * co);
+                r[middle - m] = plus.fma(si, minus * co);
+            }
+        }
+    }
+
+        r
+
 }
 
 /// [`rotate_loop`] of three channels that share the parameters, as plain arrays.
@@ -2785,60 +2753,44 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
     rotate_loop::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
+// dD/dbeta at 0, from m - 1 to m
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DY_SUB_DIAG: [f64; 25] = [
+    0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508075688772, -1.0, 0.0, 1.224744871391589,
+    1.5811388300841898, 0.0, -2.449489742783178, -1.5811388300841898, -1.224744871391589, 0.0,
+    1.4142135623730951, 1.8708286933869707, 2.1213203435596424, 0.0, -3.1622776601683795,
+    -2.1213203435596424, -1.8708286933869707, -1.4142135623730951
+];
+
+// the diagonal of the second derivative of D at 0
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 25] = [
+    0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
+    -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0
+];
+
 /// `taylor15:5:loop`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
 /// beta: the angle about y in radians, small.
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 77 (32 mul, 1 add, 44 fma); 21 constants, 28 live values.
-/// Error: f32 rounding at most 6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-///     of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10,
-///     3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+/// Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
+/// Error: f32 rounding at most 3.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
+///     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
-    let t0 = beta * beta;
-    let t1 = T::lit(0.5).fnma(t0, T::lit(1.0));
-    let t2 = T::lit(1.7320508075688772) * beta;
-    let t3 = T::lit(2.0).fnma(t0, T::lit(1.0));
-    let t4 = T::lit(0.75).fnma(t0, T::lit(1.0));
-    let t5 = T::lit(1.224744871391589) * beta;
-    let t6 = T::lit(1.5811388300841898) * beta;
-    let t7 = T::lit(2.449489742783178) * beta;
-    let t8 = T::lit(1.0) - t0;
-    let t9 = T::lit(1.4142135623730951) * beta;
-    let t10 = T::lit(2.75).fnma(t0, T::lit(1.0));
-    let t11 = T::lit(1.8708286933869707) * beta;
-    let t12 = T::lit(4.0).fnma(t0, T::lit(1.0));
-    let t13 = T::lit(2.1213203435596424) * beta;
-    let t14 = T::lit(3.1622776601683795) * beta;
-    [
-        c[0],
-        c[1],
-        c[2].fma(t1, c[3] * beta),
-        c[3].fms(t1, c[2] * beta),
-        c[4].fms(t1, c[5] * beta),
-        c[5].fma(t1, c[4] * beta),
-        c[6].fma(T::lit(1.5).fnma(t0, T::lit(1.0)), c[7] * t2),
-        c[8].fma(beta, c[7].fms(t3, c[6] * t2)),
-        c[8].fms(t1, c[7] * beta),
-        c[9].fms(t4, c[10] * t5),
-        c[9].fma(t5, c[10].fms(t3, c[11] * t6)),
-        c[11].fma(T::lit(1.25).fnma(t0, T::lit(1.0)), c[10] * t6),
-        c[12].fma(T::lit(3.0).fnma(t0, T::lit(1.0)), c[13] * t7),
-        c[14].fma(t6, c[13].fms(T::lit(4.25).fnma(t0, T::lit(1.0)), c[12] * t7)),
-        c[15].fma(t5, c[14].fms(t3, c[13] * t6)),
-        c[15].fms(t4, c[14] * t5),
-        c[16].fms(t8, c[17] * t9),
-        c[16].fma(t9, c[17].fms(t10, c[18] * t11)),
-        c[17].fma(t11, c[18].fms(t12, c[19] * t13)),
-        c[19].fma(T::lit(2.25).fnma(t0, T::lit(1.0)), c[18] * t13),
-        c[20].fma(T::lit(5.0).fnma(t0, T::lit(1.0)), c[21] * t14),
-        c[22].fma(t13, c[21].fms(T::lit(7.25).fnma(t0, T::lit(1.0)), c[20] * t14)),
-        c[23].fma(t11, c[22].fms(t12, c[21] * t13)),
-        c[24].fma(t9, c[23].fms(t10, c[22] * t11)),
-        c[24].fms(t8, c[23] * t9),
-    ]
+    let mut r = [V::zero(); 25];
+    let half_square = T::lit(0.5) * beta * beta;
+    r[0] = c[0];
+    for i in 1..24 {
+        r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
+    }
+    r[24] = (c[23] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[24])).fma(beta, c[24] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[24]), T::lit(1.0)));
+
+        r
+
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

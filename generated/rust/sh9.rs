@@ -8,7 +8,8 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 83 live values.
-/// Error: f32 rounding at most 1.2e-6 of one, for dir of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 1.7e-6 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 81] {
@@ -173,7 +174,7 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 81] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 103 (53 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 50
 ///     live values.
-/// Error: f32 rounding at most 4e0 of one, for every unit q (twice the worst of 256 measured).
+/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 25] {
@@ -267,8 +268,8 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 25] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 177 (42 mul, 0 add, 135 fma); 92 constants, 14 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (twice the worst of 256 measured).
+/// Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (3 times the worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 81]) -> V {
@@ -353,7 +354,7 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 81]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 172 (86 mul, 1 add, 85 fma); 0 constants, 79 live values.
-/// Error: f32 rounding at most 2.8e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -469,7 +470,7 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 540 (88 mul, 1 add, 451 fma); 135 constants, 92 live values.
-/// Error: f32 rounding at most 5.2e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 7.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -831,7 +832,7 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
-/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -988,7 +989,7 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
-/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1145,7 +1146,7 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
-/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1725,7 +1726,7 @@ fn rotate_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81], [t339, t340, t34
 /// Returns the rotated coefficients.
 /// Operations: 902 (269 mul, 6 add, 627 fma) and 1 inverse square root or reciprocal; 135 constants,
 ///     122 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 4.6e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1828,7 +1829,7 @@ pub fn rotate_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 884 (260 mul, 3 add, 621 fma); 135 constants, 118 live values.
-/// Error: f32 rounding at most 6.1e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 9.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -2322,7 +2323,7 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 81]) -> [[T; 3];
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 799 (216 mul, 1 add, 582 fma); 134 constants, 90 live values.
-/// Error: f32 rounding at most 5.8e-7 of the norm of a band, for every angle (twice the worst of 256
+/// Error: f32 rounding at most 8.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -3194,7 +3195,7 @@ fn rotate_zxzxz_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81], [t320, t32
 /// Returns the rotated coefficients.
 /// Operations: 1012 (413 mul, 6 add, 593 fma) and 1 inverse square root or reciprocal; 108 constants,
 ///     125 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -3298,7 +3299,7 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// Returns the rotated coefficients.
 /// Operations: 718 (178 mul, 3 add, 537 fma) and 1 inverse square root or reciprocal; 135 constants,
 ///     121 live values.
-/// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every n of unit length (twice the
+/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every n of unit length (3 times the
 ///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -3735,8 +3736,8 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 234 (181 mul, 0 add, 53 fma); 87 constants, 93 live values.
-/// Error: f32 rounding at most 9.9e-7 of the norm of a band, for dir of unit length (twice the worst of
-///     256 measured).
+/// Error: f32 rounding at most 1.5e-6 of the norm of a band, for dir of unit length (3 times the worst
+///     of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> [V; 81] {
@@ -3905,9 +3906,9 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 81] {
 /// Returns the tilted coefficients.
 /// Operations: 489 (88 mul, 2 add, 399 fma) and 1 inverse square root or reciprocal; 77 constants, 93
 ///     live values.
-/// Error: f32 rounding at most 2e-4 of the norm of a band, for n of unit length within 45 degrees of z
-///     (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5,
-///     1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
+///     10, 5.5e-1 at 15, 2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 81]) -> [V; 81] {
@@ -5757,8 +5758,8 @@ fn zhf_part_3<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 81], [t14, t21, t2
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 3992 (1762 mul, 15 add, 2215 fma); 444 constants, 666 live values.
-/// Error: f32 rounding at most 2.8e-5 of the norm of a band, for every rotation matrix (twice the worst
-///     of 256 measured).
+/// Error: f32 rounding at most 4.2e-5 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 81]) -> [V; 81] {
@@ -5862,7 +5863,7 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 /// Operations: 487 (67 mul, 0 add, 420 fma); 340 constants, 81 live values.
-/// Error: f32 rounding at most 2.9e-6 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 4.4e-6 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -6104,7 +6105,7 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 /// Returns the rotated coefficients.
 /// Operations: 483 (62 mul, 1 add, 420 fma); 340 constants, 81 live values.
-/// Error: f32 rounding at most 6.2e-6 of the norm of a band, for every input (twice the worst of 256
+/// Error: f32 rounding at most 9.3e-6 of the norm of a band, for every input (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -6355,7 +6356,7 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 153 (25 mul, 0 add, 128 fma); 25 constants, 79 live values.
-/// Error: f32 rounding at most 6.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
 ///     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -6484,7 +6485,7 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 497 (197 mul, 2 add, 298 fma); 25 constants, 104 live values.
-/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
 ///     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -6785,7 +6786,7 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 81]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 270 (105 mul, 1 add, 164 fma); 60 constants, 88 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 8.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
 ///     10, 1.6e0 at 15, 5.2e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -6940,7 +6941,7 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 614 (277 mul, 3 add, 334 fma); 60 constants, 106 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
 ///     10, 1.6e0 at 15, 5.2e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -7267,7 +7268,7 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 81]) ->
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 302 (46 mul, 0 add, 256 fma); 46 constants, 87 live values.
-/// Error: f32 rounding at most 2.6e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at
 ///     10, 1.5e0 at 15, 5.7e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -7466,7 +7467,7 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 646 (218 mul, 2 add, 426 fma); 46 constants, 108 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at
 ///     10, 1.5e0 at 15, 5.7e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -7837,7 +7838,7 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 81]) -> 
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 293 (85 mul, 0 add, 208 fma); 39 constants, 88 live values.
-/// Error: f32 rounding at most 6.1e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
 ///     10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -8097,7 +8098,7 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 637 (257 mul, 2 add, 378 fma); 39 constants, 105 live values.
-/// Error: f32 rounding at most 4.3e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
 ///     10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -8452,686 +8453,233 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 81]) -> [[T;
     lf3_zyz::<T, Channels<T, 3>>(cs, beta, &c.map(Channels)).map(|v| v.0)
 }
 
+// y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_A: [f64; 36] = [
+    1.7320508075688772, 1.9364916731037085, 2.23606797749979, 1.9720265943665387, 2.091650066335189,
+    2.6457513110645907, 1.984313483298443, 2.04939015319192, 2.29128784747792, 3.0,
+    1.98997487421324, 2.03100960115899, 2.1712405933672376, 2.48746859276655, 3.3166247903554,
+    1.9930434571835662, 2.0213149892370277, 2.1139418156609704, 2.3013683530231086,
+    2.6739483914241875, 3.605551275463989, 1.9948914348241344, 2.0155644370746373,
+    2.0816659994661326, 2.207940216581962, 2.4308621740219887, 2.850438562747845, 3.872983346207417,
+    1.996089927833914, 2.011869540407391, 2.0615528128088303, 2.15322168769582, 2.3048861143232218,
+    2.557041559783794, 3.017804310611087, 4.123105625617661
+];
+
+// b, at the same places
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_B: [f64; 36] = [
+    0.0, 1.118033988749895, 0.0, 1.0183501544346312, 0.9354143466934853, 0.0, 1.0062305898749053,
+    0.9797958971132712, 0.8660254037844386, 0.0, 1.002853072844814, 0.9910312089651149,
+    0.9476070829586857, 0.82915619758885, 0.0, 1.0015420209622192, 0.9952267030562386,
+    0.9736101204623269, 0.9251848886516145, 0.8062257748298549, 0.0, 1.000927213921958,
+    0.9971550440218321, 0.9847319278346619, 0.959403223600247, 0.9090909090909091,
+    0.7905694150420949, 0.0, 1.0006007810695148, 0.9981668178901743, 0.9903379376602871,
+    0.9752173865600178, 0.9481763873554654, 0.8970695222838924, 0.7791937224739796, 0.0
+];
+
+// y_mm by y_(m-1)(m-1) and x + iy, from m = 1
+#[allow(clippy::approx_constant)]
+static BASIS_LOOP_SECTORAL: [f64; 8] = [
+    -1.7320508075688772, -1.118033988749895, -1.0801234497346435, -1.0606601717798212,
+    -1.0488088481701516, -1.0408329997330663, -1.0350983390135313, -1.0307764064044151
+];
+
 /// `basis:9:loop`: The spherical harmonics of order 9 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 83 live values.
-/// Error: f32 rounding at most 1.2e-6 of one, for dir of unit length (twice the worst of 256 measured).
+/// Operations: 212 (132 mul, 0 add, 80 fma); 80 constants, 81 live values.
+/// Error: f32 rounding at most 2.6e-6 of one, for dir of unit length (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 81] {
-    let t0 = T::lit(0.4886025119029199) * dir[1];
-    let t1 = T::lit(0.4886025119029199) * dir[2];
-    let t2 = T::lit(0.4886025119029199) * dir[0];
-    let t3 = t0 * (T::lit(2.23606797749979) * dir[0]);
-    let t4 = T::lit(2.23606797749979) * dir[2];
-    let t5 = t0 * t4;
-    let t6 = dir[2] * dir[2];
-    let t7 = T::lit(0.94617469575756).fms(t6, T::lit(0.31539156525252));
-    let t8 = t2 * t4;
-    let t9 = t2.fms(t2, t0 * t0);
-    let t10 = T::lit(2.2882280821594225) * t9;
-    let t11 = T::lit(1.0801234497346435) * dir[0];
-    let t12 = T::lit(1.0801234497346435) * dir[1];
-    let t13 = t3.fma(t11, t10 * t12);
-    let t14 = T::lit(2.6457513110645907) * dir[2];
-    let t15 = t3 * t14;
-    let t16 = T::lit(4.677071733467427).fms(t6, T::lit(0.9354143466934853));
-    let t17 = T::lit(3.8188130791298667).fms(t6, T::lit(2.29128784747792));
-    let t18 = t10 * t14;
-    let t19 = t3.fms(t12, t10 * t11);
-    let t20 = t3 * (T::lit(9.597724091861606) * t9);
-    let t21 = T::lit(3.0) * dir[2];
-    let t22 = t13 * t21;
-    let t23 = T::lit(6.06217782649107).fms(t6, T::lit(0.8660254037844386));
-    let t24 = T::lit(4.286607049870562).fms(t6, T::lit(1.8371173070873836));
-    let t25 = t7.fms(T::lit(3.913118960624632).fms(t6, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
-    let t26 = t19 * t21;
-    let t27 = t10.fms(t10, t3 * t3);
-    let t28 = T::lit(2.097195678763837) * t27;
-    let t29 = T::lit(1.0488088481701516) * dir[0];
-    let t30 = T::lit(1.0488088481701516) * dir[1];
-    let t31 = t20.fma(t29, t28 * t30);
-    let t32 = T::lit(3.3166247903554) * dir[2];
-    let t33 = t20 * t32;
-    let t34 = T::lit(7.46240577829965).fms(t6, T::lit(0.82915619758885));
-    let t35 = T::lit(4.9749371855331).fms(t6, T::lit(1.6583123951777));
-    let t36 = t16.fms(T::lit(4.162331077653483).fms(t6, T::lit(1.9424211695716251)), T::lit(0.8899438184514795));
-    let t37 = t17.fms(T::lit(3.948733974326455).fms(t6, T::lit(2.018241809100188)), T::lit(1.0340212763768453));
-    let t38 = t28 * t32;
-    let t39 = t20.fms(t30, t28 * t29);
-    let t40 = t13 * (T::lit(3.9246375605398574) * t19);
-    let t41 = T::lit(3.605551275463989) * dir[2];
-    let t42 = t31 * t41;
-    let t43 = T::lit(8.868483523128404).fms(t6, T::lit(0.8062257748298549));
-    let t44 = T::lit(5.724581498531865).fms(t6, T::lit(1.5612494995995996));
-    let t45 = t23.fms(T::lit(4.589876282179541).fms(t6, T::lit(1.847872269448906)), T::lit(0.7571332305895534));
-    let t46 = t24.fms(T::lit(4.105310150106984).fms(t6, T::lit(1.9726815007007585)), T::lit(0.9577062003457835));
-    let t47 = t25.fms(T::lit(3.966106403010388).fms(t6, T::lit(2.0088071391870796)), T::lit(1.0135409740718178) * t7);
-    let t48 = t39 * t41;
-    let t49 = T::lit(1.9623187802699287) * t19.fms(t19, t13 * t13);
-    let t50 = T::lit(1.0350983390135313) * dir[0];
-    let t51 = T::lit(1.0350983390135313) * dir[1];
-    let t52 = t40.fms(t50, t49 * t51);
-    let t53 = T::lit(3.872983346207417) * dir[2];
-    let t54 = T::lit(10.277402395547233).fms(t6, T::lit(0.7905694150420949));
-    let t55 = T::lit(6.5).fms(t6, T::lit(1.5));
-    let t56 = t34.fms(T::lit(5.081283739808716).fms(t6, T::lit(1.7806207977107464)), T::lit(0.6809176411426013));
-    let t57 = t35.fms(T::lit(4.400520802511145).fms(t6, T::lit(1.918175734427935)), T::lit(0.8845379626717031));
-    let t58 = t36.fms(T::lit(4.074090608432057).fms(t6, T::lit(1.9848133733386943)), T::lit(0.9788002281473555) * t16);
-    let t59 = t37.fms(T::lit(3.9759053219677782).fms(t6, T::lit(2.0049437093683666)), T::lit(1.006881027645312) * t17);
-    let t60 = t40.fma(t51, t49 * t50);
-    let t61 = T::lit(4.123105625617661) * dir[2];
-    let t62 = T::lit(11.687905837109694).fms(t6, T::lit(0.7791937224739796));
-    let t63 = T::lit(7.2886898685566255).fms(t6, T::lit(1.4577379737113252));
-    let t64 = t43.fms(T::lit(5.602860470736841).fms(t6, T::lit(1.731793236409569)), T::lit(0.6317721012983742));
-    let t65 = t44.fms(T::lit(4.754184759480086).fms(t6, T::lit(1.8728606628254887)), T::lit(0.8304859946005402));
-    let t66 = t45.fms(T::lit(4.291464396527911).fms(t6, T::lit(1.950665634785414)), T::lit(0.9349847648813038) * t23);
-    let t67 = t46.fms(T::lit(4.055052697678833).fms(t6, T::lit(1.9906622334059725)), T::lit(0.9877579401822195) * t24);
-    let t68 = t47.fms(T::lit(3.9819827001745995).fms(t6, T::lit(2.003057964330253)), T::lit(1.0040029932510537) * t25);
-    [
-        T::lit(0.28209479177387814),
-        -t0,
-        t1,
-        -t2,
-        t3,
-        -t5,
-        t7,
-        -t8,
-        t10,
-        -t13,
-        t15,
-        -(t0 * t16),
-        t17 * t1,
-        -(t2 * t16),
-        t18,
-        t19,
-        t20,
-        -t22,
-        t3 * t23,
-        -(t24 * t5),
-        t25,
-        -(t24 * t8),
-        t10 * t23,
-        t26,
-        t28,
-        -t31,
-        t33,
-        -(t13 * t34),
-        t35 * t15,
-        -(t0 * t36),
-        t37 * t1,
-        -(t2 * t36),
-        t35 * t18,
-        t19 * t34,
-        t38,
-        t39,
-        -t40,
-        -t42,
-        t20 * t43,
-        -(t44 * t22),
-        t3 * t45,
-        -(t46 * t5),
-        t47,
-        -(t46 * t8),
-        t10 * t45,
-        t44 * t26,
-        t28 * t43,
-        t48,
-        t49,
-        t52,
-        -(t40 * t53),
-        -(t31 * t54),
-        t55 * t33,
-        -(t13 * t56),
-        t57 * t15,
-        -(t0 * t58),
-        t59 * t1,
-        -(t2 * t58),
-        t57 * t18,
-        t19 * t56,
-        t55 * t38,
-        t39 * t54,
-        t49 * t53,
-        -t60,
-        t20 * (T::lit(7.806063300508846) * t27),
-        t52 * t61,
-        -(t40 * t62),
-        -(t63 * t42),
-        t20 * t64,
-        -(t65 * t22),
-        t3 * t66,
-        -(t67 * t5),
-        t68,
-        -(t67 * t8),
-        t10 * t66,
-        t65 * t26,
-        t28 * t64,
-        t63 * t48,
-        t49 * t62,
-        -(t60 * t61),
-        T::lit(1.8610717587187722) * t28.fms(t28, t20 * t20),
-    ]
+    let mut r = [T::zero(); 81];
+    r[0] = T::lit(0.28209479177387814);
+    let mut cos_last = T::lit(0.28209479177387814);
+    let mut cos_before = T::lit(0.0);
+    for l in 1..9 {
+        let at = l * (l - 1) / 2;
+        let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+        let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+        cos_before = cos_last;
+        cos_last = cos_next;
+        r[l * l + l] = cos_next;
+    }
+    let mut re = T::lit(0.28209479177387814);
+    let mut im = T::lit(0.0);
+    for m in 1..9 {
+        let kx = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[0];
+        let ky = T::lit(BASIS_LOOP_SECTORAL[m - 1]) * dir[1];
+        let turned = im.fnma(ky, re * kx);
+        im = re.fma(ky, im * kx);
+        re = turned;
+        r[m * m + m * 2] = re;
+        r[m * m] = im;
+        cos_last = re;
+        cos_before = T::lit(0.0);
+        let mut sin_last = im;
+        let mut sin_before = T::lit(0.0);
+        for l in m + 1..9 {
+            let at = l * (l - 1) / 2 + m;
+            let az = T::lit(BASIS_LOOP_A[at]) * dir[2];
+            let cos_next = cos_before.fnma(T::lit(BASIS_LOOP_B[at]), cos_last * az);
+            cos_before = cos_last;
+            cos_last = cos_next;
+            r[l * l + l + m] = cos_next;
+            let sin_next = sin_before.fnma(T::lit(BASIS_LOOP_B[at]), sin_last * az);
+            sin_before = sin_last;
+            sin_last = sin_next;
+            r[l * l + l - m] = sin_next;
+        }
+    }
+
+        r
+
 }
 
-#[allow(clippy::all, unused_variables)]
-#[inline(always)]
-fn rotate_loop_part_0<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81]) -> ([T; 18], [V; 85]) {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    let t9 = t0.fms(t6, t8);
-    let t10 = q[0] * t6;
-    let t11 = t0.fma(t7, t10);
-    let t12 = c[1].fma(t9, c[3] * t11);
-    let t13 = t0.fma(t6, t8);
-    let t14 = c[3].fms(t9, c[1] * t11);
-    let t15 = t2 - t3;
-    let t16 = T::lit(2.0) * (t4 * t5);
-    let t17 = t14.fms(t15, c[2] * t16);
-    let t18 = t0.fms(t7, t10);
-    let t19 = t9.fms(t9, t11 * t11);
-    let t20 = t9 * t11;
-    let t21 = t20 + t20;
-    let t22 = c[8].fms(t19, c[4] * t21);
-    let t23 = c[6].fnma(T::lit(1.7320508075688772), t22);
-    let t24 = t16 * t16;
-    let t25 = c[7].fms(t9, c[5] * t11);
-    let t26 = t15 * t16;
-    let t27 = t23.fma(T::lit(0.5) * t24, t25 * t26);
-    let t28 = t22 - t27;
-    let t29 = t13 * t18;
-    let t30 = t29 + t29;
-    let t31 = c[5].fma(t9, c[7] * t11);
-    let t32 = c[4].fma(t19, c[8] * t21);
-    let t33 = t31.fms(t16, t32 * t15);
-    let t34 = t13.fms(t13, t18 * t18);
-    let t35 = t31.fma(t15, t32 * t16);
-    let t36 = t15.fms(t15, t24);
-    let t37 = t25.fma(t36, t23 * t26);
-    let t38 = t9.fms(t19, t11 * t21);
-    let t39 = t9.fma(t21, t11 * t19);
-    let t40 = c[9].fma(t38, c[15] * t39);
-    let t41 = c[10].fma(t19, c[14] * t21);
-    let t42 = T::lit(2.0) * t26;
-    let t43 = c[11].fma(t9, c[13] * t11);
-    let t44 = t43.fms(T::lit(0.7905694150420949), t40 * T::lit(0.6123724356957945));
-    let t45 = t41.fma(t42, t44.fms(t36, t44));
-    let t46 = t45.fnma(T::lit(0.6123724356957945), t40);
-    let t47 = t13.fms(t34, t18 * t30);
-    let t48 = c[15].fms(t38, c[9] * t39);
-    let t49 = t48.fms(T::lit(0.12701665379258312), c[13].fms(t9, c[11] * t11));
-    let t50 = t49.fms(T::lit(0.25), t48);
-    let t51 = t50.fnma(T::lit(0.12701665379258312), t49);
-    let t52 = t15.fms(t36, t16 * t42);
-    let t53 = c[14].fms(t19, c[10] * t21);
-    let t54 = t53.fnma(T::lit(0.3419987131196464), c[12]);
-    let t55 = t54.fma(T::lit(0.6123724356957945), t53);
-    let t56 = t55.fnma(T::lit(0.3419987131196464), t54);
-    let t57 = t15.fma(t42, t16 * t36);
-    let t58 = t51.fma(t52, t56 * t57);
-    let t59 = t58.fms(T::lit(0.12701665379258312), t50.fma(t15, t55 * t16));
-    let t60 = t59.fms(T::lit(0.25), t58);
-    let t61 = t60.fnma(T::lit(0.12701665379258312), t59);
-    let t62 = t13.fma(t30, t18 * t34);
-    let t63 = t41.fms(t36, t44 * t42);
-    let t64 = t56.fms(t52, t51 * t57);
-    let t65 = t64.fnma(T::lit(0.3419987131196464), t55.fms(t15, t50 * t16));
-    let t66 = t65.fma(T::lit(0.6123724356957945), t64);
-    let t67 = t66.fnma(T::lit(0.3419987131196464), t65);
-    let t68 = t45.fma(T::lit(0.7905694150420949), t43);
-    let t69 = t9.fms(t38, t11 * t39);
-    let t70 = t9.fma(t39, t11 * t38);
-    let t71 = c[16].fma(t69, c[24] * t70);
-    let t72 = t71.fnma(T::lit(0.18267581368159952), c[18].fma(t19, c[22] * t21));
-    let t73 = t72.fma(T::lit(0.3535533905932738), t71);
-    let t74 = c[19].fma(t9, c[21] * t11);
-    let t75 = t74.fnma(T::lit(0.37796447300922725), c[17].fma(t38, c[23] * t39));
-    let t76 = t75.fma(T::lit(0.6614378277661477), t74);
-    let t77 = t73.fnma(T::lit(0.18267581368159952), t72);
-    let t78 = t76.fnma(T::lit(0.37796447300922725), t75);
-    let t79 = t77.fma(t52, t78 * t57);
-    let t80 = t79.fnma(T::lit(0.18267581368159952), t73.fms(t15, t76 * t16));
-    let t81 = t80.fma(T::lit(0.3535533905932738), t79);
-    let t82 = t81.fnma(T::lit(0.18267581368159952), t80);
-    let t83 = t13.fms(t47, t18 * t62);
-    let t84 = c[24].fms(t69, c[16] * t70);
-    let t85 = c[23].fms(t38, c[17] * t39);
-    let t86 = t85.fnma(T::lit(0.18267581368159952), c[21].fms(t9, c[19] * t11));
-    let t87 = t86.fma(T::lit(0.3535533905932738), t85);
-    let t88 = t87.fnma(T::lit(0.18267581368159952), t86);
-    let t89 = t15.fma(t57, t16 * t52);
-    let t90 = c[22].fms(t19, c[18] * t21);
-    let t91 = c[20].fma(T::lit(0.739509972887452), t84.fms(T::lit(0.125), t90 * T::lit(0.6614378277661477)));
-    let t92 = t15.fms(t52, t16 * t57);
-    let t93 = t88.fma(t89, t91.fms(t92, t91));
-    let t94 = c[20].fma(T::lit(0.5590169943749475), t90.fms(T::lit(0.5), t84 * T::lit(0.6614378277661477)));
-    let t95 = t87.fma(t42, t94.fms(t36, t94));
-    let t96 = t95.fnma(T::lit(0.6614378277661477), t93.fma(T::lit(0.125), t84));
-    let t97 = t13.fma(t62, t18 * t47);
-    let t98 = t76.fma(t15, t73 * t16);
-    let t99 = t98.fma(T::lit(0.37796447300922725), t78.fms(t52, t77 * t57));
-    let t100 = t99.fnma(T::lit(0.6614378277661477), t98);
-    let t101 = t100.fma(T::lit(0.37796447300922725), t99);
-    let t102 = t88.fms(t92, t91 * t89);
-    let t103 = t102.fnma(T::lit(0.18267581368159952), t87.fms(t36, t94 * t42));
-    let t104 = t103.fma(T::lit(0.3535533905932738), t102);
-    let t105 = t104.fnma(T::lit(0.18267581368159952), t103);
-    let t106 = t95.fma(T::lit(0.5), t93.fnma(T::lit(0.6614378277661477), t90));
-    let t107 = t9.fms(t69, t11 * t70);
-    let t108 = t9.fma(t70, t11 * t69);
-    let t109 = c[25].fma(t107, c[35] * t108);
-    let t110 = c[26].fma(t69, c[34] * t70);
-    let t111 = t110.fms(T::lit(0.2679491924311227), c[28].fma(t19, c[32] * t21));
-    let t112 = t111.fms(T::lit(0.5), t110);
-    let t113 = t112.fnma(T::lit(0.2679491924311227), t111);
-    let t114 = c[27].fma(t38, c[33] * t39);
-    let t115 = c[29].fma(t9, c[31] * t11);
-    let t116 = t115.fnma(T::lit(0.57282196186948), t114.fms(T::lit(0.795495128834866), t109 * T::lit(0.19764235376052372)));
-    let t117 = t113.fma(t89, t116.fms(t92, t116));
-    let t118 = t115.fnma(T::lit(0.6614378277661477), t109.fms(T::lit(0.6846531968814576), t114 * T::lit(0.30618621784789724)));
-    let t119 = t112.fma(t42, t118.fms(t36, t118));
-    let t120 = t119.fma(T::lit(0.6846531968814576), t117.fnma(T::lit(0.19764235376052372), t109));
-    let t121 = t13.fms(t83, t18 * t97);
-    let t122 = c[35].fms(t107, c[25] * t108);
-    let t123 = t122.fma(T::lit(0.9660917830792959), c[31].fms(t9, c[29] * t11));
-    let t124 = t122.fnma(T::lit(0.4472135954999579), c[33].fms(t38, c[27] * t39));
-    let t125 = t123.fms(T::lit(0.9057110466368399), t124.fma(T::lit(0.4192627457812106), t122));
-    let t126 = t125.fnma(T::lit(0.9660917830792959), t123);
-    let t127 = c[32].fms(t19, c[28] * t21);
-    let t128 = t127.fms(T::lit(0.07470077493066175), c[30]);
-    let t129 = t128.fms(T::lit(0.14857248482346963), t127);
-    let t130 = c[34].fms(t69, c[26] * t70);
-    let t131 = t129.fnma(T::lit(0.07470077493066175), t128);
-    let t132 = t129.fma(T::lit(0.4782913363666992), t131.fnma(T::lit(0.6642175991330467), t130));
-    let t133 = t132.fnma(T::lit(0.57282196186948), t129);
-    let t134 = t15.fms(t92, t16 * t89);
-    let t135 = t132.fnma(T::lit(1.1976423537605236), t130);
-    let t136 = t15.fma(t89, t16 * t92);
-    let t137 = t125.fma(t134, t135 * t136);
-    let t138 = t137.fma(T::lit(0.9660917830792959), t126.fma(t15, t133 * t16));
-    let t139 = t125.fma(T::lit(0.4472135954999579), t124);
-    let t140 = t132.fma(T::lit(0.795495128834866), t131);
-    let t141 = t137.fnma(T::lit(0.4472135954999579), t139.fma(t52, t140 * t57));
-    let t142 = t138.fms(T::lit(0.9057110466368399), t141.fma(T::lit(0.4192627457812106), t137));
-    let t143 = t13.fma(t97, t18 * t83);
-    let t144 = t113.fms(t92, t116 * t89);
-    let t145 = t144.fms(T::lit(0.2679491924311227), t112.fms(t36, t118 * t42));
-    let t146 = t145.fms(T::lit(0.5), t144);
-    let t147 = t146.fnma(T::lit(0.2679491924311227), t145);
-    let t148 = t135.fms(t134, t125 * t136);
-    let t149 = t140.fms(t52, t139 * t57);
-    let t150 = t149.fms(T::lit(0.07470077493066175), t133.fms(t15, t126 * t16));
-    let t151 = t150.fms(T::lit(0.14857248482346963), t149);
-    let t152 = t151.fnma(T::lit(0.07470077493066175), t150);
-    let t153 = t151.fma(T::lit(0.5857848612461443), t152.fnma(T::lit(0.5716674888222586), t148));
-    let t154 = t153.fnma(T::lit(1.1976423537605236), t148);
-    let t155 = t119.fnma(T::lit(0.30618621784789724), t117.fma(T::lit(0.795495128834866), t114));
-    let t156 = t142.fma(T::lit(0.4472135954999579), t141);
-    let t157 = t153.fma(T::lit(0.6846531968814576), t152);
-    let t158 = t119.fnma(T::lit(0.6614378277661477), t117.fnma(T::lit(0.57282196186948), t115));
-    let t159 = t142.fnma(T::lit(0.9660917830792959), t138);
-    let t160 = t9.fms(t107, t11 * t108);
-    let t161 = t9.fma(t108, t11 * t107);
-    let t162 = c[36].fma(t160, c[48] * t161);
-    let t163 = c[38].fma(t69, c[46] * t70);
-    let t164 = t163.fma(T::lit(0.2314947914883282), c[40].fma(t19, c[44] * t21));
-    let t165 = t164.fms(T::lit(0.43944006107905326), t163);
-    let t166 = t165.fms(T::lit(0.2314947914883282), t164);
-    let t167 = t165.fma(T::lit(0.7935487796743744), t166.fnma(T::lit(0.4182369297030256), t162));
-    let t168 = t167.fnma(T::lit(1.108253175473055), t162);
-    let t169 = c[39].fma(t38, c[45] * t39);
-    let t170 = t169.fnma(T::lit(0.8563488385776753), c[37].fma(t107, c[47] * t108));
-    let t171 = t169.fma(T::lit(0.6324555320336759), c[41].fma(t9, c[43] * t11));
-    let t172 = t171.fms(T::lit(0.5929270612815711), t170.fma(T::lit(0.8028270361665706), t169));
-    let t173 = t172.fma(T::lit(0.8563488385776753), t170);
-    let t174 = t168.fma(t134, t173 * t136);
-    let t175 = t167.fnma(T::lit(0.879452954966893), t165);
-    let t176 = t172.fnma(T::lit(0.6324555320336759), t171);
-    let t177 = t167.fma(T::lit(0.46351240544347894), t166);
-    let t178 = t177.fma(t52, t172 * t57);
-    let t179 = t178.fma(T::lit(0.2314947914883282), t175.fma(t15, t176 * t16));
-    let t180 = t179.fms(T::lit(0.43944006107905326), t178);
-    let t181 = t180.fms(T::lit(0.2314947914883282), t179);
-    let t182 = t180.fma(T::lit(0.7244076118472532), t181.fnma(T::lit(0.5290325197829163), t174));
-    let t183 = t182.fnma(T::lit(1.108253175473055), t174);
-    let t184 = t13.fms(t121, t18 * t143);
-    let t185 = c[44].fms(t19, c[40] * t21);
-    let t186 = c[42].fnma(T::lit(0.7443873683187767), t185.fma(T::lit(0.674199862463242), c[48].fms(t160, c[36] * t161)));
-    let t187 = c[42].fnma(T::lit(0.37796447300922725), c[46].fms(t69, c[38] * t70));
-    let t188 = t187.fma(T::lit(0.49607837082461076), t186.fma(T::lit(0.6716932893813962), c[42]));
-    let t189 = t187.fnma(T::lit(0.1711632992203644), t186.fms(T::lit(0.6952686081652184), t185));
-    let t190 = t188.fnma(T::lit(0.7443873683187767), t189.fnma(T::lit(0.674199862463242), t186));
-    let t191 = t15.fms(t134, t16 * t136);
-    let t192 = c[47].fms(t107, c[37] * t108);
-    let t193 = c[45].fms(t38, c[39] * t39);
-    let t194 = t193.fma(T::lit(0.2314947914883282), c[43].fms(t9, c[41] * t11));
-    let t195 = t194.fms(T::lit(0.43944006107905326), t193);
-    let t196 = t195.fms(T::lit(0.2314947914883282), t194);
-    let t197 = t195.fma(T::lit(0.7244076118472532), t196.fnma(T::lit(0.5290325197829163), t192));
-    let t198 = t197.fnma(T::lit(1.108253175473055), t192);
-    let t199 = t15.fma(t136, t16 * t134);
-    let t200 = t197.fnma(T::lit(0.8028270361665706), t195);
-    let t201 = t189.fma(t36, t200 * t42);
-    let t202 = t188.fma(T::lit(0.7443873683187767), t201.fma(T::lit(0.674199862463242), t190.fma(t191, t198 * t199)));
-    let t203 = t188.fnma(T::lit(0.37796447300922725), t187);
-    let t204 = t197.fma(T::lit(0.5863019699779287), t196);
-    let t205 = t188.fma(T::lit(0.37796447300922725), t203.fma(t92, t204 * t89));
-    let t206 = t205.fnma(T::lit(0.1711632992203644), t202.fms(T::lit(0.6952686081652184), t201));
-    let t207 = t205.fnma(T::lit(0.49607837082461076), t202.fnma(T::lit(0.6716932893813962), t188));
-    let t208 = t207.fma(T::lit(0.7443873683187767), t206.fnma(T::lit(0.674199862463242), t202));
-    let t209 = t13.fma(t143, t18 * t121);
-    let t210 = t172.fms(t52, t177 * t57);
-    let t211 = t210.fnma(T::lit(0.8563488385776753), t173.fms(t134, t168 * t136));
-    let t212 = t210.fma(T::lit(0.6324555320336759), t176.fms(t15, t175 * t16));
-    let t213 = t212.fms(T::lit(0.5929270612815711), t211.fma(T::lit(0.8028270361665706), t210));
-    let t214 = t213.fma(T::lit(0.8563488385776753), t211);
-    let t215 = t198.fms(t191, t190 * t199);
-    let t216 = t204.fms(t92, t203 * t89);
-    let t217 = t216.fma(T::lit(0.2314947914883282), t200.fms(t36, t189 * t42));
-    let t218 = t217.fms(T::lit(0.43944006107905326), t216);
-    let t219 = t218.fms(T::lit(0.2314947914883282), t217);
-    let t220 = t218.fma(T::lit(0.7935487796743744), t219.fnma(T::lit(0.4182369297030256), t215));
-    let t221 = t220.fnma(T::lit(1.108253175473055), t215);
-    let t222 = t182.fma(T::lit(0.5863019699779287), t181);
-    let t223 = t207.fma(T::lit(0.37796447300922725), t205);
-    let t224 = t220.fma(T::lit(0.46351240544347894), t219);
-    let t225 = t182.fnma(T::lit(0.8028270361665706), t180);
-    let t226 = t213.fnma(T::lit(0.6324555320336759), t212);
-    let t227 = t220.fnma(T::lit(0.879452954966893), t218);
-    let t228 = t9.fms(t160, t11 * t161);
-    let t229 = t9.fma(t161, t11 * t160);
-    let t230 = c[49].fma(t228, c[63] * t229);
-    let t231 = c[50].fma(t160, c[62] * t161);
-    let t232 = t231.fma(T::lit(0.9198662110077999), c[54].fma(t19, c[58] * t21));
-    let t233 = t231.fnma(T::lit(0.7844645405527362), c[52].fma(t69, c[60] * t70));
-    let t234 = t232.fms(T::lit(0.7473912964438374), t233.fma(T::lit(0.6373774391990981), t231));
-    let t235 = c[51].fma(t107, c[61] * t108);
-    let t236 = c[53].fma(t38, c[59] * t39);
-    let t237 = t236.fnma(T::lit(0.7927281808728639), t235.fms(T::lit(0.3983608994994363), t230 * T::lit(0.05846339666834283)));
-    let t238 = c[55].fma(t9, c[57] * t11);
-    let t239 = t238.fma(T::lit(0.4576818286211503), t237);
-    let t240 = t234.fma(t199, t239.fms(t191, t239));
-    let t241 = t234.fma(T::lit(0.7844645405527362), t233);
-    let t242 = t236.fnma(T::lit(0.10364452469860624), t230.fms(T::lit(0.2981060004427955), t235 * T::lit(0.78125)));
-    let t243 = t238.fma(T::lit(0.5385527481129402), t242);
-    let t244 = t241.fma(t89, t243.fms(t92, t243));
-    let t245 = t234.fnma(T::lit(0.9198662110077999), t232);
-    let t246 = t236.fma(T::lit(0.4198446513295126), t235.fms(T::lit(0.07328774624724109), t230 * T::lit(0.6991205412874092)));
-    let t247 = t238.fma(T::lit(0.5740991584648074), t246);
-    let t248 = t245.fma(t42, t247.fms(t36, t247));
-    let t249 = t248.fnma(T::lit(0.6991205412874092), t244.fma(T::lit(0.2981060004427955), t240.fnma(T::lit(0.05846339666834283), t230)));
-    let t250 = t13.fms(t184, t18 * t209);
-    let t251 = c[59].fms(t38, c[53] * t39);
-    let t252 = c[57].fms(t9, c[55] * t11);
-    let t253 = t252.fnma(T::lit(0.8941665390372195), t251.fma(T::lit(0.4424976788687098), c[63].fms(t228, c[49] * t229)));
-    let t254 = t252.fnma(T::lit(0.3481553119113957), t251.fnma(T::lit(0.30151134457776363), c[61].fms(t107, c[51] * t108)));
-    let t255 = t254.fnma(T::lit(0.5700448858423344), t253.fms(T::lit(0.4943528756111367), t251));
-    let t256 = t254.fma(T::lit(0.4487939567607835), t253.fma(T::lit(0.8562442974262661), t252));
-    let t257 = t256.fnma(T::lit(0.8941665390372195), t255.fnma(T::lit(0.4424976788687098), t253));
-    let t258 = t15.fms(t191, t16 * t199);
-    let t259 = c[62].fms(t160, c[50] * t161);
-    let t260 = c[60].fms(t69, c[52] * t70);
-    let t261 = c[56].fnma(T::lit(0.09890017377715879), c[58].fms(t19, c[54] * t21));
-    let t262 = t261.fma(T::lit(0.19588435481103358), c[56]);
-    let t263 = t262.fnma(T::lit(0.09890017377715879), t261);
-    let t264 = t262.fnma(T::lit(0.39989947557914424), t263.fma(T::lit(0.19586452743128893), t260));
-    let t265 = t264.fnma(T::lit(1.6690554972364986), t260);
-    let t266 = t264.fnma(T::lit(0.3269087662228218), t263);
-    let t267 = t264.fma(T::lit(0.6674544180573636), t262);
-    let t268 = t267.fnma(T::lit(0.4324021312987922), t266.fma(T::lit(0.7489424607105767), t265.fnma(T::lit(0.37635774723370813), t259)));
-    let t269 = t268.fnma(T::lit(1.0584633966683428), t259);
-    let t270 = t15.fma(t199, t16 * t191);
-    let t271 = t268.fnma(T::lit(0.7927281808728639), t266);
-    let t272 = t255.fma(t52, t271 * t57);
-    let t273 = t268.fma(T::lit(0.4576818286211503), t267);
-    let t274 = t273.fms(t16, t256 * t15);
-    let t275 = t274.fnma(T::lit(0.8941665390372195), t272.fma(T::lit(0.4424976788687098), t257.fma(t258, t269 * t270)));
-    let t276 = t256.fnma(T::lit(0.3481553119113957), t255.fma(T::lit(0.30151134457776363), t254));
-    let t277 = t268.fma(T::lit(0.3983608994994363), t265);
-    let t278 = t274.fnma(T::lit(0.3481553119113957), t272.fnma(T::lit(0.30151134457776363), t276.fma(t134, t277 * t136)));
-    let t279 = t278.fnma(T::lit(0.5700448858423344), t275.fms(T::lit(0.4943528756111367), t272));
-    let t280 = t278.fma(T::lit(0.4487939567607835), t275.fma(T::lit(0.8562442974262661), t274));
-    let t281 = t280.fnma(T::lit(0.8941665390372195), t279.fnma(T::lit(0.4424976788687098), t275));
-    let t282 = t13.fma(t209, t18 * t184);
-    let t283 = t234.fms(t191, t239 * t199);
-    let t284 = t283.fma(T::lit(0.9198662110077999), t245.fms(t36, t247 * t42));
-    let t285 = t283.fnma(T::lit(0.7844645405527362), t241.fms(t92, t243 * t89));
-    let t286 = t284.fms(T::lit(0.7473912964438374), t285.fma(T::lit(0.6373774391990981), t283));
-    let t287 = t269.fms(t258, t257 * t270);
-    let t288 = t277.fms(t134, t276 * t136);
-    let t289 = t273.fma(t15, t256 * t16);
-    let t290 = t289.fma(T::lit(0.09890017377715879), t271.fms(t52, t255 * t57));
-    let t291 = t290.fnma(T::lit(0.19588435481103358), t289);
-    let t292 = t291.fma(T::lit(0.09890017377715879), t290);
-    let t293 = t291.fnma(T::lit(0.43051902093225175), t292.fma(T::lit(0.11373599381854493), t288));
-    let t294 = t293.fnma(T::lit(1.6690554972364986), t288);
-    let t295 = t293.fnma(T::lit(0.18983168571649886), t292);
-    let t296 = t293.fma(T::lit(0.7185601385518501), t291);
-    let t297 = t296.fnma(T::lit(0.6115089584817837), t295.fma(T::lit(0.660505165778983), t294.fnma(T::lit(0.2816403490013208), t287)));
-    let t298 = t297.fnma(T::lit(1.0584633966683428), t287);
-    let t299 = t248.fma(T::lit(0.07328774624724109), t244.fnma(T::lit(0.78125), t240.fma(T::lit(0.3983608994994363), t235)));
-    let t300 = t280.fnma(T::lit(0.3481553119113957), t279.fma(T::lit(0.30151134457776363), t278));
-    let t301 = t286.fma(T::lit(0.7844645405527362), t285);
-    let t302 = t297.fma(T::lit(0.2981060004427955), t294);
-    let t303 = t248.fma(T::lit(0.4198446513295126), t244.fnma(T::lit(0.10364452469860624), t240.fnma(T::lit(0.7927281808728639), t236)));
-    let t304 = t286.fnma(T::lit(0.9198662110077999), t284);
-    let t305 = t297.fnma(T::lit(0.6991205412874092), t295);
-    let t306 = t248.fma(T::lit(0.5740991584648074), t244.fma(T::lit(0.5385527481129402), t240.fma(T::lit(0.4576818286211503), t238)));
-    let t307 = t9.fms(t228, t11 * t229);
-    let t308 = t9.fma(t229, t11 * t228);
-    let t309 = c[64].fma(t307, c[80] * t308);
-    let t310 = c[66].fma(t160, c[78] * t161);
-    let t311 = c[70].fma(t19, c[74] * t21);
-    let t312 = t311.fma(T::lit(0.08993260086675513), c[68].fma(t69, c[76] * t70));
-    let t313 = t312.fnma(T::lit(0.17842214612899737), t311);
-    let t314 = t313.fma(T::lit(0.08993260086675513), t312);
-    let t315 = t313.fnma(T::lit(0.40035952127233077), t314.fnma(T::lit(0.20615658802137818), t310));
-    let t316 = t315.fnma(T::lit(1.6628030259735311), t310);
-    let t317 = t315.fma(T::lit(0.3427977983863263), t314);
-    let t318 = t315.fma(T::lit(0.6657190234489458), t313);
-    let t319 = t318.fnma(T::lit(0.8102873913406629), t317.fma(T::lit(0.5006882315714638), t316.fnma(T::lit(0.17927514494241262), t309)));
-    let t320 = t319.fnma(T::lit(1.03125), t309);
-    let t321 = c[69].fma(t38, c[75] * t39);
-    let t322 = c[71].fma(t9, c[73] * t11);
-    let t323 = t322.fnma(T::lit(0.5609681940050744), t321.fma(T::lit(0.8473185457363234), c[65].fma(t228, c[79] * t229)));
-    let t324 = t322.fnma(T::lit(0.4424976788687098), t321.fma(T::lit(0.35805743701971643), c[67].fma(t107, c[77] * t108)));
-    let t325 = t324.fma(T::lit(0.2181912506838897), t323.fms(T::lit(0.7745021082121081), t321));
-    let t326 = t324.fma(T::lit(0.4943528756111367), t323.fma(T::lit(0.4178044361600293), t322));
-    let t327 = t326.fnma(T::lit(0.5609681940050744), t325.fnma(T::lit(0.8473185457363234), t323));
-    let t328 = t320.fma(t258, t327 * t270);
-    let t329 = t319.fma(T::lit(0.184877493221863), t316);
-    let t330 = t326.fnma(T::lit(0.4424976788687098), t325.fnma(T::lit(0.35805743701971643), t324));
-    let t331 = t329.fma(t134, t330 * t136);
-    let t332 = t319.fnma(T::lit(0.516334738808072), t317);
-    let t333 = t319.fma(T::lit(0.8356088723200586), t318);
-    let t334 = t333.fms(t15, t326 * t16);
-    let t335 = t334.fnma(T::lit(0.08993260086675513), t332.fma(t52, t325 * t57));
-    let t336 = t335.fma(T::lit(0.17842214612899737), t334);
-    let t337 = t336.fnma(T::lit(0.08993260086675513), t335);
-    let t338 = t336.fnma(T::lit(0.4307182662175864), t337.fnma(T::lit(0.13141560106982153), t331));
-    let t339 = t338.fnma(T::lit(1.6628030259735311), t331);
-    let t340 = t338.fma(T::lit(0.21851825911902967), t337);
-    let t341 = t338.fma(T::lit(0.7161996364086757), t336);
-    let t342 = t341.fnma(T::lit(0.6779350703393059), t340.fma(T::lit(0.6463857275061073), t339.fnma(T::lit(0.2489647988659846), t328)));
-    let t343 = t342.fnma(T::lit(1.03125), t328);
-    let t344 = t13.fms(t250, t18 * t282);
-    let t345 = c[76].fms(t69, c[68] * t70);
-    let t346 = c[74].fms(t19, c[70] * t21);
-    let t347 = t346.fnma(T::lit(1.4750675156833248), t345.fnma(T::lit(0.11720180773462385), c[80].fms(t307, c[64] * t308)));
-    let t348 = t346.fnma(T::lit(0.44884875121270135), t345.fnma(T::lit(0.6847367880174606), c[78].fms(t160, c[66] * t161)));
-    let t349 = t346.fma(T::lit(1.1952286093343936), t345.fma(T::lit(0.6267831705280087), c[72]));
-    let t350 = t349.fma(T::lit(0.4113264556590057), t348.fnma(T::lit(0.7302075903467452), t347.fms(T::lit(0.3332926407453366), t345)));
-    let t351 = t349.fms(T::lit(0.3921843874378479), t347.fma(T::lit(0.6991205412874092), t346));
-    let t352 = t351.fma(T::lit(1.4750675156833248), t350.fma(T::lit(0.11720180773462385), t347));
-    let t353 = t15.fms(t258, t16 * t270);
-    let t354 = c[79].fms(t228, c[65] * t229);
-    let t355 = c[77].fms(t107, c[67] * t108);
-    let t356 = c[73].fms(t9, c[71] * t11);
-    let t357 = t356.fnma(T::lit(0.08993260086675513), c[75].fms(t38, c[69] * t39));
-    let t358 = t357.fma(T::lit(0.17842214612899737), t356);
-    let t359 = t358.fnma(T::lit(0.08993260086675513), t357);
-    let t360 = t358.fnma(T::lit(0.4307182662175864), t359.fnma(T::lit(0.13141560106982153), t355));
-    let t361 = t360.fnma(T::lit(1.6628030259735311), t355);
-    let t362 = t360.fma(T::lit(0.21851825911902967), t359);
-    let t363 = t360.fma(T::lit(0.7161996364086757), t358);
-    let t364 = t363.fnma(T::lit(0.6779350703393059), t362.fma(T::lit(0.6463857275061073), t361.fnma(T::lit(0.2489647988659846), t354)));
-    let t365 = t364.fnma(T::lit(1.03125), t354);
-    let t366 = t15.fma(t270, t16 * t258);
-    let t367 = t364.fnma(T::lit(0.6665852814906732), t362);
-    let t368 = t350.fma(t92, t367 * t89);
-    let t369 = t364.fma(T::lit(0.6991205412874092), t363);
-    let t370 = t351.fma(t36, t369 * t42);
-    let t371 = t370.fnma(T::lit(1.4750675156833248), t368.fnma(T::lit(0.11720180773462385), t352.fma(t353, t365 * t366)));
-    let t372 = t351.fma(T::lit(0.44884875121270135), t350.fma(T::lit(0.6847367880174606), t348));
-    let t373 = t364.fma(T::lit(0.2567449488305466), t361);
-    let t374 = t370.fnma(T::lit(0.44884875121270135), t368.fnma(T::lit(0.6847367880174606), t372.fma(t191, t373 * t199)));
-    let t375 = t368.fma(T::lit(0.6267831705280087), t351.fnma(T::lit(1.1952286093343936), t350.fnma(T::lit(0.6267831705280087), t349)));
-    let t376 = t370.fma(T::lit(1.1952286093343936), t375);
-    let t377 = t376.fma(T::lit(0.4113264556590057), t374.fnma(T::lit(0.7302075903467452), t371.fms(T::lit(0.3332926407453366), t368)));
-    let t378 = t376.fms(T::lit(0.3921843874378479), t371.fma(T::lit(0.6991205412874092), t370));
-    let t379 = t378.fma(T::lit(1.4750675156833248), t377.fma(T::lit(0.11720180773462385), t371));
-    let t380 = t13.fma(t282, t18 * t250);
-    let t381 = t325.fms(t52, t332 * t57);
-    let t382 = t326.fma(t15, t333 * t16);
-    let t383 = t382.fma(T::lit(0.5609681940050744), t381.fma(T::lit(0.8473185457363234), t327.fms(t258, t320 * t270)));
-    let t384 = t382.fma(T::lit(0.4424976788687098), t381.fma(T::lit(0.35805743701971643), t330.fms(t134, t329 * t136)));
-    let t385 = t384.fma(T::lit(0.2181912506838897), t383.fms(T::lit(0.7745021082121081), t381));
-    let t386 = t384.fnma(T::lit(0.4943528756111367), t383.fnma(T::lit(0.4178044361600293), t382));
-    let t387 = t386.fma(T::lit(0.5609681940050744), t385.fnma(T::lit(0.8473185457363234), t383));
-    let t388 = t365.fms(t353, t352 * t366);
-    let t389 = t373.fms(t191, t372 * t199);
-    let t390 = t369.fms(t36, t351 * t42);
-    let t391 = t390.fma(T::lit(0.08993260086675513), t367.fms(t92, t350 * t89));
-    let t392 = t391.fnma(T::lit(0.17842214612899737), t390);
-    let t393 = t392.fma(T::lit(0.08993260086675513), t391);
-    let t394 = t392.fnma(T::lit(0.40035952127233077), t393.fnma(T::lit(0.20615658802137818), t389));
-    let t395 = t394.fnma(T::lit(1.6628030259735311), t389);
-    let t396 = t394.fma(T::lit(0.3427977983863263), t393);
-    let t397 = t394.fma(T::lit(0.6657190234489458), t392);
-    let t398 = t397.fnma(T::lit(0.8102873913406629), t396.fma(T::lit(0.5006882315714638), t395.fnma(T::lit(0.17927514494241262), t388)));
-    let t399 = t398.fnma(T::lit(1.03125), t388);
-    ([t13, t15, t16, t18, t30, t34, t47, t62, t83, t97, t121, t143, t184, t209, t250, t282, t344, t380], [t12, t14, t17, t27, t28, t33, t35, t37, t46, t60, t61, t63, t66, t67, t68, t81, t82, t93, t95, t96, t100, t101, t104, t105, t106, t120, t142, t146, t147, t151, t153, t154, t155, t156, t157, t158, t159, t183, t206, t207, t208, t213, t214, t221, t222, t223, t224, t225, t226, t227, t249, t279, t280, t281, t286, t296, t297, t298, t299, t300, t301, t302, t303, t304, t305, t306, t339, t340, t341, t342, t343, t374, t376, t377, t378, t379, t384, t385, t386, t387, t395, t396, t397, t398, t399])
-}
-
-#[allow(clippy::all, unused_variables)]
-#[inline(always)]
-fn rotate_loop_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81], [t339, t340, t341, t342, t374, t377, t378, t384, t385, t386, t395, t396, t397, t398]: [V; 14]) -> [V; 8] {
-    let t400 = t342.fma(T::lit(0.2567449488305466), t339);
-    let t401 = t378.fma(T::lit(0.44884875121270135), t377.fma(T::lit(0.6847367880174606), t374));
-    let t402 = t386.fma(T::lit(0.4424976788687098), t385.fnma(T::lit(0.35805743701971643), t384));
-    let t403 = t398.fma(T::lit(0.184877493221863), t395);
-    let t404 = t342.fnma(T::lit(0.6665852814906732), t340);
-    let t405 = t398.fnma(T::lit(0.516334738808072), t396);
-    let t406 = t342.fma(T::lit(0.6991205412874092), t341);
-    let t407 = t398.fma(T::lit(0.8356088723200586), t397);
-    [t400, t401, t402, t403, t404, t405, t406, t407]
-}
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+#[allow(clippy::approx_constant)]
+static ROTATE_LOOP_J: [f64; 248] = [
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254037844386, -1.0, -0.8660254037844386, 0.5,
+    0.7905694150420949, -0.6123724356957945, 1.0, 0.6123724356957945, 0.7905694150420949,
+    0.7905694150420949, 0.6123724356957945, -0.25, -0.9682458365518543, -0.6123724356957945,
+    0.7905694150420949, -0.9682458365518543, 0.25, 0.9354143466934853, -0.3535533905932738, 0.75,
+    -0.6614378277661477, 0.3535533905932738, 0.9354143466934853, -0.6614378277661477, -0.75, 0.375,
+    0.5590169943749475, 0.739509972887452, 0.9354143466934853, 0.3535533905932738,
+    0.5590169943749475, 0.5, -0.6614378277661477, -0.3535533905932738, 0.9354143466934853,
+    0.739509972887452, -0.6614378277661477, 0.125, -0.701560760020114, 0.6846531968814576,
+    -0.19764235376052372, 0.5, -0.8660254037844386, -0.5229125165837972, -0.30618621784789724,
+    0.795495128834866, -0.8660254037844386, -0.5, -0.4841229182759271, -0.6614378277661477,
+    -0.57282196186948, -0.701560760020114, -0.5229125165837972, -0.4841229182759271, 0.125,
+    0.4050462936504913, 0.9057110466368399, 0.6846531968814576, -0.30618621784789724,
+    -0.6614378277661477, 0.4050462936504913, 0.8125, -0.4192627457812106, -0.19764235376052372,
+    0.795495128834866, -0.57282196186948, 0.9057110466368399, -0.4192627457812106, 0.0625,
+    -0.879452954966893, 0.46351240544347894, -0.10825317547305482, 0.3125, -0.8028270361665706,
+    0.5077524002897476, -0.4330127018922193, -0.6846531968814576, 0.5863019699779287,
+    -0.8028270361665706, 0.0625, 0.5929270612815711, -0.19764235376052372, -0.5625,
+    -0.8028270361665706, 0.5077524002897476, 0.5929270612815711, 0.625, -0.3125,
+    -0.45285552331841994, -0.49607837082461076, -0.6716932893813962, -0.879452954966893,
+    -0.4330127018922193, -0.19764235376052372, -0.45285552331841994, -0.53125, -0.1711632992203644,
+    0.6952686081652184, 0.46351240544347894, -0.6846531968814576, -0.5625, -0.49607837082461076,
+    -0.1711632992203644, 0.8125, -0.2538762001448738, -0.10825317547305482, 0.5863019699779287,
+    -0.8028270361665706, -0.6716932893813962, 0.6952686081652184, -0.2538762001448738, 0.03125,
+    0.6472598492877494, -0.6991205412874092, 0.2981060004427955, -0.05846339666834283, 0.1875,
+    -0.6373774391990981, 0.7473912964438374, 0.47495887979908324, 0.07328774624724109, -0.78125,
+    0.3983608994994363, -0.6373774391990981, 0.5, 0.5863019699779287, 0.42961647140211,
+    0.4198446513295126, -0.10364452469860624, -0.7927281808728639, 0.7473912964438374,
+    0.5863019699779287, 0.3125, 0.41339864235384227, 0.5740991584648074, 0.5385527481129402,
+    0.4576818286211503, 0.6472598492877494, 0.47495887979908324, 0.42961647140211,
+    0.41339864235384227, -0.078125, -0.24356964481437338, -0.4487939567607835, -0.8562442974262661,
+    -0.6991205412874092, 0.07328774624724109, 0.4198446513295126, 0.5740991584648074,
+    -0.24356964481437338, -0.609375, -0.5700448858423344, 0.4943528756111367, 0.2981060004427955,
+    -0.78125, -0.10364452469860624, 0.5385527481129402, -0.4487939567607835, -0.5700448858423344,
+    0.671875, -0.14905300022139775, -0.05846339666834283, 0.3983608994994363, -0.7927281808728639,
+    0.4576818286211503, -0.8562442974262661, 0.4943528756111367, -0.14905300022139775, 0.015625,
+    0.8356088723200586, -0.516334738808072, 0.184877493221863, -0.03125, 0.109375,
+    -0.4621937330546575, 0.7745021082121081, -0.4178044361600293, 0.4576818286211503,
+    0.47134697278119864, -0.7088310138883597, 0.2567449488305466, -0.4621937330546575, 0.703125,
+    0.2181912506838897, -0.4943528756111367, 0.27421763710600383, 0.6051536478449089,
+    0.338020432074749, -0.6665852814906732, 0.7745021082121081, 0.2181912506838897, -0.265625,
+    -0.5310201708739509, 0.1307281291459493, 0.38081430021731066, 0.5908647000371574,
+    0.6991205412874092, -0.4178044361600293, -0.4943528756111367, -0.5310201708739509, -0.546875,
+    0.2734375, 0.3921843874378479, 0.4113264556590057, 0.4576818286211503, 0.6267066542400439,
+    0.8356088723200586, 0.4576818286211503, 0.27421763710600383, 0.1307281291459493,
+    0.3921843874378479, 0.5, 0.32775276505317236, 0.0, -0.6991205412874092, -0.516334738808072,
+    0.47134697278119864, 0.6051536478449089, 0.38081430021731066, 0.4113264556590057,
+    0.32775276505317236, -0.28125, -0.7302075903467452, 0.3332926407453366, 0.184877493221863,
+    -0.7088310138883597, 0.338020432074749, 0.5908647000371574, 0.4576818286211503, 0.0,
+    -0.7302075903467452, 0.5, -0.0855816496101822, -0.03125, 0.2567449488305466,
+    -0.6665852814906732, 0.6991205412874092, 0.6267066542400439, -0.6991205412874092,
+    0.3332926407453366, -0.0855816496101822, 0.0078125
+];
 
 /// `rotate:9:loop`: Rotates order 9 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
 /// q: the rotation, a unit quaternion (x, y, z, w).
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 902 (269 mul, 6 add, 627 fma) and 1 inverse square root or reciprocal; 135 constants,
-///     122 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+/// Operations: 1032 (429 mul, 7 add, 596 fma) and 1 inverse square root or reciprocal; 248 constants,
+///     152 live values.
+/// Error: f32 rounding at most 4.8e-6 of the norm of a band, for every unit q (3 times the worst of 256
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81]) -> [V; 81] {
-    let ([t13, t15, t16, t18, t30, t34, t47, t62, t83, t97, t121, t143, t184, t209, t250, t282, t344, t380], [t12, t14, t17, t27, t28, t33, t35, t37, t46, t60, t61, t63, t66, t67, t68, t81, t82, t93, t95, t96, t100, t101, t104, t105, t106, t120, t142, t146, t147, t151, t153, t154, t155, t156, t157, t158, t159, t183, t206, t207, t208, t213, t214, t221, t222, t223, t224, t225, t226, t227, t249, t279, t280, t281, t286, t296, t297, t298, t299, t300, t301, t302, t303, t304, t305, t306, t339, t340, t341, t342, t343, t374, t376, t377, t378, t379, t384, t385, t386, t387, t395, t396, t397, t398, t399]) = rotate_loop_part_0::<T, V>(q, c);
-    let [t400, t401, t402, t403, t404, t405, t406, t407] = rotate_loop_part_1::<T, V>(q, c, [t339, t340, t341, t342, t374, t377, t378, t384, t385, t386, t395, t396, t397, t398]);
-    [
-        c[0],
-        t12.fma(t13, t17 * t18),
-        c[2].fma(t15, t14 * t16),
-        t17.fms(t13, t12 * t18),
-        t28.fms(t30, t33 * t34),
-        t35.fma(t13, t37 * t18),
-        t27.fma(T::lit(1.7320508075688772), c[6]),
-        t37.fms(t13, t35 * t18),
-        t28.fma(t34, t33 * t30),
-        t46.fma(t47, t61 * t62),
-        t63.fma(t34, t67 * t30),
-        t68.fma(t13, t60 * t18),
-        t66,
-        t60.fms(t13, t68 * t18),
-        t67.fms(t34, t63 * t30),
-        t61.fms(t47, t46 * t62),
-        t82.fma(t83, t96 * t97),
-        t101.fma(t47, t105 * t62),
-        t81.fma(t34, t106 * t30),
-        t100.fma(t13, t104 * t18),
-        t95.fma(T::lit(0.5590169943749475), t93.fma(T::lit(0.739509972887452), c[20])),
-        t104.fms(t13, t100 * t18),
-        t106.fms(t34, t81 * t30),
-        t105.fms(t47, t101 * t62),
-        t96.fms(t83, t82 * t97),
-        t120.fma(t121, t142 * t143),
-        t147.fma(t83, t154 * t97),
-        t155.fma(t47, t156 * t62),
-        t146.fma(t34, t157 * t30),
-        t158.fma(t13, t159 * t18),
-        t153.fnma(T::lit(0.701560760020114), t151),
-        t159.fms(t13, t158 * t18),
-        t157.fms(t34, t146 * t30),
-        t156.fms(t47, t155 * t62),
-        t154.fms(t83, t147 * t97),
-        t142.fms(t121, t120 * t143),
-        t183.fma(t184, t208 * t209),
-        t214.fma(t121, t221 * t143),
-        t222.fma(t83, t223 * t97),
-        t213.fma(t47, t224 * t62),
-        t225.fma(t34, t206 * t30),
-        t226.fma(t13, t227 * t18),
-        t207,
-        t227.fms(t13, t226 * t18),
-        t206.fms(t34, t225 * t30),
-        t224.fms(t47, t213 * t62),
-        t223.fms(t83, t222 * t97),
-        t221.fms(t121, t214 * t143),
-        t208.fms(t184, t183 * t209),
-        t249.fma(t250, t281 * t282),
-        t286.fma(t184, t298 * t209),
-        t299.fma(t121, t300 * t143),
-        t301.fma(t83, t302 * t97),
-        t303.fma(t47, t279 * t62),
-        t304.fma(t34, t305 * t30),
-        t306.fms(t13, t280 * t18),
-        t297.fma(T::lit(0.6472598492877494), t296),
-        -t280.fma(t13, t306 * t18),
-        t305.fms(t34, t304 * t30),
-        t279.fms(t47, t303 * t62),
-        t302.fms(t83, t301 * t97),
-        t300.fms(t121, t299 * t143),
-        t298.fms(t184, t286 * t209),
-        t281.fms(t250, t249 * t282),
-        t343.fma(t344, t379 * t380),
-        t387.fma(t250, t399 * t282),
-        t400.fma(t184, t401 * t209),
-        t402.fma(t121, t403 * t143),
-        t404.fma(t83, t377 * t97),
-        t385.fma(t47, t405 * t62),
-        t406.fma(t34, t378 * t30),
-        t386.fma(t13, t407 * t18),
-        t378.fnma(T::lit(1.1952286093343936), t377.fnma(T::lit(0.6267831705280087), t376)),
-        t407.fms(t13, t386 * t18),
-        t378.fms(t34, t406 * t30),
-        t405.fms(t47, t385 * t62),
-        t377.fms(t83, t404 * t97),
-        t403.fms(t121, t402 * t143),
-        t401.fms(t184, t400 * t209),
-        t399.fms(t250, t387 * t282),
-        t379.fms(t344, t343 * t380),
-    ]
+    let mut r = [V::zero(); 81];
+    let mut phase_cos = [T::zero(); 27];
+    let mut phase_sin = [T::zero(); 27];
+    let x = q[0];
+    let y = q[1] + T::TINY;
+    let z = q[2];
+    let w = q[3] + T::TINY;
+    let ww_zz = z.fma(z, w * w);
+    let xx_yy = y.fma(y, x * x);
+    let product = ww_zz * xx_yy;
+    let scale = T::rsqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(T::lit(2.0) * product * scale);
+    phase_cos[10] = wy + zx;
+    phase_sin[10] = zy - wx;
+    phase_cos[19] = wy - zx;
+    phase_sin[19] = zy + wx;
+    for angle in 0..3 {
+        let base = angle * 9;
+        for m in 2..9 {
+            phase_cos[base + m] = phase_sin[base + m - 1].fnma(phase_sin[base + 1], phase_cos[base + m - 1] * phase_cos[base + 1]);
+            phase_sin[base + m] = phase_cos[base + m - 1].fma(phase_sin[base + 1], phase_sin[base + m - 1] * phase_cos[base + 1]);
+        }
+    }
+    let mut swapped = [V::zero(); 17];
+    r[0] = c[0];
+    for l in 1..9 {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for m in 1..l + 1 {
+            let co = phase_cos[18 + m];
+            let si = phase_sin[18 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = minus.fnma(si, plus * co);
+            r[middle - m] = plus.fma(si, minus * co);
+        }
+        for stage in 0..2 {
+            let mut k = l * (l * l + 2) / 3 - 1;
+            for row in 0..l * 2 + 1 {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                let mut sum = r[l * l + first] * T::lit(ROTATE_LOOP_J[k]);
+                k += 1;
+                for i in (first + 2..start + l + even).step_by(2) {
+                    sum = r[l * l + i].fma(T::lit(ROTATE_LOOP_J[k]), sum);
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for m in 1..l + 1 {
+                let co = phase_cos[stage * 9 + m];
+                let si = phase_sin[stage * 9 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = minus.fnma(si, plus * co);
+                r[middle - m] = plus.fma(si, minus * co);
+            }
+        }
+    }
+
+        r
+
 }
 
 /// [`rotate_loop`] of three channels that share the parameters, as plain arrays.
@@ -9140,152 +8688,58 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
     rotate_loop::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
+// dD/dbeta at 0, from m - 1 to m
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DY_SUB_DIAG: [f64; 81] = [
+    0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508075688772, -1.0, 0.0, 1.224744871391589,
+    1.5811388300841898, 0.0, -2.449489742783178, -1.5811388300841898, -1.224744871391589, 0.0,
+    1.4142135623730951, 1.8708286933869707, 2.1213203435596424, 0.0, -3.1622776601683795,
+    -2.1213203435596424, -1.8708286933869707, -1.4142135623730951, 0.0, 1.5811388300841898,
+    2.1213203435596424, 2.449489742783178, 2.6457513110645907, 0.0, -3.872983346207417,
+    -2.6457513110645907, -2.449489742783178, -2.1213203435596424, -1.5811388300841898, 0.0,
+    1.7320508075688772, 2.345207879911715, 2.7386127875258306, 3.0, 3.1622776601683795, 0.0,
+    -4.58257569495584, -3.1622776601683795, -3.0, -2.7386127875258306, -2.345207879911715,
+    -1.7320508075688772, 0.0, 1.8708286933869707, 2.5495097567963922, 3.0, 3.3166247903554,
+    3.5355339059327378, 3.6742346141747673, 0.0, -5.291502622129181, -3.6742346141747673,
+    -3.5355339059327378, -3.3166247903554, -3.0, -2.5495097567963922, -1.8708286933869707, 0.0, 2.0,
+    2.7386127875258306, 3.24037034920393, 3.605551275463989, 3.872983346207417, 4.06201920231798,
+    4.183300132670378, 0.0, -6.0, -4.183300132670378, -4.06201920231798, -3.872983346207417,
+    -3.605551275463989, -3.24037034920393, -2.7386127875258306, -2.0
+];
+
+// the diagonal of the second derivative of D at 0
+#[allow(clippy::approx_constant)]
+static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 81] = [
+    0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
+    -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
+    -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
+    -16.5, -13.0, -8.5, -3.0, -3.5, -10.0, -15.5, -20.0, -23.5, -26.0, -13.5, -28.0, -41.5, -26.0,
+    -23.5, -20.0, -15.5, -10.0, -3.5, -4.0, -11.5, -18.0, -23.5, -28.0, -31.5, -34.0, -17.5, -36.0,
+    -53.5, -34.0, -31.5, -28.0, -23.5, -18.0, -11.5, -4.0
+];
+
 /// `taylor15:9:loop`: Rotates order 9 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
 /// beta: the angle about y in radians, small.
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 270 (105 mul, 1 add, 164 fma); 60 constants, 88 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+/// Operations: 401 (162 mul, 0 add, 239 fma); 162 constants, 81 live values.
+/// Error: f32 rounding at most 8.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 ///     worst of 256 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
 ///     10, 1.6e0 at 15, 5.2e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 81]) -> [V; 81] {
-    let t0 = beta * beta;
-    let t1 = T::lit(0.5).fnma(t0, T::lit(1.0));
-    let t2 = T::lit(1.5).fnma(t0, T::lit(1.0));
-    let t3 = T::lit(1.7320508075688772) * beta;
-    let t4 = T::lit(2.0).fnma(t0, T::lit(1.0));
-    let t5 = T::lit(0.75).fnma(t0, T::lit(1.0));
-    let t6 = T::lit(1.224744871391589) * beta;
-    let t7 = T::lit(1.5811388300841898) * beta;
-    let t8 = T::lit(1.25).fnma(t0, T::lit(1.0));
-    let t9 = T::lit(2.449489742783178) * beta;
-    let t10 = T::lit(4.25).fnma(t0, T::lit(1.0));
-    let t11 = T::lit(1.0) - t0;
-    let t12 = T::lit(1.4142135623730951) * beta;
-    let t13 = T::lit(2.75).fnma(t0, T::lit(1.0));
-    let t14 = T::lit(1.8708286933869707) * beta;
-    let t15 = T::lit(4.0).fnma(t0, T::lit(1.0));
-    let t16 = T::lit(2.1213203435596424) * beta;
-    let t17 = T::lit(5.0).fnma(t0, T::lit(1.0));
-    let t18 = T::lit(3.1622776601683795) * beta;
-    let t19 = T::lit(3.5).fnma(t0, T::lit(1.0));
-    let t20 = T::lit(5.25).fnma(t0, T::lit(1.0));
-    let t21 = T::lit(6.5).fnma(t0, T::lit(1.0));
-    let t22 = T::lit(2.6457513110645907) * beta;
-    let t23 = T::lit(3.872983346207417) * beta;
-    let t24 = T::lit(2.345207879911715) * beta;
-    let t25 = T::lit(2.7386127875258306) * beta;
-    let t26 = T::lit(8.25).fnma(t0, T::lit(1.0));
-    let t27 = T::lit(3.0) * beta;
-    let t28 = T::lit(9.5).fnma(t0, T::lit(1.0));
-    let t29 = T::lit(4.58257569495584) * beta;
-    let t30 = T::lit(1.75).fnma(t0, T::lit(1.0));
-    let t31 = T::lit(2.5495097567963922) * beta;
-    let t32 = T::lit(7.75).fnma(t0, T::lit(1.0));
-    let t33 = T::lit(10.0).fnma(t0, T::lit(1.0));
-    let t34 = T::lit(3.3166247903554) * beta;
-    let t35 = T::lit(11.75).fnma(t0, T::lit(1.0));
-    let t36 = T::lit(3.5355339059327378) * beta;
-    let t37 = T::lit(13.0).fnma(t0, T::lit(1.0));
-    let t38 = T::lit(3.6742346141747673) * beta;
-    let t39 = T::lit(14.0).fnma(t0, T::lit(1.0));
-    let t40 = T::lit(5.291502622129181) * beta;
-    let t41 = T::lit(2.0) * beta;
-    let t42 = T::lit(5.75).fnma(t0, T::lit(1.0));
-    let t43 = T::lit(9.0).fnma(t0, T::lit(1.0));
-    let t44 = T::lit(3.24037034920393) * beta;
-    let t45 = T::lit(3.605551275463989) * beta;
-    let t46 = T::lit(15.75).fnma(t0, T::lit(1.0));
-    let t47 = T::lit(4.06201920231798) * beta;
-    let t48 = T::lit(17.0).fnma(t0, T::lit(1.0));
-    let t49 = T::lit(4.183300132670378) * beta;
-    let t50 = T::lit(6.0) * beta;
-    [
-        c[0],
-        c[1],
-        c[2].fma(t1, c[3] * beta),
-        c[3].fms(t1, c[2] * beta),
-        c[4].fms(t1, c[5] * beta),
-        c[5].fma(t1, c[4] * beta),
-        c[6].fma(t2, c[7] * t3),
-        c[8].fma(beta, c[7].fms(t4, c[6] * t3)),
-        c[8].fms(t1, c[7] * beta),
-        c[9].fms(t5, c[10] * t6),
-        c[9].fma(t6, c[10].fms(t4, c[11] * t7)),
-        c[11].fma(t8, c[10] * t7),
-        c[12].fma(T::lit(3.0).fnma(t0, T::lit(1.0)), c[13] * t9),
-        c[14].fma(t7, c[13].fms(t10, c[12] * t9)),
-        c[15].fma(t6, c[14].fms(t4, c[13] * t7)),
-        c[15].fms(t5, c[14] * t6),
-        c[16].fms(t11, c[17] * t12),
-        c[16].fma(t12, c[17].fms(t13, c[18] * t14)),
-        c[17].fma(t14, c[18].fms(t15, c[19] * t16)),
-        c[19].fma(T::lit(2.25).fnma(t0, T::lit(1.0)), c[18] * t16),
-        c[20].fma(t17, c[21] * t18),
-        c[22].fma(t16, c[21].fms(T::lit(7.25).fnma(t0, T::lit(1.0)), c[20] * t18)),
-        c[23].fma(t14, c[22].fms(t15, c[21] * t16)),
-        c[24].fma(t12, c[23].fms(t13, c[22] * t14)),
-        c[24].fms(t11, c[23] * t12),
-        c[25].fms(t8, c[26] * t7),
-        c[25].fma(t7, c[26].fms(t19, c[27] * t16)),
-        c[26].fma(t16, c[27].fms(t20, c[28] * t9)),
-        c[27].fma(t9, c[28].fms(t21, c[29] * t22)),
-        c[29].fma(t19, c[28] * t22),
-        c[30].fma(T::lit(7.5).fnma(t0, T::lit(1.0)), c[31] * t23),
-        c[32].fma(t22, c[31].fms(T::lit(11.0).fnma(t0, T::lit(1.0)), c[30] * t23)),
-        c[33].fma(t9, c[32].fms(t21, c[31] * t22)),
-        c[34].fma(t16, c[33].fms(t20, c[32] * t9)),
-        c[35].fma(t7, c[34].fms(t19, c[33] * t16)),
-        c[35].fms(t8, c[34] * t7),
-        c[36].fms(t2, c[37] * t3),
-        c[36].fma(t3, c[37].fms(t10, c[38] * t24)),
-        c[37].fma(t24, c[38].fms(t21, c[39] * t25)),
-        c[38].fma(t25, c[39].fms(t26, c[40] * t27)),
-        c[39].fma(t27, c[40].fms(t28, c[41] * t18)),
-        c[41].fma(t17, c[40] * t18),
-        c[42].fma(T::lit(10.5).fnma(t0, T::lit(1.0)), c[43] * t29),
-        c[44].fma(t18, c[43].fms(T::lit(15.5).fnma(t0, T::lit(1.0)), c[42] * t29)),
-        c[45].fma(t27, c[44].fms(t28, c[43] * t18)),
-        c[46].fma(t25, c[45].fms(t26, c[44] * t27)),
-        c[47].fma(t24, c[46].fms(t21, c[45] * t25)),
-        c[48].fma(t3, c[47].fms(t10, c[46] * t24)),
-        c[48].fms(t2, c[47] * t3),
-        c[49].fms(t30, c[50] * t14),
-        c[49].fma(t14, c[50].fms(t17, c[51] * t31)),
-        c[50].fma(t31, c[51].fms(t32, c[52] * t27)),
-        c[51].fma(t27, c[52].fms(t33, c[53] * t34)),
-        c[52].fma(t34, c[53].fms(t35, c[54] * t36)),
-        c[53].fma(t36, c[54].fms(t37, c[55] * t38)),
-        c[55].fma(T::lit(6.75).fnma(t0, T::lit(1.0)), c[54] * t38),
-        c[56].fma(t39, c[57] * t40),
-        c[58].fma(t38, c[57].fms(T::lit(20.75).fnma(t0, T::lit(1.0)), c[56] * t40)),
-        c[59].fma(t36, c[58].fms(t37, c[57] * t38)),
-        c[60].fma(t34, c[59].fms(t35, c[58] * t36)),
-        c[61].fma(t27, c[60].fms(t33, c[59] * t34)),
-        c[62].fma(t31, c[61].fms(t32, c[60] * t27)),
-        c[63].fma(t14, c[62].fms(t17, c[61] * t31)),
-        c[63].fms(t30, c[62] * t14),
-        c[64].fms(t4, c[65] * t41),
-        c[64].fma(t41, c[65].fms(t42, c[66] * t25)),
-        c[65].fma(t25, c[66].fms(t43, c[67] * t44)),
-        c[66].fma(t44, c[67].fms(t35, c[68] * t45)),
-        c[67].fma(t45, c[68].fms(t39, c[69] * t23)),
-        c[68].fma(t23, c[69].fms(t46, c[70] * t47)),
-        c[69].fma(t47, c[70].fms(t48, c[71] * t49)),
-        c[71].fma(T::lit(8.75).fnma(t0, T::lit(1.0)), c[70] * t49),
-        c[72].fma(T::lit(18.0).fnma(t0, T::lit(1.0)), c[73] * t50),
-        c[74].fma(t49, c[73].fms(T::lit(26.75).fnma(t0, T::lit(1.0)), c[72] * t50)),
-        c[75].fma(t47, c[74].fms(t48, c[73] * t49)),
-        c[76].fma(t23, c[75].fms(t46, c[74] * t47)),
-        c[77].fma(t45, c[76].fms(t39, c[75] * t23)),
-        c[78].fma(t44, c[77].fms(t35, c[76] * t45)),
-        c[79].fma(t25, c[78].fms(t43, c[77] * t44)),
-        c[80].fma(t41, c[79].fms(t42, c[78] * t25)),
-        c[80].fms(t4, c[79] * t41),
-    ]
+    let mut r = [V::zero(); 81];
+    let half_square = T::lit(0.5) * beta * beta;
+    r[0] = c[0];
+    for i in 1..80 {
+        r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
+    }
+    r[80] = (c[79] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[80])).fma(beta, c[80] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[80]), T::lit(1.0)));
+
+        r
+
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

@@ -60,7 +60,7 @@ fn names_and_specs_are_unique_and_survive_naga() {
 
 fn totals(text: impl Fn(usize) -> String, orders: std::ops::RangeInclusive<usize>) -> Vec<usize> {
     let specs: Vec<Spec> = orders.map(|order| spec(&text(order))).collect();
-    build(&specs).iter().map(|function| function.built.cost_of(function.spec.channels()).total).collect()
+    build(&specs).iter().map(|function| function.built.code.cost(function.spec.channels()).total).collect()
 }
 
 /// What MATH.md reaches, as the most that a kernel may cost.

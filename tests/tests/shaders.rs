@@ -64,11 +64,12 @@ fn check(function: &Function, target: Target, language: Language) {
     let name = function.shader_name();
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));
     assert_eq!(shader.functions(), [name.clone()], "{target}");
-    let (params, channels) = (function.built.params(), function.spec.channels());
-    let (shape, kind) = function.built.result();
+    let (params, channels) = (function.built.code.params(), function.spec.channels());
+    let (shape, kind) = function.built.code.result();
     let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
     let inputs = samples::inputs(&function.spec, params, 21, CASES + 2, max_angle);
-    let cost = function.built.cost_of(channels);
+    let cost = function.built.code.cost(channels);
+    let runner = function.built.code.runner::<f32>();
     for case in 0..CASES {
         let of_channel = |channel: usize| -> Vec<Vec<f32>> {
             // Channels differ in their signals and share their parameters.
@@ -93,7 +94,7 @@ fn check(function: &Function, target: Target, language: Language) {
         let got = channels_of(&result, shape, kind, channels);
         for (channel, got) in got.iter().enumerate() {
             let slices: Vec<&[f32]> = all[channel].iter().map(Vec::as_slice).collect();
-            let want = function.built.run(&slices, Contraction::Separate);
+            let want = runner.run(&slices, Contraction::Separate);
             let bits = |values: &[f32]| -> Vec<u32> { values.iter().map(|x| if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }).collect() };
             assert_eq!(bits(got), bits(&want), "{name} in {target}, case {case}, channel {channel}");
         }

@@ -119,13 +119,13 @@ fn parameter(param: &Param) -> String {
 
 /// What a kernel costs, in a sentence.
 pub fn cost(built: &Built, channels: usize) -> String {
-    let cost = built.cost_of(channels);
+    let cost = built.code.cost(channels);
     let special = match cost.special {
         0 => String::new(),
         1 => " and 1 inverse square root or reciprocal".to_owned(),
         n => format!(" and {n} inverse square roots or reciprocals"),
     };
-    let footprint = built.footprint();
+    let footprint = built.code.footprint();
     format!(
         "Operations: {} ({} mul, {} add, {} fma){special}; {} constants, {} live values.",
         cost.total, cost.mul, cost.add, cost.fma, footprint.constants, footprint.live
@@ -166,10 +166,10 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
 /// All that stands above a function.
 pub fn function(built: &Built, spec: &Spec) -> Vec<String> {
     let mut lines = wrap(&format!("`{spec}`: {}", summary(spec)), 0);
-    for param in built.params() {
+    for param in built.code.params() {
         lines.extend(wrap(&parameter(param), 4));
     }
-    lines.extend(wrap(&format!("Returns {}.", built.result_doc()), 4));
+    lines.extend(wrap(&format!("Returns {}.", built.code.result_doc()), 4));
     lines.extend(wrap(&cost(built, spec.channels()), 4));
     lines.extend(wrap(&error(spec, &built.accuracy), 4));
     lines.into_iter().map(|line| ascii(&line)).collect()

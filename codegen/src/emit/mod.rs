@@ -4,11 +4,14 @@
 pub mod body;
 pub mod dialect;
 pub mod docs;
+pub mod loop_body;
 pub mod support;
 
-use crate::built::{Built, Code};
+use crate::built::Built;
+use crate::code::Code;
 use crate::graph::Kind;
 use crate::kernel::Shape;
+use crate::program::LoopKernel;
 use crate::spec::Spec;
 use body::{Body, CHUNK, Line};
 use dialect::{Dialect, Target};
@@ -106,6 +109,13 @@ struct WrapperText {
     call: String,
 }
 
+impl FunctionText {
+    fn print_loop(&mut self, kernel: &LoopKernel, dialect: Dialect) {
+        let printed = loop_body::print(kernel, dialect, &self.name.to_uppercase());
+        (self.tables, self.body, self.results) = (printed.tables, printed.lines, vec![printed.result]);
+    }
+}
+
 fn templates() -> &'static Tera {
     static TEMPLATES: OnceLock<Tera> = OnceLock::new();
     TEMPLATES.get_or_init(|| {
@@ -173,6 +183,12 @@ impl Function {
                 let items: Vec<String> = body.results.into_iter().map(|(text, _)| text).collect();
                 (text.open, text.results, text.close) = results(dialect, listing.result, listing.result_kind, &items);
             }
+            Code::Loop(kernel) => {
+                if let Some(table) = loop_body::too_long(kernel) {
+                    return Err(self.limit(target, table.values.len(), "values in a table", loop_body::MAX_TABLE));
+                }
+                text.print_loop(kernel, dialect);
+            }
         }
         Ok(text)
     }
@@ -191,7 +207,7 @@ impl Function {
     /// All of a function but its body.
     fn frame(&self, dialect: Dialect, name: String, spec: &Spec) -> FunctionText {
         let built = &self.built;
-        let (shape, kind) = built.result();
+        let (shape, kind) = built.code.result();
         FunctionText {
             doc: docs::function(built, spec),
             tables: vec![],
@@ -200,7 +216,7 @@ impl Function {
                 true => "<T: Real, V: Signal<T>>".to_owned(),
                 false => "<T: Real>".to_owned(),
             },
-            params: built.params().iter().map(|param| dialect.parameter(param)).collect(),
+            params: built.code.params().iter().map(|param| dialect.parameter(param)).collect(),
             result: dialect.type_of(shape, kind),
             parts: vec![],
             body: vec![],
@@ -212,7 +228,7 @@ impl Function {
     }
 
     fn has_signal(&self) -> bool {
-        self.built.params().iter().any(|param| param.kind == Kind::Signal)
+        self.built.code.params().iter().any(|param| param.kind == Kind::Signal)
     }
 
     /// The name of the generic function in Rust, and that of its RGB twin if the spec is RGB.
@@ -238,6 +254,7 @@ impl Function {
                 let items: Vec<String> = body.results.into_iter().map(|(text, _)| text).collect();
                 (text.open, text.results, text.close) = results(dialect, listing.result, listing.result_kind, &items);
             }
+            Code::Loop(kernel) => text.print_loop(kernel, dialect),
         }
         text
     }
@@ -254,7 +271,7 @@ impl Function {
             true => "::<T, V>",
             false => "::<T>",
         };
-        let arguments: Vec<&str> = self.built.params().iter().map(|param| param.name).collect();
+        let arguments: Vec<&str> = self.built.code.params().iter().map(|param| param.name).collect();
         for (place, chunk) in chunks.iter().enumerate() {
             let first = chunk[0].number;
             let end = first + chunk.len();
@@ -306,7 +323,7 @@ impl Function {
             rgb: false,
         };
         let rgb = |text: String| text.replace('V', "[T; 3]");
-        let params = self.built.params();
+        let params = self.built.code.params();
         let arguments: Vec<String> = params
             .iter()
             .map(|param| match param.kind {
@@ -314,7 +331,7 @@ impl Function {
                 Kind::Signal => format!("&{}.map(Channels)", param.name),
             })
             .collect();
-        let (shape, kind) = self.built.result();
+        let (shape, kind) = self.built.code.result();
         let open = match shape {
             Shape::Scalar => ".0",
             _ => ".map(|v| v.0)",

@@ -2,6 +2,7 @@
 //! the recurrence that is chosen; nothing downstream makes it cheaper.
 
 pub mod basis;
+pub mod loops;
 pub mod orthogonal;
 pub mod rotate;
 pub mod tilt;

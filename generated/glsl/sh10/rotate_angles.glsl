@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
-// Error: f32 rounding at most 6.9e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[100] sh10_rotate_angles(vec2[28] cs, float[100] c) {
     float t0 = c[3] * cs[18].y + c[1] * cs[18].x;

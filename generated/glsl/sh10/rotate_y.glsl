@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 724 (108 mul, 1 add, 615 fma); 204 constants, 113 live values.
-// Error: f32 rounding at most 5.6e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 8.3e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[100] sh10_rotate_y(vec2 cs, float[100] c) {
     float t0 = c[8] - 1.7320508 * c[6];

@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 3714 (1419 mul, 6 add, 2289 fma) and 1 inverse square root or reciprocal; 150 constants,
 //     150 live values.
-// Error: f32 rounding at most 3.3e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 vec3[100] sh10_rotate_zxzxz_rgb(vec4 q, vec3[100] c) {
     float t0 = q.y + 1e-15;

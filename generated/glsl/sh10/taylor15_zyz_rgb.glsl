@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2000 (897 mul, 3 add, 1100 fma); 73 constants, 129 live values.
-// Error: f32 rounding at most 5.2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.5e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at
 //     10, 2e0 at 15, 6.7e0 at 25 degrees; it grows without bound beyond.
 vec3[100] sh10_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 616 (242 mul, 2 add, 372 fma); 30 constants, 126 live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at
 //     10, 2.4e0 at 15, 5e0 at 25 degrees; it grows without bound beyond.
 float[100] sh10_taylor1_zyz(vec2[2] cs, float beta, float[100] c) {

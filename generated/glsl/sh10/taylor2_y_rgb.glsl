@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1026 (54 mul, 0 add, 972 fma); 54 constants, 108 live values.
-// Error: f32 rounding at most 3.2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at
 //     10, 2e0 at 15, 7.6e0 at 25 degrees; it grows without bound beyond.
 vec3[100] sh10_taylor2_y_rgb(float beta, vec3[100] c) {

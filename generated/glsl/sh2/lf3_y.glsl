@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 8 (3 mul, 0 add, 5 fma); 4 constants, 3 live values.
-// Error: f32 rounding at most 1.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 2.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at
 //     10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it grows without bound beyond.
 float[4] sh2_lf3_y(float beta, float[4] c) {

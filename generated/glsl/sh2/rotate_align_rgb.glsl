@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 30 (16 mul, 1 add, 13 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 //     values.
-// Error: f32 rounding at most 3.7e-7 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 5.5e-7 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 vec3[4] sh2_rotate_align_rgb(vec3 n, vec3[4] c) {
     float t0 = n.x + 1e-15;

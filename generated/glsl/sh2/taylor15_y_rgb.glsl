@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 3 live values.
-// Error: f32 rounding at most 1.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
 //     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
 vec3[4] sh2_taylor15_y_rgb(float beta, vec3[4] c) {

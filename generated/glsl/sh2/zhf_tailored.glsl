@@ -10,7 +10,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 6e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[4] sh2_zhf_tailored(float[4] f) {
     return float[4](

@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 23 (7 mul, 0 add, 16 fma); 6 constants, 10 live values.
-// Error: f32 rounding at most 3.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 2.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at
 //     10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it grows without bound beyond.
 float[9] sh3_lf3_y(float beta, float[9] c) {

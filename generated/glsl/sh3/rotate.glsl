@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 64 (22 mul, 2 add, 40 fma); 5 constants, 20 live values.
-// Error: f32 rounding at most 7.1e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 float[9] sh3_rotate(vec4 q, float[9] c) {
     float t0 = 2.0 * q.z;

@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 95 (45 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
-// Error: f32 rounding at most 7.2e-7 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 vec3[9] sh3_rotate_align_rgb(vec3 n, vec3[9] c) {
     float t0 = n.x + 1e-15;

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (25 mul, 3 add, 23 fma); 2 constants, 15 live values.
-// Error: f32 rounding at most 3.7e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 5.6e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[9] sh3_rotate_euler(vec2[3] cs, float[9] c) {
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;

@@ -10,59 +10,88 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 147 (70 mul, 8 add, 69 fma) and 1 inverse square root or reciprocal; 3 constants, 19
+// Operations: 200 (119 mul, 7 add, 74 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 //     live values.
-// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const float[10] SH3_ROTATE_RGB_LOOP_J = float[10](
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5
+);
 vec3[9] sh3_rotate_rgb_loop(vec4 q, vec3[9] c) {
-    float t0 = q.y + 1e-15;
-    float t1 = q.w + 1e-15;
-    float t2 = q.z * q.z + t1 * t1;
-    float t3 = t0 * t0 + q.x * q.x;
-    float t4 = t2 * t3;
-    float t5 = inversesqrt(t4);
-    float t6 = t1 * t5;
-    float t7 = q.z * t5;
-    float t8 = q.x * t7;
-    float t9 = t0 * t6 - t8;
-    float t10 = q.x * t6;
-    float t11 = t10 + t0 * t7;
-    vec3 t12 = c[3] * t11 + c[1] * t9;
-    float t13 = t8 + t0 * t6;
-    vec3 t14 = c[3] * t9 - c[1] * t11;
-    float t15 = t2 - t3;
-    float t16 = 2.0 * (t4 * t5);
-    vec3 t17 = t14 * t15 - c[2] * t16;
-    float t18 = t0 * t7 - t10;
-    float t19 = t9 * t9 - t11 * t11;
-    float t20 = t9 * t11;
-    float t21 = t20 + t20;
-    vec3 t22 = c[8] * t19 - c[4] * t21;
-    vec3 t23 = t22 - 1.7320508 * c[6];
-    float t24 = t16 * t16;
-    vec3 t25 = c[7] * t9 - c[5] * t11;
-    float t26 = t15 * t16;
-    vec3 t27 = t25 * t26 + 0.5 * t24 * t23;
-    vec3 t28 = t22 - t27;
-    float t29 = t13 * t18;
-    float t30 = t29 + t29;
-    vec3 t31 = c[7] * t11 + c[5] * t9;
-    vec3 t32 = c[8] * t21 + c[4] * t19;
-    vec3 t33 = t31 * t16 - t32 * t15;
-    float t34 = t13 * t13 - t18 * t18;
-    vec3 t35 = t32 * t16 + t31 * t15;
-    vec3 t36 = t23 * t26 + t25 * (t15 * t15 - t24);
-    return vec3[9](
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18,
-        t28 * t30 - t33 * t34,
-        t36 * t18 + t35 * t13,
-        c[6] + 1.7320508 * t27,
-        t36 * t13 - t35 * t18,
-        t33 * t30 + t28 * t34
-    );
+    vec3 r[9];
+    float phase_cos[9];
+    float phase_sin[9];
+    float x = q.x;
+    float y = q.y + 1e-15;
+    float z = q.z;
+    float w = q.w + 1e-15;
+    float ww_zz = w * w + z * z;
+    float xx_yy = x * x + y * y;
+    float product = ww_zz * xx_yy;
+    float scale = inversesqrt(product);
+    float w_unit = w * scale;
+    float z_unit = z * scale;
+    float wy = w_unit * y;
+    float zx = z_unit * x;
+    float zy = z_unit * y;
+    float wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[4] = wy + zx;
+    phase_sin[4] = zy - wx;
+    phase_cos[7] = wy - zx;
+    phase_sin[7] = zy + wx;
+    for (int angle = 0; angle < 3; angle += 1) {
+        int base = angle * 3;
+        for (int m = 2; m < 3; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    vec3 swapped[5];
+    r[0] = c[0];
+    for (int l = 1; l < 3; l += 1) {
+        int middle = l * l + l;
+        r[middle] = c[middle];
+        for (int m = 1; m < l + 1; m += 1) {
+            float co = phase_cos[6 + m];
+            float si = phase_sin[6 + m];
+            vec3 plus = c[middle + m];
+            vec3 minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (int stage = 0; stage < 2; stage += 1) {
+            int k = l * (l * l + 2) / 3 - 1;
+            for (int row = 0; row < l * 2 + 1; row += 1) {
+                int even = (row + 1) % 2;
+                int low = 1 - (row + 1) / (l + 1);
+                int start = even * l;
+                int first = start + (start + low) % 2;
+                vec3 sum = r[l * l + first] * SH3_ROTATE_RGB_LOOP_J[k];
+                k += 1;
+                for (int i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH3_ROTATE_RGB_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (int m = 1; m < l + 1; m += 1) {
+                float co = phase_cos[stage * 3 + m];
+                float si = phase_sin[stage * 3 + m];
+                vec3 plus = swapped[l + m];
+                vec3 minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 
 #endif

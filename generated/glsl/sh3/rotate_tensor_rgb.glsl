@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 158 (54 mul, 6 add, 98 fma); 5 constants, 20 live values.
-// Error: f32 rounding at most 7.1e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 vec3[9] sh3_rotate_tensor_rgb(vec4 q, vec3[9] c) {
     float t0 = 2.0 * q.z;

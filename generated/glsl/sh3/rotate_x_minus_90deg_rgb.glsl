@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 2 constants, 5 live values.
-// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 vec3[9] sh3_rotate_x_minus_90deg_rgb(vec3[9] c) {
     return vec3[9](

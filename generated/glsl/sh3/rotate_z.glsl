@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 1 add, 7 fma); 0 constants, 7 live values.
-// Error: f32 rounding at most 1.5e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 2.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[9] sh3_rotate_z(vec2 cs, float[9] c) {
     float t0 = cs.x * cs.x - cs.y * cs.y;

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 6 live values.
-// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[9] sh3_swap_yz(float[9] c) {
     return float[9](

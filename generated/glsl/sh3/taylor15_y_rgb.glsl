@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 50 (23 mul, 0 add, 27 fma); 5 constants, 9 live values.
-// Error: f32 rounding at most 2.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 2.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 //     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 vec3[9] sh3_taylor15_y_rgb(float beta, vec3[9] c) {

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 130 (63 mul, 2 add, 65 fma); 5 constants, 15 live values.
-// Error: f32 rounding at most 3.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 //     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 vec3[9] sh3_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {

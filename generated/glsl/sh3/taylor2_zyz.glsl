@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (19 mul, 2 add, 30 fma); 3 constants, 15 live values.
-// Error: f32 rounding at most 3.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
 //     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
 float[9] sh3_taylor2_zyz(vec2[2] cs, float beta, float[9] c) {

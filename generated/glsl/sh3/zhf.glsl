@@ -11,8 +11,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 130 (70 mul, 1 add, 59 fma); 12 constants, 29 live values.
-// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every rotation matrix (twice the worst
-//     of 256 measured).
+// Error: f32 rounding at most 9.8e-7 of the norm of a band, for every rotation matrix (3 times the
+//     worst of 256 measured).
 float[9] sh3_zhf(mat3 m, float[9] c) {
     float t0 = 2.0466535 * c[1];
     float t1 = t0 + 2.0466535 * c[3];

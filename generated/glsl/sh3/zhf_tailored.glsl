@@ -10,7 +10,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 13 (7 mul, 2 add, 4 fma); 6 constants, 9 live values.
-// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[9] sh3_zhf_tailored(float[9] f) {
     float t0 = 2.0466535 * f[1];

@@ -10,7 +10,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 39 (21 mul, 6 add, 12 fma); 6 constants, 9 live values.
-// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 vec3[9] sh3_zhf_tailored_rgb(vec3[9] f) {
     vec3 t0 = 2.0466535 * f[1];

@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 102 (15 mul, 0 add, 87 fma); 11 constants, 18 live values.
-// Error: f32 rounding at most 9.8e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at
 //     10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
 vec3[16] sh4_lf3_y_rgb(float beta, vec3[16] c) {

@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
 //     live values.
-// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.2e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 float[16] sh4_rotate(vec4 q, float[16] c) {
     float t0 = q.y + 1e-15;

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 52 (18 mul, 1 add, 33 fma); 8 constants, 18 live values.
-// Error: f32 rounding at most 4.9e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 7.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[16] sh4_rotate_y(vec2 cs, float[16] c) {
     float t0 = c[8] - 1.7320508 * c[6];

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
-// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.6e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[16] sh4_swap_yz(float[16] c) {
     return float[16](

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 268 (127 mul, 2 add, 139 fma); 12 constants, 26 live values.
-// Error: f32 rounding at most 4.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
 //     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
 vec3[16] sh4_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {

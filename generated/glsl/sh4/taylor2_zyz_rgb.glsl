@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 276 (88 mul, 2 add, 186 fma); 8 constants, 28 live values.
-// Error: f32 rounding at most 7.1e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at
 //     10, 8e-2 at 15, 3.7e-1 at 25 degrees; it grows without bound beyond.
 vec3[16] sh4_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {

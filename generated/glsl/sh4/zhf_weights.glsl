@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 28 (12 mul, 2 add, 14 fma); 19 constants, 16 live values.
-// Error: f32 rounding at most 5.7e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 8.5e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[16] sh4_zhf_weights(float[16] c) {
     float t0 = 2.288228 * c[7];

@@ -11,9 +11,9 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 177 (25 mul, 0 add, 152 fma); 16 constants, 28 live values.
-// Error: f32 rounding at most 2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-//     of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10,
-//     5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
+//     10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
 vec3[25] sh5_lf3_y_rgb(float beta, vec3[25] c) {
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 //     live values.
-// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 float[25] sh5_rotate(vec4 q, float[25] c) {
     float t0 = q.y + 1e-15;

@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 418 (138 mul, 5 add, 275 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
-// Error: f32 rounding at most 9.4e-7 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 vec3[25] sh5_rotate_align_rgb(vec3 n, vec3[25] c) {
     float t0 = n.x + 1e-15;

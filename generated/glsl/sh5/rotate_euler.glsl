@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
-// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 9.3e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[25] sh5_rotate_euler(vec2[3] cs, float[25] c) {
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;

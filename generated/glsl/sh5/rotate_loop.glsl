@@ -10,145 +10,92 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
+// Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 //     live values.
-// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const float[44] SH5_ROTATE_LOOP_J = float[44](
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
+    1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
+    -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
+    -0.75, 0.375, 0.559017, 0.73951, 0.9354144, 0.35355338, 0.559017, 0.5, -0.6614378, -0.35355338,
+    0.9354144, 0.73951, -0.6614378, 0.125
+);
 float[25] sh5_rotate_loop(vec4 q, float[25] c) {
-    float t0 = q.y + 1e-15;
-    float t1 = q.w + 1e-15;
-    float t2 = q.z * q.z + t1 * t1;
-    float t3 = t0 * t0 + q.x * q.x;
-    float t4 = t2 * t3;
-    float t5 = inversesqrt(t4);
-    float t6 = t1 * t5;
-    float t7 = q.z * t5;
-    float t8 = q.x * t7;
-    float t9 = t0 * t6 - t8;
-    float t10 = q.x * t6;
-    float t11 = t10 + t0 * t7;
-    float t12 = c[3] * t11 + c[1] * t9;
-    float t13 = t8 + t0 * t6;
-    float t14 = c[3] * t9 - c[1] * t11;
-    float t15 = t2 - t3;
-    float t16 = 2.0 * (t4 * t5);
-    float t17 = t14 * t15 - c[2] * t16;
-    float t18 = t0 * t7 - t10;
-    float t19 = t9 * t9 - t11 * t11;
-    float t20 = t9 * t11;
-    float t21 = t20 + t20;
-    float t22 = c[8] * t19 - c[4] * t21;
-    float t23 = t22 - 1.7320508 * c[6];
-    float t24 = t16 * t16;
-    float t25 = c[7] * t9 - c[5] * t11;
-    float t26 = t15 * t16;
-    float t27 = t25 * t26 + 0.5 * t24 * t23;
-    float t28 = t22 - t27;
-    float t29 = t13 * t18;
-    float t30 = t29 + t29;
-    float t31 = c[7] * t11 + c[5] * t9;
-    float t32 = c[8] * t21 + c[4] * t19;
-    float t33 = t31 * t16 - t32 * t15;
-    float t34 = t13 * t13 - t18 * t18;
-    float t35 = t32 * t16 + t31 * t15;
-    float t36 = t15 * t15 - t24;
-    float t37 = t23 * t26 + t25 * t36;
-    float t38 = t9 * t19 - t11 * t21;
-    float t39 = t11 * t19 + t9 * t21;
-    float t40 = c[15] * t39 + c[9] * t38;
-    float t41 = c[14] * t21 + c[10] * t19;
-    float t42 = 2.0 * t26;
-    float t43 = c[13] * t11 + c[11] * t9;
-    float t44 = 0.7905694 * t43 - 0.61237246 * t40;
-    float t45 = t44 * t36 - t44 + t41 * t42;
-    float t46 = t40 - 0.61237246 * t45;
-    float t47 = t13 * t34 - t18 * t30;
-    float t48 = c[15] * t38 - c[9] * t39;
-    float t49 = 0.12701665 * t48 - (c[13] * t9 - c[11] * t11);
-    float t50 = 0.25 * t49 - t48;
-    float t51 = t49 - 0.12701665 * t50;
-    float t52 = t15 * t36 - t16 * t42;
-    float t53 = c[14] * t19 - c[10] * t21;
-    float t54 = c[12] - 0.34199873 * t53;
-    float t55 = t53 + 0.61237246 * t54;
-    float t56 = t54 - 0.34199873 * t55;
-    float t57 = t16 * t36 + t15 * t42;
-    float t58 = t56 * t57 + t51 * t52;
-    float t59 = 0.12701665 * t58 - (t55 * t16 + t50 * t15);
-    float t60 = 0.25 * t59 - t58;
-    float t61 = t59 - 0.12701665 * t60;
-    float t62 = t18 * t34 + t13 * t30;
-    float t63 = t41 * t36 - t44 * t42;
-    float t64 = t56 * t52 - t51 * t57;
-    float t65 = t55 * t15 - t50 * t16 - 0.34199873 * t64;
-    float t66 = t64 + 0.61237246 * t65;
-    float t67 = t65 - 0.34199873 * t66;
-    float t68 = t43 + 0.7905694 * t45;
-    float t69 = t9 * t38 - t11 * t39;
-    float t70 = t11 * t38 + t9 * t39;
-    float t71 = c[24] * t70 + c[16] * t69;
-    float t72 = c[22] * t21 + c[18] * t19 - 0.18267581 * t71;
-    float t73 = t71 + 0.35355338 * t72;
-    float t74 = c[21] * t11 + c[19] * t9;
-    float t75 = c[23] * t39 + c[17] * t38 - 0.37796447 * t74;
-    float t76 = t74 + 0.6614378 * t75;
-    float t77 = t72 - 0.18267581 * t73;
-    float t78 = t75 - 0.37796447 * t76;
-    float t79 = t78 * t57 + t77 * t52;
-    float t80 = t73 * t15 - t76 * t16 - 0.18267581 * t79;
-    float t81 = t79 + 0.35355338 * t80;
-    float t82 = t80 - 0.18267581 * t81;
-    float t83 = t13 * t47 - t18 * t62;
-    float t84 = c[24] * t69 - c[16] * t70;
-    float t85 = c[23] * t38 - c[17] * t39;
-    float t86 = c[21] * t9 - c[19] * t11 - 0.18267581 * t85;
-    float t87 = t85 + 0.35355338 * t86;
-    float t88 = t86 - 0.18267581 * t87;
-    float t89 = t16 * t52 + t15 * t57;
-    float t90 = c[22] * t19 - c[18] * t21;
-    float t91 = 0.125 * t84 - 0.6614378 * t90 + 0.73951 * c[20];
-    float t92 = t15 * t52 - t16 * t57;
-    float t93 = t91 * t92 - t91 + t88 * t89;
-    float t94 = 0.5 * t90 - 0.6614378 * t84 + 0.559017 * c[20];
-    float t95 = t94 * t36 - t94 + t87 * t42;
-    float t96 = t84 + 0.125 * t93 - 0.6614378 * t95;
-    float t97 = t18 * t47 + t13 * t62;
-    float t98 = t73 * t16 + t76 * t15;
-    float t99 = t78 * t52 - t77 * t57 + 0.37796447 * t98;
-    float t100 = t98 - 0.6614378 * t99;
-    float t101 = t99 + 0.37796447 * t100;
-    float t102 = t88 * t92 - t91 * t89;
-    float t103 = t87 * t36 - t94 * t42 - 0.18267581 * t102;
-    float t104 = t102 + 0.35355338 * t103;
-    float t105 = t103 - 0.18267581 * t104;
-    float t106 = t90 - 0.6614378 * t93 + 0.5 * t95;
-    return float[25](
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18,
-        t28 * t30 - t33 * t34,
-        t37 * t18 + t35 * t13,
-        c[6] + 1.7320508 * t27,
-        t37 * t13 - t35 * t18,
-        t33 * t30 + t28 * t34,
-        t61 * t62 + t46 * t47,
-        t67 * t30 + t63 * t34,
-        t60 * t18 + t68 * t13,
-        t66,
-        t60 * t13 - t68 * t18,
-        t67 * t34 - t63 * t30,
-        t61 * t47 - t46 * t62,
-        t96 * t97 + t82 * t83,
-        t105 * t62 + t101 * t47,
-        t106 * t30 + t81 * t34,
-        t104 * t18 + t100 * t13,
-        c[20] + 0.73951 * t93 + 0.559017 * t95,
-        t104 * t13 - t100 * t18,
-        t106 * t34 - t81 * t30,
-        t105 * t47 - t101 * t62,
-        t96 * t83 - t82 * t97
-    );
+    float r[25];
+    float phase_cos[15];
+    float phase_sin[15];
+    float x = q.x;
+    float y = q.y + 1e-15;
+    float z = q.z;
+    float w = q.w + 1e-15;
+    float ww_zz = w * w + z * z;
+    float xx_yy = x * x + y * y;
+    float product = ww_zz * xx_yy;
+    float scale = inversesqrt(product);
+    float w_unit = w * scale;
+    float z_unit = z * scale;
+    float wy = w_unit * y;
+    float zx = z_unit * x;
+    float zy = z_unit * y;
+    float wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[6] = wy + zx;
+    phase_sin[6] = zy - wx;
+    phase_cos[11] = wy - zx;
+    phase_sin[11] = zy + wx;
+    for (int angle = 0; angle < 3; angle += 1) {
+        int base = angle * 5;
+        for (int m = 2; m < 5; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    float swapped[9];
+    r[0] = c[0];
+    for (int l = 1; l < 5; l += 1) {
+        int middle = l * l + l;
+        r[middle] = c[middle];
+        for (int m = 1; m < l + 1; m += 1) {
+            float co = phase_cos[10 + m];
+            float si = phase_sin[10 + m];
+            float plus = c[middle + m];
+            float minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (int stage = 0; stage < 2; stage += 1) {
+            int k = l * (l * l + 2) / 3 - 1;
+            for (int row = 0; row < l * 2 + 1; row += 1) {
+                int even = (row + 1) % 2;
+                int low = 1 - (row + 1) / (l + 1);
+                int start = even * l;
+                int first = start + (start + low) % 2;
+                float sum = r[l * l + first] * SH5_ROTATE_LOOP_J[k];
+                k += 1;
+                for (int i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH5_ROTATE_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (int m = 1; m < l + 1; m += 1) {
+                float co = phase_cos[stage * 5 + m];
+                float si = phase_sin[stage * 5 + m];
+                float plus = swapped[l + m];
+                float minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 
 #endif

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 280 (68 mul, 3 add, 209 fma); 15 constants, 29 live values.
-// Error: f32 rounding at most 4.3e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 vec3[25] sh5_rotate_y_rgb(vec2 cs, vec3[25] c) {
     vec3 t0 = c[8] - 1.7320508 * c[6];

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
-// Error: f32 rounding at most 1.7e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.5e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 vec3[25] sh5_swap_yz_rgb(vec3[25] c) {
     return vec3[25](

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 451 (210 mul, 3 add, 238 fma); 21 constants, 38 live values.
-// Error: f32 rounding at most 6.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
 //     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 vec3[25] sh5_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {

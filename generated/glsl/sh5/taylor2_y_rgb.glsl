@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 207 (15 mul, 0 add, 192 fma); 15 constants, 28 live values.
-// Error: f32 rounding at most 9.8e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at
 //     10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows without bound beyond.
 vec3[25] sh5_taylor2_y_rgb(float beta, vec3[25] c) {

@@ -11,8 +11,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 636 (331 mul, 13 add, 292 fma); 69 constants, 130 live values.
-// Error: f32 rounding at most 1.8e-6 of the norm of a band, for every rotation matrix (twice the worst
-//     of 256 measured).
+// Error: f32 rounding at most 2.7e-6 of the norm of a band, for every rotation matrix (3 times the
+//     worst of 256 measured).
 float[25] sh5_zhf(mat3 m, float[25] c) {
     float t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 68 (22 mul, 4 add, 42 fma); 43 constants, 27 live values.
-// Error: f32 rounding at most 6.6e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[25] sh5_zhf_weights(float[25] c) {
     float t0 = 0.26422182 * c[5] - 0.91529125 * c[4] + 1.585331 * c[6] - 0.45764562 * c[7] + 0.91529125 * c[8];

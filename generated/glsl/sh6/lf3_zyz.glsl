@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 274 (113 mul, 2 add, 159 fma); 20 constants, 51 live values.
-// Error: f32 rounding at most 1.8e-5 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at
 //     10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it grows without bound beyond.
 float[36] sh6_lf3_zyz(vec2[2] cs, float beta, float[36] c) {

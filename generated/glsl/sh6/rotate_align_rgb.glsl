@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 684 (202 mul, 5 add, 477 fma) and 1 inverse square root or reciprocal; 33 constants, 60
 //     live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 2.1e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 vec3[36] sh6_rotate_align_rgb(vec3 n, vec3[36] c) {
     float t0 = n.x + 1e-15;

@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
-// Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 8.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[36] sh6_rotate_angles(vec2[16] cs, float[36] c) {
     float t0 = c[3] * cs[10].y + c[1] * cs[10].x;

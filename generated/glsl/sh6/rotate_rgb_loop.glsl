@@ -10,209 +10,96 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 892 (305 mul, 8 add, 579 fma) and 1 inverse square root or reciprocal; 33 constants, 63
+// Operations: 1058 (515 mul, 7 add, 536 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const float[75] SH6_ROTATE_RGB_LOOP_J = float[75](
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
+    1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
+    -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
+    -0.75, 0.375, 0.559017, 0.73951, 0.9354144, 0.35355338, 0.559017, 0.5, -0.6614378, -0.35355338,
+    0.9354144, 0.73951, -0.6614378, 0.125, -0.70156074, 0.6846532, -0.19764236, 0.5, -0.8660254,
+    -0.5229125, -0.30618623, 0.79549515, -0.8660254, -0.5, -0.48412293, -0.6614378, -0.572822,
+    -0.70156074, -0.5229125, -0.48412293, 0.125, 0.40504628, 0.90571105, 0.6846532, -0.30618623,
+    -0.6614378, 0.40504628, 0.8125, -0.41926274, -0.19764236, 0.79549515, -0.572822, 0.90571105,
+    -0.41926274, 0.0625
+);
 vec3[36] sh6_rotate_rgb_loop(vec4 q, vec3[36] c) {
-    float t0 = q.y + 1e-15;
-    float t1 = q.w + 1e-15;
-    float t2 = q.z * q.z + t1 * t1;
-    float t3 = t0 * t0 + q.x * q.x;
-    float t4 = t2 * t3;
-    float t5 = inversesqrt(t4);
-    float t6 = t1 * t5;
-    float t7 = q.z * t5;
-    float t8 = q.x * t7;
-    float t9 = t0 * t6 - t8;
-    float t10 = q.x * t6;
-    float t11 = t10 + t0 * t7;
-    vec3 t12 = c[3] * t11 + c[1] * t9;
-    float t13 = t8 + t0 * t6;
-    vec3 t14 = c[3] * t9 - c[1] * t11;
-    float t15 = t2 - t3;
-    float t16 = 2.0 * (t4 * t5);
-    vec3 t17 = t14 * t15 - c[2] * t16;
-    float t18 = t0 * t7 - t10;
-    float t19 = t9 * t9 - t11 * t11;
-    float t20 = t9 * t11;
-    float t21 = t20 + t20;
-    vec3 t22 = c[8] * t19 - c[4] * t21;
-    vec3 t23 = t22 - 1.7320508 * c[6];
-    float t24 = t16 * t16;
-    vec3 t25 = c[7] * t9 - c[5] * t11;
-    float t26 = t15 * t16;
-    vec3 t27 = t25 * t26 + 0.5 * t24 * t23;
-    vec3 t28 = t22 - t27;
-    float t29 = t13 * t18;
-    float t30 = t29 + t29;
-    vec3 t31 = c[7] * t11 + c[5] * t9;
-    vec3 t32 = c[8] * t21 + c[4] * t19;
-    vec3 t33 = t31 * t16 - t32 * t15;
-    float t34 = t13 * t13 - t18 * t18;
-    vec3 t35 = t32 * t16 + t31 * t15;
-    float t36 = t15 * t15 - t24;
-    vec3 t37 = t23 * t26 + t25 * t36;
-    float t38 = t9 * t19 - t11 * t21;
-    float t39 = t11 * t19 + t9 * t21;
-    vec3 t40 = c[15] * t39 + c[9] * t38;
-    vec3 t41 = c[14] * t21 + c[10] * t19;
-    float t42 = 2.0 * t26;
-    vec3 t43 = c[13] * t11 + c[11] * t9;
-    vec3 t44 = 0.7905694 * t43 - 0.61237246 * t40;
-    vec3 t45 = t44 * t36 - t44 + t41 * t42;
-    vec3 t46 = t40 - 0.61237246 * t45;
-    float t47 = t13 * t34 - t18 * t30;
-    vec3 t48 = c[15] * t38 - c[9] * t39;
-    vec3 t49 = 0.12701665 * t48 - (c[13] * t9 - c[11] * t11);
-    vec3 t50 = 0.25 * t49 - t48;
-    vec3 t51 = t49 - 0.12701665 * t50;
-    float t52 = t15 * t36 - t16 * t42;
-    vec3 t53 = c[14] * t19 - c[10] * t21;
-    vec3 t54 = c[12] - 0.34199873 * t53;
-    vec3 t55 = t53 + 0.61237246 * t54;
-    vec3 t56 = t54 - 0.34199873 * t55;
-    float t57 = t16 * t36 + t15 * t42;
-    vec3 t58 = t56 * t57 + t51 * t52;
-    vec3 t59 = 0.12701665 * t58 - (t55 * t16 + t50 * t15);
-    vec3 t60 = 0.25 * t59 - t58;
-    vec3 t61 = t59 - 0.12701665 * t60;
-    float t62 = t18 * t34 + t13 * t30;
-    vec3 t63 = t41 * t36 - t44 * t42;
-    vec3 t64 = t56 * t52 - t51 * t57;
-    vec3 t65 = t55 * t15 - t50 * t16 - 0.34199873 * t64;
-    vec3 t66 = t64 + 0.61237246 * t65;
-    vec3 t67 = t65 - 0.34199873 * t66;
-    vec3 t68 = t43 + 0.7905694 * t45;
-    float t69 = t9 * t38 - t11 * t39;
-    float t70 = t11 * t38 + t9 * t39;
-    vec3 t71 = c[24] * t70 + c[16] * t69;
-    vec3 t72 = c[22] * t21 + c[18] * t19 - 0.18267581 * t71;
-    vec3 t73 = t71 + 0.35355338 * t72;
-    vec3 t74 = c[21] * t11 + c[19] * t9;
-    vec3 t75 = c[23] * t39 + c[17] * t38 - 0.37796447 * t74;
-    vec3 t76 = t74 + 0.6614378 * t75;
-    vec3 t77 = t72 - 0.18267581 * t73;
-    vec3 t78 = t75 - 0.37796447 * t76;
-    vec3 t79 = t78 * t57 + t77 * t52;
-    vec3 t80 = t73 * t15 - t76 * t16 - 0.18267581 * t79;
-    vec3 t81 = t79 + 0.35355338 * t80;
-    vec3 t82 = t80 - 0.18267581 * t81;
-    float t83 = t13 * t47 - t18 * t62;
-    vec3 t84 = c[24] * t69 - c[16] * t70;
-    vec3 t85 = c[23] * t38 - c[17] * t39;
-    vec3 t86 = c[21] * t9 - c[19] * t11 - 0.18267581 * t85;
-    vec3 t87 = t85 + 0.35355338 * t86;
-    vec3 t88 = t86 - 0.18267581 * t87;
-    float t89 = t16 * t52 + t15 * t57;
-    vec3 t90 = c[22] * t19 - c[18] * t21;
-    vec3 t91 = 0.125 * t84 - 0.6614378 * t90 + 0.73951 * c[20];
-    float t92 = t15 * t52 - t16 * t57;
-    vec3 t93 = t91 * t92 - t91 + t88 * t89;
-    vec3 t94 = 0.5 * t90 - 0.6614378 * t84 + 0.559017 * c[20];
-    vec3 t95 = t94 * t36 - t94 + t87 * t42;
-    vec3 t96 = t84 + 0.125 * t93 - 0.6614378 * t95;
-    float t97 = t18 * t47 + t13 * t62;
-    vec3 t98 = t73 * t16 + t76 * t15;
-    vec3 t99 = t78 * t52 - t77 * t57 + 0.37796447 * t98;
-    vec3 t100 = t98 - 0.6614378 * t99;
-    vec3 t101 = t99 + 0.37796447 * t100;
-    vec3 t102 = t88 * t92 - t91 * t89;
-    vec3 t103 = t87 * t36 - t94 * t42 - 0.18267581 * t102;
-    vec3 t104 = t102 + 0.35355338 * t103;
-    vec3 t105 = t103 - 0.18267581 * t104;
-    vec3 t106 = t90 - 0.6614378 * t93 + 0.5 * t95;
-    float t107 = t9 * t69 - t11 * t70;
-    float t108 = t11 * t69 + t9 * t70;
-    vec3 t109 = c[35] * t108 + c[25] * t107;
-    vec3 t110 = c[34] * t70 + c[26] * t69;
-    vec3 t111 = 0.2679492 * t110 - (c[32] * t21 + c[28] * t19);
-    vec3 t112 = 0.5 * t111 - t110;
-    vec3 t113 = t111 - 0.2679492 * t112;
-    vec3 t114 = c[33] * t39 + c[27] * t38;
-    vec3 t115 = c[31] * t11 + c[29] * t9;
-    vec3 t116 = 0.79549515 * t114 - 0.19764236 * t109 - 0.572822 * t115;
-    vec3 t117 = t116 * t92 - t116 + t113 * t89;
-    vec3 t118 = 0.6846532 * t109 - 0.30618623 * t114 - 0.6614378 * t115;
-    vec3 t119 = t118 * t36 - t118 + t112 * t42;
-    vec3 t120 = t109 - 0.19764236 * t117 + 0.6846532 * t119;
-    float t121 = t13 * t83 - t18 * t97;
-    vec3 t122 = c[35] * t107 - c[25] * t108;
-    vec3 t123 = c[31] * t9 - c[29] * t11 + 0.9660918 * t122;
-    vec3 t124 = c[33] * t38 - c[27] * t39 - 0.4472136 * t122;
-    vec3 t125 = 0.90571105 * t123 - (t122 + 0.41926274 * t124);
-    vec3 t126 = t123 - 0.9660918 * t125;
-    vec3 t127 = c[32] * t19 - c[28] * t21;
-    vec3 t128 = 0.07470077 * t127 - c[30];
-    vec3 t129 = 0.14857249 * t128 - t127;
-    vec3 t130 = c[34] * t69 - c[26] * t70;
-    vec3 t131 = t128 - 0.07470077 * t129;
-    vec3 t132 = t130 - 0.6642176 * t131 + 0.47829133 * t129;
-    vec3 t133 = t129 - 0.572822 * t132;
-    float t134 = t15 * t92 - t16 * t89;
-    vec3 t135 = t130 - 1.1976423 * t132;
-    float t136 = t16 * t92 + t15 * t89;
-    vec3 t137 = t135 * t136 + t125 * t134;
-    vec3 t138 = t133 * t16 + t126 * t15 + 0.9660918 * t137;
-    vec3 t139 = t124 + 0.4472136 * t125;
-    vec3 t140 = t131 + 0.79549515 * t132;
-    vec3 t141 = t140 * t57 + t139 * t52 - 0.4472136 * t137;
-    vec3 t142 = 0.90571105 * t138 - (t137 + 0.41926274 * t141);
-    float t143 = t18 * t83 + t13 * t97;
-    vec3 t144 = t113 * t92 - t116 * t89;
-    vec3 t145 = 0.2679492 * t144 - (t112 * t36 - t118 * t42);
-    vec3 t146 = 0.5 * t145 - t144;
-    vec3 t147 = t145 - 0.2679492 * t146;
-    vec3 t148 = t135 * t134 - t125 * t136;
-    vec3 t149 = t140 * t52 - t139 * t57;
-    vec3 t150 = 0.07470077 * t149 - (t133 * t15 - t126 * t16);
-    vec3 t151 = 0.14857249 * t150 - t149;
-    vec3 t152 = t150 - 0.07470077 * t151;
-    vec3 t153 = t148 - 0.5716675 * t152 + 0.58578485 * t151;
-    vec3 t154 = t148 - 1.1976423 * t153;
-    vec3 t155 = t114 + 0.79549515 * t117 - 0.30618623 * t119;
-    vec3 t156 = t141 + 0.4472136 * t142;
-    vec3 t157 = t152 + 0.6846532 * t153;
-    vec3 t158 = t115 - 0.572822 * t117 - 0.6614378 * t119;
-    vec3 t159 = t138 - 0.9660918 * t142;
-    return vec3[36](
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18,
-        t28 * t30 - t33 * t34,
-        t37 * t18 + t35 * t13,
-        c[6] + 1.7320508 * t27,
-        t37 * t13 - t35 * t18,
-        t33 * t30 + t28 * t34,
-        t61 * t62 + t46 * t47,
-        t67 * t30 + t63 * t34,
-        t60 * t18 + t68 * t13,
-        t66,
-        t60 * t13 - t68 * t18,
-        t67 * t34 - t63 * t30,
-        t61 * t47 - t46 * t62,
-        t96 * t97 + t82 * t83,
-        t105 * t62 + t101 * t47,
-        t106 * t30 + t81 * t34,
-        t104 * t18 + t100 * t13,
-        c[20] + 0.73951 * t93 + 0.559017 * t95,
-        t104 * t13 - t100 * t18,
-        t106 * t34 - t81 * t30,
-        t105 * t47 - t101 * t62,
-        t96 * t83 - t82 * t97,
-        t142 * t143 + t120 * t121,
-        t154 * t97 + t147 * t83,
-        t156 * t62 + t155 * t47,
-        t157 * t30 + t146 * t34,
-        t159 * t18 + t158 * t13,
-        t151 - 0.70156074 * t153,
-        t159 * t13 - t158 * t18,
-        t157 * t34 - t146 * t30,
-        t156 * t47 - t155 * t62,
-        t154 * t83 - t147 * t97,
-        t142 * t121 - t120 * t143
-    );
+    vec3 r[36];
+    float phase_cos[18];
+    float phase_sin[18];
+    float x = q.x;
+    float y = q.y + 1e-15;
+    float z = q.z;
+    float w = q.w + 1e-15;
+    float ww_zz = w * w + z * z;
+    float xx_yy = x * x + y * y;
+    float product = ww_zz * xx_yy;
+    float scale = inversesqrt(product);
+    float w_unit = w * scale;
+    float z_unit = z * scale;
+    float wy = w_unit * y;
+    float zx = z_unit * x;
+    float zy = z_unit * y;
+    float wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[7] = wy + zx;
+    phase_sin[7] = zy - wx;
+    phase_cos[13] = wy - zx;
+    phase_sin[13] = zy + wx;
+    for (int angle = 0; angle < 3; angle += 1) {
+        int base = angle * 6;
+        for (int m = 2; m < 6; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    vec3 swapped[11];
+    r[0] = c[0];
+    for (int l = 1; l < 6; l += 1) {
+        int middle = l * l + l;
+        r[middle] = c[middle];
+        for (int m = 1; m < l + 1; m += 1) {
+            float co = phase_cos[12 + m];
+            float si = phase_sin[12 + m];
+            vec3 plus = c[middle + m];
+            vec3 minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (int stage = 0; stage < 2; stage += 1) {
+            int k = l * (l * l + 2) / 3 - 1;
+            for (int row = 0; row < l * 2 + 1; row += 1) {
+                int even = (row + 1) % 2;
+                int low = 1 - (row + 1) / (l + 1);
+                int start = even * l;
+                int first = start + (start + low) % 2;
+                vec3 sum = r[l * l + first] * SH6_ROTATE_RGB_LOOP_J[k];
+                k += 1;
+                for (int i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH6_ROTATE_RGB_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (int m = 1; m < l + 1; m += 1) {
+                float co = phase_cos[stage * 6 + m];
+                float si = phase_sin[stage * 6 + m];
+                vec3 plus = swapped[l + m];
+                vec3 minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 
 #endif

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 172 (40 mul, 1 add, 131 fma); 33 constants, 42 live values.
-// Error: f32 rounding at most 5.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 7.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[36] sh6_rotate_y(vec2 cs, float[36] c) {
     float t0 = c[8] - 1.7320508 * c[6];

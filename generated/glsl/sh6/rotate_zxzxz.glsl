@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 382 (179 mul, 6 add, 197 fma) and 1 inverse square root or reciprocal; 28 constants, 63
 //     live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 float[36] sh6_rotate_zxzxz(vec4 q, float[36] c) {
     float t0 = q.y + 1e-15;

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
-// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[36] sh6_swap_yz(float[36] c) {
     return float[36](

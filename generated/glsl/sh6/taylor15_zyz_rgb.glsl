@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 673 (309 mul, 3 add, 361 fma); 28 constants, 53 live values.
-// Error: f32 rounding at most 7.9e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 6.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at
 //     10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it grows without bound beyond.
 vec3[36] sh6_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 711 (215 mul, 2 add, 494 fma); 19 constants, 54 live values.
-// Error: f32 rounding at most 1.5e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 6.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at
 //     10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it grows without bound beyond.
 vec3[36] sh6_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 472 (158 mul, 3 add, 311 fma); 53 constants, 76 live values.
-// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 9.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[49] sh7_rotate_euler(vec2[3] cs, float[49] c) {
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;

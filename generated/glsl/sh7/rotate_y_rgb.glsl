@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 750 (138 mul, 3 add, 609 fma); 53 constants, 57 live values.
-// Error: f32 rounding at most 4.6e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 6.9e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 vec3[49] sh7_rotate_y_rgb(vec2 cs, vec3[49] c) {
     vec3 t0 = c[8] - 1.7320508 * c[6];

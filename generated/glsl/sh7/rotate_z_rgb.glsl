@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 272 (136 mul, 1 add, 135 fma); 0 constants, 47 live values.
-// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 vec3[49] sh7_rotate_z_rgb(vec2 cs, vec3[49] c) {
     float t0 = cs.x * cs.x - cs.y * cs.y;

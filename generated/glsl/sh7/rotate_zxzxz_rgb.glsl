@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 1500 (663 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
-// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 vec3[49] sh7_rotate_zxzxz_rgb(vec4 q, vec3[49] c) {
     float t0 = q.y + 1e-15;

@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 230 (14 mul, 0 add, 216 fma); 14 constants, 47 live values.
-// Error: f32 rounding at most 5.2e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at
 //     10, 1.2e0 at 15, 2.9e0 at 25 degrees; it grows without bound beyond.
 vec3[49] sh7_taylor1_y_rgb(float beta, vec3[49] c) {

@@ -13,9 +13,9 @@
 // Returns the tilted coefficients.
 // Operations: 737 (70 mul, 4 add, 663 fma) and 1 inverse square root or reciprocal; 45 constants, 59
 //     live values.
-// Error: f32 rounding at most 1.6e-5 of the norm of a band, for n of unit length within 45 degrees of
-//     z (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-3 at
-//     5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at
+//     10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it grows without bound beyond.
 vec3[49] sh7_tilt_rgb(vec3 n, vec3[49] c) {
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

@@ -10,7 +10,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 651 (132 mul, 0 add, 519 fma); 164 constants, 49 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.9e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 vec3[49] sh7_zhf_tailored_rgb(vec3[49] f) {
     vec3 t0 = 3.7737603 * f[17] + 0.014369778 * f[16] + 2.885328 * f[18] + 0.554559 * f[19] + 6.116507 * f[20];

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 214 (41 mul, 3 add, 170 fma); 164 constants, 49 live values.
-// Error: f32 rounding at most 1.6e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[49] sh7_zhf_weights(float[49] c) {
     float t0 = 0.56049913 * c[5];

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
-// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 float[64] sh8_rotate_x_minus_90deg(float[64] c) {
     return float[64](

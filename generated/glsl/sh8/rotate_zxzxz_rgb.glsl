@@ -12,7 +12,7 @@
 // Returns the rotated coefficients.
 // Operations: 2106 (885 mul, 6 add, 1215 fma) and 1 inverse square root or reciprocal; 76 constants,
 //     101 live values.
-// Error: f32 rounding at most 2.9e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 4.3e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 vec3[64] sh8_rotate_zxzxz_rgb(vec4 q, vec3[64] c) {
     float t0 = q.y + 1e-15;

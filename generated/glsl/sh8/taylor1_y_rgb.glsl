@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 313 (19 mul, 0 add, 294 fma); 19 constants, 62 live values.
-// Error: f32 rounding at most 6.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at
 //     10, 1.6e0 at 15, 3.6e0 at 25 degrees; it grows without bound beyond.
 vec3[64] sh8_taylor1_y_rgb(float beta, vec3[64] c) {

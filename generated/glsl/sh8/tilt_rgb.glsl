@@ -13,9 +13,9 @@
 // Returns the tilted coefficients.
 // Operations: 989 (86 mul, 4 add, 899 fma) and 1 inverse square root or reciprocal; 60 constants, 74
 //     live values.
-// Error: f32 rounding at most 8.2e-5 of the norm of a band, for n of unit length within 45 degrees of
-//     z (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 9.5e-3 at
-//     5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at
+//     10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it grows without bound beyond.
 vec3[64] sh8_tilt_rgb(vec3 n, vec3[64] c) {
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

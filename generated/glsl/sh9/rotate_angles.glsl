@@ -11,7 +11,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 799 (216 mul, 1 add, 582 fma); 134 constants, 90 live values.
-// Error: f32 rounding at most 5.8e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 8.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[81] sh9_rotate_angles(vec2[25] cs, float[81] c) {
     float t0 = c[3] * cs[16].y + c[1] * cs[16].x;

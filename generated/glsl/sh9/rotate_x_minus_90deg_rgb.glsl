@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 717 (219 mul, 0 add, 498 fma); 107 constants, 77 live values.
-// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 vec3[81] sh9_rotate_x_minus_90deg_rgb(vec3[81] c) {
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];

@@ -10,7 +10,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 540 (88 mul, 1 add, 451 fma); 135 constants, 92 live values.
-// Error: f32 rounding at most 5.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 7.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 float[81] sh9_rotate_y(vec2 cs, float[81] c) {
     float t0 = c[8] - 1.7320508 * c[6];

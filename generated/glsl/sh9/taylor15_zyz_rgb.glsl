@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1604 (723 mul, 3 add, 878 fma); 60 constants, 106 live values.
-// Error: f32 rounding at most 2.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
 //     10, 1.6e0 at 15, 5.2e0 at 25 degrees; it grows without bound beyond.
 vec3[81] sh9_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {

@@ -12,7 +12,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1734 (506 mul, 2 add, 1226 fma); 46 constants, 108 live values.
-// Error: f32 rounding at most 2.8e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at
 //     10, 1.5e0 at 15, 5.7e0 at 25 degrees; it grows without bound beyond.
 vec3[81] sh9_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {

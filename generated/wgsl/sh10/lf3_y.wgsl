@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
-// Error: f32 rounding at most 1.3e-3 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.5e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at
 //     10, 1.2e0 at 15, 6.8e1 at 25 degrees; it grows without bound beyond.
 fn sh10_lf3_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {

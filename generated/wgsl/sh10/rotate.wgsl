@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 1166 (329 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     149 live values.
-// Error: f32 rounding at most 3.4e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh10_rotate(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = q.y + 1e-15;

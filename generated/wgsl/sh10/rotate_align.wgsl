@@ -8,8 +8,8 @@
 // Returns the rotated coefficients.
 // Operations: 942 (218 mul, 3 add, 721 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     144 live values.
-// Error: f32 rounding at most 2e-6 of the norm of a band, for every n of unit length (twice the worst
-//     of 256 measured).
+// Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (3 times the
+//     worst of 256 measured).
 fn sh10_rotate_align(n: vec3<f32>, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = n.x + 1e-15;
     let t1 = n.y * n.y + t0 * t0;

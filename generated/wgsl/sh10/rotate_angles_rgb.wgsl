@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3153 (810 mul, 3 add, 2340 fma); 203 constants, 113 live values.
-// Error: f32 rounding at most 6.9e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh10_rotate_angles_rgb(cs: array<vec2<f32>, 28>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     let t0 = c[3] * cs[18].y + c[1] * cs[18].x;

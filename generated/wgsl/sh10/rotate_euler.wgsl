@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
-// Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh10_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = c[3] * cs[2].y + c[1] * cs[2].x;

@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2106 (288 mul, 3 add, 1815 fma); 204 constants, 113 live values.
-// Error: f32 rounding at most 5.6e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 8.3e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh10_rotate_y_rgb(cs: vec2<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     let t0 = c[8] - 1.7320508 * c[6];

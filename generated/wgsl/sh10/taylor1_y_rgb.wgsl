@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 516 (30 mul, 0 add, 486 fma); 30 constants, 98 live values.
-// Error: f32 rounding at most 6.5e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at
 //     10, 2.4e0 at 15, 5e0 at 25 degrees; it grows without bound beyond.
 fn sh10_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {

@@ -10,9 +10,9 @@
 // Returns the tilted coefficients.
 // Operations: 613 (108 mul, 2 add, 503 fma) and 1 inverse square root or reciprocal; 96 constants, 112
 //     live values.
-// Error: f32 rounding at most 5.8e-4 of the norm of a band, for n of unit length within 45 degrees of
-//     z (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at
-//     5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at
+//     10, 1.1e0 at 15, 5.2e1 at 25 degrees; it grows without bound beyond.
 fn sh10_tilt(n: vec3<f32>, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = c[1] * n.y + c[3] * n.x;
     let t1 = 1.0 / (n.z + 1.0);

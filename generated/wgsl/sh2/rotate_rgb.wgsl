@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (12 mul, 0 add, 36 fma); 1 constants, 5 live values.
-// Error: f32 rounding at most 3.6e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 5.4e-7 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh2_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     let t0 = 2.0 * q.y;

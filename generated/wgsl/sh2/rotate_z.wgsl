@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 1.9e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh2_rotate_z(cs: vec2<f32>, c: array<f32, 4>) -> array<f32, 4> {
     return array<f32, 4>(

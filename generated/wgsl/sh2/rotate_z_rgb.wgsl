@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 1.9e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh2_rotate_z_rgb(cs: vec2<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     return array<vec3<f32>, 4>(

@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
-// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 9.5e-7 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh2_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     let t0 = q.y + 1e-15;

@@ -7,35 +7,87 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
+// Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
-// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 9.8e-7 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const SH2_ROTATE_ZYZ_LOOP_J = array<f32, 3>(
+    -1.0, -1.0, 1.0
+);
 fn sh2_rotate_zyz_loop(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
-    let t0 = q.y + 1e-15;
-    let t1 = q.w + 1e-15;
-    let t2 = q.z * q.z + t1 * t1;
-    let t3 = t0 * t0 + q.x * q.x;
-    let t4 = t2 * t3;
-    let t5 = inverseSqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q.z * t5;
-    let t8 = q.x * t7;
-    let t9 = t0 * t6 - t8;
-    let t10 = q.x * t6;
-    let t11 = t10 + t0 * t7;
-    let t12 = c[3] * t11 + c[1] * t9;
-    let t13 = t8 + t0 * t6;
-    let t14 = c[3] * t9 - c[1] * t11;
-    let t15 = t2 - t3;
-    let t16 = 2.0 * (t4 * t5);
-    let t17 = t14 * t15 - c[2] * t16;
-    let t18 = t0 * t7 - t10;
-    return array<f32, 4>(
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18
-    );
+    var r: array<f32, 4>;
+    var phase_cos: array<f32, 6>;
+    var phase_sin: array<f32, 6>;
+    let x = q.x;
+    let y = q.y + 1e-15;
+    let z = q.z;
+    let w = q.w + 1e-15;
+    let ww_zz = w * w + z * z;
+    let xx_yy = x * x + y * y;
+    let product = ww_zz * xx_yy;
+    let scale = inverseSqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[3] = wy + zx;
+    phase_sin[3] = zy - wx;
+    phase_cos[5] = wy - zx;
+    phase_sin[5] = zy + wx;
+    for (var angle = 0; angle < 3; angle += 1) {
+        let base = angle * 2;
+        for (var m = 2; m < 2; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    var swapped: array<f32, 3>;
+    r[0] = c[0];
+    for (var l = 1; l < 2; l += 1) {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for (var m = 1; m < l + 1; m += 1) {
+            let co = phase_cos[4 + m];
+            let si = phase_sin[4 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (var stage = 0; stage < 2; stage += 1) {
+            var k = l * (l * l + 2) / 3 - 1;
+            for (var row = 0; row < l * 2 + 1; row += 1) {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                var sum = r[l * l + first] * SH2_ROTATE_ZYZ_LOOP_J[k];
+                k += 1;
+                for (var i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH2_ROTATE_ZYZ_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (var m = 1; m < l + 1; m += 1) {
+                let co = phase_cos[stage * 2 + m];
+                let si = phase_sin[stage * 2 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
-// Error: f32 rounding at most 3.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at
 //     10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it grows without bound beyond.
 fn sh2_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> array<f32, 4> {

@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 6e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 fn sh2_zhf_weights_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     return array<vec3<f32>, 4>(

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 55 (23 mul, 2 add, 30 fma); 6 constants, 13 live values.
-// Error: f32 rounding at most 3.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at
 //     10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it grows without bound beyond.
 fn sh3_lf3_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> array<f32, 9> {

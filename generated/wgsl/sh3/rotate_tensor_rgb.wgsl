@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 158 (54 mul, 6 add, 98 fma); 5 constants, 20 live values.
-// Error: f32 rounding at most 7.1e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh3_rotate_tensor_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = 2.0 * q.z;

@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 40 (20 mul, 1 add, 19 fma); 0 constants, 7 live values.
-// Error: f32 rounding at most 1.5e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 2.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh3_rotate_z_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = cs.x * cs.x - cs.y * cs.y;

@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 74 (37 mul, 6 add, 31 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 //     values.
-// Error: f32 rounding at most 8.6e-7 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh3_rotate_zxzxz(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = q.y + 1e-15;

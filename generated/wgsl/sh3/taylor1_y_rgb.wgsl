@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 25 (1 mul, 0 add, 24 fma); 1 constants, 7 live values.
-// Error: f32 rounding at most 2.4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at
 //     10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it grows without bound beyond.
 fn sh3_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {

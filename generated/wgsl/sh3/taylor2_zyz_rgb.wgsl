@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 131 (43 mul, 2 add, 86 fma); 3 constants, 15 live values.
-// Error: f32 rounding at most 3.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
 //     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
 fn sh3_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {

@@ -7,97 +7,89 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
+// Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 //     live values.
-// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const SH4_ROTATE_LOOP_J = array<f32, 23>(
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
+    1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
+    -0.96824586, 0.25
+);
 fn sh4_rotate_loop(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
-    let t0 = q.y + 1e-15;
-    let t1 = q.w + 1e-15;
-    let t2 = q.z * q.z + t1 * t1;
-    let t3 = t0 * t0 + q.x * q.x;
-    let t4 = t2 * t3;
-    let t5 = inverseSqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q.z * t5;
-    let t8 = q.x * t7;
-    let t9 = t0 * t6 - t8;
-    let t10 = q.x * t6;
-    let t11 = t10 + t0 * t7;
-    let t12 = c[3] * t11 + c[1] * t9;
-    let t13 = t8 + t0 * t6;
-    let t14 = c[3] * t9 - c[1] * t11;
-    let t15 = t2 - t3;
-    let t16 = 2.0 * (t4 * t5);
-    let t17 = t14 * t15 - c[2] * t16;
-    let t18 = t0 * t7 - t10;
-    let t19 = t9 * t9 - t11 * t11;
-    let t20 = t9 * t11;
-    let t21 = t20 + t20;
-    let t22 = c[8] * t19 - c[4] * t21;
-    let t23 = t22 - 1.7320508 * c[6];
-    let t24 = t16 * t16;
-    let t25 = c[7] * t9 - c[5] * t11;
-    let t26 = t15 * t16;
-    let t27 = t25 * t26 + 0.5 * t24 * t23;
-    let t28 = t22 - t27;
-    let t29 = t13 * t18;
-    let t30 = t29 + t29;
-    let t31 = c[7] * t11 + c[5] * t9;
-    let t32 = c[8] * t21 + c[4] * t19;
-    let t33 = t31 * t16 - t32 * t15;
-    let t34 = t13 * t13 - t18 * t18;
-    let t35 = t32 * t16 + t31 * t15;
-    let t36 = t15 * t15 - t24;
-    let t37 = t23 * t26 + t25 * t36;
-    let t38 = t9 * t19 - t11 * t21;
-    let t39 = t11 * t19 + t9 * t21;
-    let t40 = c[15] * t39 + c[9] * t38;
-    let t41 = c[14] * t21 + c[10] * t19;
-    let t42 = 2.0 * t26;
-    let t43 = c[13] * t11 + c[11] * t9;
-    let t44 = 0.7905694 * t43 - 0.61237246 * t40;
-    let t45 = t44 * t36 - t44 + t41 * t42;
-    let t46 = t40 - 0.61237246 * t45;
-    let t47 = t13 * t34 - t18 * t30;
-    let t48 = c[15] * t38 - c[9] * t39;
-    let t49 = 0.12701665 * t48 - (c[13] * t9 - c[11] * t11);
-    let t50 = 0.25 * t49 - t48;
-    let t51 = t49 - 0.12701665 * t50;
-    let t52 = t15 * t36 - t16 * t42;
-    let t53 = c[14] * t19 - c[10] * t21;
-    let t54 = c[12] - 0.34199873 * t53;
-    let t55 = t53 + 0.61237246 * t54;
-    let t56 = t54 - 0.34199873 * t55;
-    let t57 = t16 * t36 + t15 * t42;
-    let t58 = t56 * t57 + t51 * t52;
-    let t59 = 0.12701665 * t58 - (t55 * t16 + t50 * t15);
-    let t60 = 0.25 * t59 - t58;
-    let t61 = t59 - 0.12701665 * t60;
-    let t62 = t18 * t34 + t13 * t30;
-    let t63 = t41 * t36 - t44 * t42;
-    let t64 = t56 * t52 - t51 * t57;
-    let t65 = t55 * t15 - t50 * t16 - 0.34199873 * t64;
-    let t66 = t64 + 0.61237246 * t65;
-    let t67 = t65 - 0.34199873 * t66;
-    let t68 = t43 + 0.7905694 * t45;
-    return array<f32, 16>(
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18,
-        t28 * t30 - t33 * t34,
-        t37 * t18 + t35 * t13,
-        c[6] + 1.7320508 * t27,
-        t37 * t13 - t35 * t18,
-        t33 * t30 + t28 * t34,
-        t61 * t62 + t46 * t47,
-        t67 * t30 + t63 * t34,
-        t60 * t18 + t68 * t13,
-        t66,
-        t60 * t13 - t68 * t18,
-        t67 * t34 - t63 * t30,
-        t61 * t47 - t46 * t62
-    );
+    var r: array<f32, 16>;
+    var phase_cos: array<f32, 12>;
+    var phase_sin: array<f32, 12>;
+    let x = q.x;
+    let y = q.y + 1e-15;
+    let z = q.z;
+    let w = q.w + 1e-15;
+    let ww_zz = w * w + z * z;
+    let xx_yy = x * x + y * y;
+    let product = ww_zz * xx_yy;
+    let scale = inverseSqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[5] = wy + zx;
+    phase_sin[5] = zy - wx;
+    phase_cos[9] = wy - zx;
+    phase_sin[9] = zy + wx;
+    for (var angle = 0; angle < 3; angle += 1) {
+        let base = angle * 4;
+        for (var m = 2; m < 4; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    var swapped: array<f32, 7>;
+    r[0] = c[0];
+    for (var l = 1; l < 4; l += 1) {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for (var m = 1; m < l + 1; m += 1) {
+            let co = phase_cos[8 + m];
+            let si = phase_sin[8 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (var stage = 0; stage < 2; stage += 1) {
+            var k = l * (l * l + 2) / 3 - 1;
+            for (var row = 0; row < l * 2 + 1; row += 1) {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                var sum = r[l * l + first] * SH4_ROTATE_LOOP_J[k];
+                k += 1;
+                for (var i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH4_ROTATE_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (var m = 1; m < l + 1; m += 1) {
+                let co = phase_cos[stage * 4 + m];
+                let si = phase_sin[stage * 4 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 

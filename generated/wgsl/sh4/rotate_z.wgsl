@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 32 (16 mul, 1 add, 15 fma); 0 constants, 14 live values.
-// Error: f32 rounding at most 1.9e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 2.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh4_rotate_z(cs: vec2<f32>, c: array<f32, 16>) -> array<f32, 16> {
     let t0 = cs.x * cs.x - cs.y * cs.y;

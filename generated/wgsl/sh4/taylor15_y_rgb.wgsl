@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (47 mul, 0 add, 61 fma); 12 constants, 18 live values.
-// Error: f32 rounding at most 3.8e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
 //     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
 fn sh4_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {

@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 58 (4 mul, 0 add, 54 fma); 4 constants, 14 live values.
-// Error: f32 rounding at most 4.2e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 3.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at
 //     10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it grows without bound beyond.
 fn sh4_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 218 (84 mul, 2 add, 132 fma); 4 constants, 24 live values.
-// Error: f32 rounding at most 4.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at
 //     10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it grows without bound beyond.
 fn sh4_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {

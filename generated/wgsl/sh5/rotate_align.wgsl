@@ -8,7 +8,7 @@
 // Returns the rotated coefficients.
 // Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
-// Error: f32 rounding at most 9.4e-7 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 fn sh5_rotate_align(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
     let t0 = n.x + 1e-15;

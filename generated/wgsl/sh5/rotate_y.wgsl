@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
-// Error: f32 rounding at most 4.3e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh5_rotate_y(cs: vec2<f32>, c: array<f32, 25>) -> array<f32, 25> {
     let t0 = c[8] - 1.7320508 * c[6];

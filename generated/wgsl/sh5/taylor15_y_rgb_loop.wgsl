@@ -7,52 +7,31 @@
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 187 (78 mul, 1 add, 108 fma); 21 constants, 28 live values.
-// Error: f32 rounding at most 6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-//     of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10,
-//     3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+// Operations: 311 (146 mul, 0 add, 165 fma); 50 constants, 25 live values.
+// Error: f32 rounding at most 3.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
+//     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+// dD/dbeta at 0, from m - 1 to m
+const SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 25>(
+    0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
+    -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
+    -2.1213202, -1.8708287, -1.4142135
+);
+// the diagonal of the second derivative of D at 0
+const SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = array<f32, 25>(
+    0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
+    -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0
+);
 fn sh5_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
-    let t0 = beta * beta;
-    let t1 = 1.0 - 0.5 * t0;
-    let t2 = 1.7320508 * beta;
-    let t3 = 1.0 - 2.0 * t0;
-    let t4 = 1.0 - 0.75 * t0;
-    let t5 = 1.2247449 * beta;
-    let t6 = 1.5811388 * beta;
-    let t7 = 2.4494898 * beta;
-    let t8 = 1.0 - t0;
-    let t9 = 1.4142135 * beta;
-    let t10 = 1.0 - 2.75 * t0;
-    let t11 = 1.8708287 * beta;
-    let t12 = 1.0 - 4.0 * t0;
-    let t13 = 2.1213202 * beta;
-    let t14 = 3.1622777 * beta;
-    return array<vec3<f32>, 25>(
-        c[0],
-        c[1],
-        c[3] * beta + c[2] * t1,
-        c[3] * t1 - c[2] * beta,
-        c[4] * t1 - c[5] * beta,
-        c[4] * beta + c[5] * t1,
-        c[7] * t2 + (1.0 - 1.5 * t0) * c[6],
-        c[7] * t3 - c[6] * t2 + c[8] * beta,
-        c[8] * t1 - c[7] * beta,
-        c[9] * t4 - c[10] * t5,
-        c[10] * t3 - c[11] * t6 + c[9] * t5,
-        c[10] * t6 + (1.0 - 1.25 * t0) * c[11],
-        c[13] * t7 + (1.0 - 3.0 * t0) * c[12],
-        (1.0 - 4.25 * t0) * c[13] - c[12] * t7 + c[14] * t6,
-        c[14] * t3 - c[13] * t6 + c[15] * t5,
-        c[15] * t4 - c[14] * t5,
-        c[16] * t8 - c[17] * t9,
-        c[17] * t10 - c[18] * t11 + c[16] * t9,
-        c[18] * t12 - c[19] * t13 + c[17] * t11,
-        c[18] * t13 + (1.0 - 2.25 * t0) * c[19],
-        c[21] * t14 + (1.0 - 5.0 * t0) * c[20],
-        (1.0 - 7.25 * t0) * c[21] - c[20] * t14 + c[22] * t13,
-        c[22] * t12 - c[21] * t13 + c[23] * t11,
-        c[23] * t10 - c[22] * t11 + c[24] * t9,
-        c[24] * t8 - c[23] * t9
-    );
+    var r: array<vec3<f32>, 25>;
+    let half_square = 0.5 * beta * beta;
+    r[0] = c[0];
+    for (var i = 1; i < 24; i += 1) {
+        r[i] = c[i] * (1.0 + half_square * SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
+    }
+    r[24] = c[24] * (1.0 + half_square * SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[24]) + c[23] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[24] * beta;
+    return
+        r
+    ;
 }
 

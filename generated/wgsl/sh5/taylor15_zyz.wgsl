@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 181 (84 mul, 3 add, 94 fma); 21 constants, 38 live values.
-// Error: f32 rounding at most 6.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
 //     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 fn sh5_taylor15_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 25>) -> array<f32, 25> {

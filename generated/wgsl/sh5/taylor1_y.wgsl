@@ -8,9 +8,9 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 40 (8 mul, 0 add, 32 fma); 8 constants, 23 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for |beta| up to 45 degrees (twice the worst
-//     of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10,
-//     5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
+//     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
 fn sh5_taylor1_y(beta: f32, c: array<f32, 25>) -> array<f32, 25> {
     let t0 = 1.7320508 * beta;
     let t1 = 1.2247449 * beta;

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 144 (60 mul, 2 add, 82 fma); 8 constants, 36 live values.
-// Error: f32 rounding at most 6.1e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
 //     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
 fn sh5_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 25>) -> array<f32, 25> {

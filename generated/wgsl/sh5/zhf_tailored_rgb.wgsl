@@ -7,7 +7,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 201 (63 mul, 3 add, 135 fma); 43 constants, 25 live values.
-// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 fn sh5_zhf_tailored_rgb(f: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
     let t0 = 0.91529125 * f[6];

@@ -7,208 +7,95 @@
 // q: the rotation, a unit quaternion (x, y, z, w).
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
-// Operations: 342 (125 mul, 6 add, 211 fma) and 1 inverse square root or reciprocal; 33 constants, 63
+// Operations: 398 (195 mul, 7 add, 196 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
+// J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
+// below l; of these the even columns in the rows from l, the odd columns in those below l
+const SH6_ROTATE_LOOP_J = array<f32, 75>(
+    -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
+    1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
+    -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
+    -0.75, 0.375, 0.559017, 0.73951, 0.9354144, 0.35355338, 0.559017, 0.5, -0.6614378, -0.35355338,
+    0.9354144, 0.73951, -0.6614378, 0.125, -0.70156074, 0.6846532, -0.19764236, 0.5, -0.8660254,
+    -0.5229125, -0.30618623, 0.79549515, -0.8660254, -0.5, -0.48412293, -0.6614378, -0.572822,
+    -0.70156074, -0.5229125, -0.48412293, 0.125, 0.40504628, 0.90571105, 0.6846532, -0.30618623,
+    -0.6614378, 0.40504628, 0.8125, -0.41926274, -0.19764236, 0.79549515, -0.572822, 0.90571105,
+    -0.41926274, 0.0625
+);
 fn sh6_rotate_loop(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
-    let t0 = q.y + 1e-15;
-    let t1 = q.w + 1e-15;
-    let t2 = q.z * q.z + t1 * t1;
-    let t3 = t0 * t0 + q.x * q.x;
-    let t4 = t2 * t3;
-    let t5 = inverseSqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q.z * t5;
-    let t8 = q.x * t7;
-    let t9 = t0 * t6 - t8;
-    let t10 = q.x * t6;
-    let t11 = t10 + t0 * t7;
-    let t12 = c[3] * t11 + c[1] * t9;
-    let t13 = t8 + t0 * t6;
-    let t14 = c[3] * t9 - c[1] * t11;
-    let t15 = t2 - t3;
-    let t16 = 2.0 * (t4 * t5);
-    let t17 = t14 * t15 - c[2] * t16;
-    let t18 = t0 * t7 - t10;
-    let t19 = t9 * t9 - t11 * t11;
-    let t20 = t9 * t11;
-    let t21 = t20 + t20;
-    let t22 = c[8] * t19 - c[4] * t21;
-    let t23 = t22 - 1.7320508 * c[6];
-    let t24 = t16 * t16;
-    let t25 = c[7] * t9 - c[5] * t11;
-    let t26 = t15 * t16;
-    let t27 = t25 * t26 + 0.5 * t24 * t23;
-    let t28 = t22 - t27;
-    let t29 = t13 * t18;
-    let t30 = t29 + t29;
-    let t31 = c[7] * t11 + c[5] * t9;
-    let t32 = c[8] * t21 + c[4] * t19;
-    let t33 = t31 * t16 - t32 * t15;
-    let t34 = t13 * t13 - t18 * t18;
-    let t35 = t32 * t16 + t31 * t15;
-    let t36 = t15 * t15 - t24;
-    let t37 = t23 * t26 + t25 * t36;
-    let t38 = t9 * t19 - t11 * t21;
-    let t39 = t11 * t19 + t9 * t21;
-    let t40 = c[15] * t39 + c[9] * t38;
-    let t41 = c[14] * t21 + c[10] * t19;
-    let t42 = 2.0 * t26;
-    let t43 = c[13] * t11 + c[11] * t9;
-    let t44 = 0.7905694 * t43 - 0.61237246 * t40;
-    let t45 = t44 * t36 - t44 + t41 * t42;
-    let t46 = t40 - 0.61237246 * t45;
-    let t47 = t13 * t34 - t18 * t30;
-    let t48 = c[15] * t38 - c[9] * t39;
-    let t49 = 0.12701665 * t48 - (c[13] * t9 - c[11] * t11);
-    let t50 = 0.25 * t49 - t48;
-    let t51 = t49 - 0.12701665 * t50;
-    let t52 = t15 * t36 - t16 * t42;
-    let t53 = c[14] * t19 - c[10] * t21;
-    let t54 = c[12] - 0.34199873 * t53;
-    let t55 = t53 + 0.61237246 * t54;
-    let t56 = t54 - 0.34199873 * t55;
-    let t57 = t16 * t36 + t15 * t42;
-    let t58 = t56 * t57 + t51 * t52;
-    let t59 = 0.12701665 * t58 - (t55 * t16 + t50 * t15);
-    let t60 = 0.25 * t59 - t58;
-    let t61 = t59 - 0.12701665 * t60;
-    let t62 = t18 * t34 + t13 * t30;
-    let t63 = t41 * t36 - t44 * t42;
-    let t64 = t56 * t52 - t51 * t57;
-    let t65 = t55 * t15 - t50 * t16 - 0.34199873 * t64;
-    let t66 = t64 + 0.61237246 * t65;
-    let t67 = t65 - 0.34199873 * t66;
-    let t68 = t43 + 0.7905694 * t45;
-    let t69 = t9 * t38 - t11 * t39;
-    let t70 = t11 * t38 + t9 * t39;
-    let t71 = c[24] * t70 + c[16] * t69;
-    let t72 = c[22] * t21 + c[18] * t19 - 0.18267581 * t71;
-    let t73 = t71 + 0.35355338 * t72;
-    let t74 = c[21] * t11 + c[19] * t9;
-    let t75 = c[23] * t39 + c[17] * t38 - 0.37796447 * t74;
-    let t76 = t74 + 0.6614378 * t75;
-    let t77 = t72 - 0.18267581 * t73;
-    let t78 = t75 - 0.37796447 * t76;
-    let t79 = t78 * t57 + t77 * t52;
-    let t80 = t73 * t15 - t76 * t16 - 0.18267581 * t79;
-    let t81 = t79 + 0.35355338 * t80;
-    let t82 = t80 - 0.18267581 * t81;
-    let t83 = t13 * t47 - t18 * t62;
-    let t84 = c[24] * t69 - c[16] * t70;
-    let t85 = c[23] * t38 - c[17] * t39;
-    let t86 = c[21] * t9 - c[19] * t11 - 0.18267581 * t85;
-    let t87 = t85 + 0.35355338 * t86;
-    let t88 = t86 - 0.18267581 * t87;
-    let t89 = t16 * t52 + t15 * t57;
-    let t90 = c[22] * t19 - c[18] * t21;
-    let t91 = 0.125 * t84 - 0.6614378 * t90 + 0.73951 * c[20];
-    let t92 = t15 * t52 - t16 * t57;
-    let t93 = t91 * t92 - t91 + t88 * t89;
-    let t94 = 0.5 * t90 - 0.6614378 * t84 + 0.559017 * c[20];
-    let t95 = t94 * t36 - t94 + t87 * t42;
-    let t96 = t84 + 0.125 * t93 - 0.6614378 * t95;
-    let t97 = t18 * t47 + t13 * t62;
-    let t98 = t73 * t16 + t76 * t15;
-    let t99 = t78 * t52 - t77 * t57 + 0.37796447 * t98;
-    let t100 = t98 - 0.6614378 * t99;
-    let t101 = t99 + 0.37796447 * t100;
-    let t102 = t88 * t92 - t91 * t89;
-    let t103 = t87 * t36 - t94 * t42 - 0.18267581 * t102;
-    let t104 = t102 + 0.35355338 * t103;
-    let t105 = t103 - 0.18267581 * t104;
-    let t106 = t90 - 0.6614378 * t93 + 0.5 * t95;
-    let t107 = t9 * t69 - t11 * t70;
-    let t108 = t11 * t69 + t9 * t70;
-    let t109 = c[35] * t108 + c[25] * t107;
-    let t110 = c[34] * t70 + c[26] * t69;
-    let t111 = 0.2679492 * t110 - (c[32] * t21 + c[28] * t19);
-    let t112 = 0.5 * t111 - t110;
-    let t113 = t111 - 0.2679492 * t112;
-    let t114 = c[33] * t39 + c[27] * t38;
-    let t115 = c[31] * t11 + c[29] * t9;
-    let t116 = 0.79549515 * t114 - 0.19764236 * t109 - 0.572822 * t115;
-    let t117 = t116 * t92 - t116 + t113 * t89;
-    let t118 = 0.6846532 * t109 - 0.30618623 * t114 - 0.6614378 * t115;
-    let t119 = t118 * t36 - t118 + t112 * t42;
-    let t120 = t109 - 0.19764236 * t117 + 0.6846532 * t119;
-    let t121 = t13 * t83 - t18 * t97;
-    let t122 = c[35] * t107 - c[25] * t108;
-    let t123 = c[31] * t9 - c[29] * t11 + 0.9660918 * t122;
-    let t124 = c[33] * t38 - c[27] * t39 - 0.4472136 * t122;
-    let t125 = 0.90571105 * t123 - (t122 + 0.41926274 * t124);
-    let t126 = t123 - 0.9660918 * t125;
-    let t127 = c[32] * t19 - c[28] * t21;
-    let t128 = 0.07470077 * t127 - c[30];
-    let t129 = 0.14857249 * t128 - t127;
-    let t130 = c[34] * t69 - c[26] * t70;
-    let t131 = t128 - 0.07470077 * t129;
-    let t132 = t130 - 0.6642176 * t131 + 0.47829133 * t129;
-    let t133 = t129 - 0.572822 * t132;
-    let t134 = t15 * t92 - t16 * t89;
-    let t135 = t130 - 1.1976423 * t132;
-    let t136 = t16 * t92 + t15 * t89;
-    let t137 = t135 * t136 + t125 * t134;
-    let t138 = t133 * t16 + t126 * t15 + 0.9660918 * t137;
-    let t139 = t124 + 0.4472136 * t125;
-    let t140 = t131 + 0.79549515 * t132;
-    let t141 = t140 * t57 + t139 * t52 - 0.4472136 * t137;
-    let t142 = 0.90571105 * t138 - (t137 + 0.41926274 * t141);
-    let t143 = t18 * t83 + t13 * t97;
-    let t144 = t113 * t92 - t116 * t89;
-    let t145 = 0.2679492 * t144 - (t112 * t36 - t118 * t42);
-    let t146 = 0.5 * t145 - t144;
-    let t147 = t145 - 0.2679492 * t146;
-    let t148 = t135 * t134 - t125 * t136;
-    let t149 = t140 * t52 - t139 * t57;
-    let t150 = 0.07470077 * t149 - (t133 * t15 - t126 * t16);
-    let t151 = 0.14857249 * t150 - t149;
-    let t152 = t150 - 0.07470077 * t151;
-    let t153 = t148 - 0.5716675 * t152 + 0.58578485 * t151;
-    let t154 = t148 - 1.1976423 * t153;
-    let t155 = t114 + 0.79549515 * t117 - 0.30618623 * t119;
-    let t156 = t141 + 0.4472136 * t142;
-    let t157 = t152 + 0.6846532 * t153;
-    let t158 = t115 - 0.572822 * t117 - 0.6614378 * t119;
-    let t159 = t138 - 0.9660918 * t142;
-    return array<f32, 36>(
-        c[0],
-        t17 * t18 + t12 * t13,
-        t14 * t16 + c[2] * t15,
-        t17 * t13 - t12 * t18,
-        t28 * t30 - t33 * t34,
-        t37 * t18 + t35 * t13,
-        c[6] + 1.7320508 * t27,
-        t37 * t13 - t35 * t18,
-        t33 * t30 + t28 * t34,
-        t61 * t62 + t46 * t47,
-        t67 * t30 + t63 * t34,
-        t60 * t18 + t68 * t13,
-        t66,
-        t60 * t13 - t68 * t18,
-        t67 * t34 - t63 * t30,
-        t61 * t47 - t46 * t62,
-        t96 * t97 + t82 * t83,
-        t105 * t62 + t101 * t47,
-        t106 * t30 + t81 * t34,
-        t104 * t18 + t100 * t13,
-        c[20] + 0.73951 * t93 + 0.559017 * t95,
-        t104 * t13 - t100 * t18,
-        t106 * t34 - t81 * t30,
-        t105 * t47 - t101 * t62,
-        t96 * t83 - t82 * t97,
-        t142 * t143 + t120 * t121,
-        t154 * t97 + t147 * t83,
-        t156 * t62 + t155 * t47,
-        t157 * t30 + t146 * t34,
-        t159 * t18 + t158 * t13,
-        t151 - 0.70156074 * t153,
-        t159 * t13 - t158 * t18,
-        t157 * t34 - t146 * t30,
-        t156 * t47 - t155 * t62,
-        t154 * t83 - t147 * t97,
-        t142 * t121 - t120 * t143
-    );
+    var r: array<f32, 36>;
+    var phase_cos: array<f32, 18>;
+    var phase_sin: array<f32, 18>;
+    let x = q.x;
+    let y = q.y + 1e-15;
+    let z = q.z;
+    let w = q.w + 1e-15;
+    let ww_zz = w * w + z * z;
+    let xx_yy = x * x + y * y;
+    let product = ww_zz * xx_yy;
+    let scale = inverseSqrt(product);
+    let w_unit = w * scale;
+    let z_unit = z * scale;
+    let wy = w_unit * y;
+    let zx = z_unit * x;
+    let zy = z_unit * y;
+    let wx = w_unit * x;
+    phase_cos[1] = ww_zz - xx_yy;
+    phase_sin[1] = -(2.0 * product * scale);
+    phase_cos[7] = wy + zx;
+    phase_sin[7] = zy - wx;
+    phase_cos[13] = wy - zx;
+    phase_sin[13] = zy + wx;
+    for (var angle = 0; angle < 3; angle += 1) {
+        let base = angle * 6;
+        for (var m = 2; m < 6; m += 1) {
+            phase_cos[base + m] = phase_cos[base + m - 1] * phase_cos[base + 1] - phase_sin[base + m - 1] * phase_sin[base + 1];
+            phase_sin[base + m] = phase_sin[base + m - 1] * phase_cos[base + 1] + phase_cos[base + m - 1] * phase_sin[base + 1];
+        }
+    }
+    var swapped: array<f32, 11>;
+    r[0] = c[0];
+    for (var l = 1; l < 6; l += 1) {
+        let middle = l * l + l;
+        r[middle] = c[middle];
+        for (var m = 1; m < l + 1; m += 1) {
+            let co = phase_cos[12 + m];
+            let si = phase_sin[12 + m];
+            let plus = c[middle + m];
+            let minus = c[middle - m];
+            r[middle + m] = plus * co - minus * si;
+            r[middle - m] = minus * co + plus * si;
+        }
+        for (var stage = 0; stage < 2; stage += 1) {
+            var k = l * (l * l + 2) / 3 - 1;
+            for (var row = 0; row < l * 2 + 1; row += 1) {
+                let even = (row + 1) % 2;
+                let low = 1 - (row + 1) / (l + 1);
+                let start = even * l;
+                let first = start + (start + low) % 2;
+                var sum = r[l * l + first] * SH6_ROTATE_LOOP_J[k];
+                k += 1;
+                for (var i = first + 2; i < start + l + even; i += 2) {
+                    sum = sum + r[l * l + i] * SH6_ROTATE_LOOP_J[k];
+                    k += 1;
+                }
+                swapped[row] = sum;
+            }
+            r[middle] = swapped[l];
+            for (var m = 1; m < l + 1; m += 1) {
+                let co = phase_cos[stage * 6 + m];
+                let si = phase_sin[stage * 6 + m];
+                let plus = swapped[l + m];
+                let minus = swapped[l - m];
+                r[middle + m] = plus * co - minus * si;
+                r[middle - m] = minus * co + plus * si;
+            }
+        }
+    }
+    return
+        r
+    ;
 }
 

@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 892 (305 mul, 8 add, 579 fma) and 1 inverse square root or reciprocal; 33 constants, 63
 //     live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh6_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
     let t0 = q.y + 1e-15;

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 552 (206 mul, 2 add, 344 fma); 10 constants, 50 live values.
-// Error: f32 rounding at most 7.2e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 7.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at
 //     10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it grows without bound beyond.
 fn sh6_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {

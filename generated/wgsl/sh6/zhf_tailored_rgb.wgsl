@@ -7,7 +7,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 360 (84 mul, 3 add, 273 fma); 79 constants, 36 live values.
-// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 fn sh6_zhf_tailored_rgb(f: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
     let t0 = 0.970813 * f[4];

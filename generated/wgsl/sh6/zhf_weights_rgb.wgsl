@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 366 (90 mul, 3 add, 273 fma); 79 constants, 36 live values.
-// Error: f32 rounding at most 2.5e-6 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 3.7e-6 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 fn sh6_zhf_weights_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
     let t0 = 0.970813 * c[5];

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 931 (323 mul, 2 add, 606 fma); 26 constants, 67 live values.
-// Error: f32 rounding at most 5.7e-5 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 7.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at
 //     10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it grows without bound beyond.
 fn sh7_lf3_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

@@ -8,7 +8,7 @@
 // Returns the rotated coefficients.
 // Operations: 374 (110 mul, 3 add, 261 fma) and 1 inverse square root or reciprocal; 53 constants, 79
 //     live values.
-// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 2.5e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 fn sh7_rotate_align(n: vec3<f32>, c: array<f32, 49>) -> array<f32, 49> {
     let t0 = n.x + 1e-15;

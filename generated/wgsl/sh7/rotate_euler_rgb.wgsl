@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1294 (410 mul, 5 add, 879 fma); 53 constants, 76 live values.
-// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 9.2e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh7_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
     let t0 = c[3] * cs[2].y + c[1] * cs[2].x;

@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 1312 (419 mul, 8 add, 885 fma) and 1 inverse square root or reciprocal; 53 constants, 80
 //     live values.
-// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 3.5e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh7_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
     let t0 = q.y + 1e-15;

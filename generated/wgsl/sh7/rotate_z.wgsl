@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 104 (52 mul, 1 add, 51 fma); 0 constants, 47 live values.
-// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh7_rotate_z(cs: vec2<f32>, c: array<f32, 49>) -> array<f32, 49> {
     let t0 = cs.x * cs.x - cs.y * cs.y;

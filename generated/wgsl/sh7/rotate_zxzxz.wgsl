@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 552 (247 mul, 6 add, 299 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
-// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh7_rotate_zxzxz(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
     let t0 = q.y + 1e-15;

@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 394 (156 mul, 1 add, 237 fma); 35 constants, 54 live values.
-// Error: f32 rounding at most 8.6e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at
 //     10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it grows without bound beyond.
 fn sh7_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 294 (118 mul, 2 add, 174 fma); 14 constants, 66 live values.
-// Error: f32 rounding at most 8.7e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 7.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at
 //     10, 1.2e0 at 15, 2.9e0 at 25 degrees; it grows without bound beyond.
 fn sh7_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 49>) -> array<f32, 49> {

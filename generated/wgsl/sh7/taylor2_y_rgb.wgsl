@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 459 (27 mul, 0 add, 432 fma); 27 constants, 54 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 6.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at
 //     10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it grows without bound beyond.
 fn sh7_taylor2_y_rgb(beta: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

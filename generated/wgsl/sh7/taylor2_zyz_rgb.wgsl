@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1003 (299 mul, 2 add, 702 fma); 27 constants, 70 live values.
-// Error: f32 rounding at most 2.1e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at
 //     10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it grows without bound beyond.
 fn sh7_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

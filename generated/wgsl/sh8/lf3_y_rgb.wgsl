@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 522 (67 mul, 0 add, 455 fma); 33 constants, 70 live values.
-// Error: f32 rounding at most 2.5e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at
 //     10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it grows without bound beyond.
 fn sh8_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 500 (203 mul, 2 add, 295 fma); 33 constants, 85 live values.
-// Error: f32 rounding at most 2.1e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 3.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at
 //     10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it grows without bound beyond.
 fn sh8_lf3_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 64>) -> array<f32, 64> {

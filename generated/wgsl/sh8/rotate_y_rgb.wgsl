@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1108 (182 mul, 3 add, 923 fma); 96 constants, 74 live values.
-// Error: f32 rounding at most 5.2e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 7.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh8_rotate_y_rgb(cs: vec2<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = c[8] - 1.7320508 * c[6];

@@ -7,7 +7,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 136 (68 mul, 1 add, 67 fma); 0 constants, 62 live values.
-// Error: f32 rounding at most 2.6e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 3.8e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh8_rotate_z(cs: vec2<f32>, c: array<f32, 64>) -> array<f32, 64> {
     let t0 = cs.x * cs.x - cs.y * cs.y;

@@ -8,7 +8,7 @@
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
-// Error: f32 rounding at most 3.4e-7 of the norm of a band, for dir of unit length (twice the worst of
+// Error: f32 rounding at most 5e-7 of the norm of a band, for dir of unit length (3 times the worst of
 //     256 measured).
 fn sh8_rotate_zonal(dir: vec3<f32>, c: array<f32, 8>) -> array<f32, 64> {
     let t0 = 1.7320508 * dir.x * dir.y;

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 389 (155 mul, 2 add, 232 fma); 19 constants, 84 live values.
-// Error: f32 rounding at most 1.2e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 9.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at
 //     10, 1.6e0 at 15, 3.6e0 at 25 degrees; it grows without bound beyond.
 fn sh8_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 64>) -> array<f32, 64> {

@@ -7,7 +7,7 @@
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 1044 (183 mul, 0 add, 861 fma); 264 constants, 64 live values.
-// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every input (twice the worst of 256
+// Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (3 times the worst of 256
 //     measured).
 fn sh8_zhf_tailored_rgb(f: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = 1.4946643 * f[4];

@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 677 (85 mul, 0 add, 592 fma); 39 constants, 88 live values.
-// Error: f32 rounding at most 6.1e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
 //     10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it grows without bound beyond.
 fn sh9_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

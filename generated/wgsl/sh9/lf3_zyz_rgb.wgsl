@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1597 (545 mul, 2 add, 1050 fma); 39 constants, 105 live values.
-// Error: f32 rounding at most 4.3e-4 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
 //     10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it grows without bound beyond.
 fn sh9_lf3_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 2028 (466 mul, 5 add, 1557 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     121 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for every n of unit length (twice the
+// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every n of unit length (3 times the
 //     worst of 256 measured).
 fn sh9_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = n.x + 1e-15;

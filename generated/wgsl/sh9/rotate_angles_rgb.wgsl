@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2397 (648 mul, 3 add, 1746 fma); 134 constants, 90 live values.
-// Error: f32 rounding at most 5.8e-7 of the norm of a band, for every angle (twice the worst of 256
+// Error: f32 rounding at most 8.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured).
 fn sh9_rotate_angles_rgb(cs: array<vec2<f32>, 25>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = c[3] * cs[16].y + c[1] * cs[16].x;

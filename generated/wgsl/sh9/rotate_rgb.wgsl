@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 2500 (701 mul, 8 add, 1791 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     122 live values.
-// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 4.6e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh9_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = q.y + 1e-15;

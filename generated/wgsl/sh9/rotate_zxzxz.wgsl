@@ -9,7 +9,7 @@
 // Returns the rotated coefficients.
 // Operations: 1012 (413 mul, 6 add, 593 fma) and 1 inverse square root or reciprocal; 108 constants,
 //     125 live values.
-// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (twice the worst of 256
+// Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (3 times the worst of 256
 //     measured).
 fn sh9_rotate_zxzxz(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
     let t0 = q.y + 1e-15;

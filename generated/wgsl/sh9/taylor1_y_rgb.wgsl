@@ -8,7 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 409 (25 mul, 0 add, 384 fma); 25 constants, 79 live values.
-// Error: f32 rounding at most 6.3e-7 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
 //     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
 fn sh9_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

@@ -9,7 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1329 (485 mul, 2 add, 842 fma); 25 constants, 104 live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for |beta| up to 45 degrees (twice the
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
 //     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
 //     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
 fn sh9_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

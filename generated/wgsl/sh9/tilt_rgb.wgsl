@@ -10,9 +10,9 @@
 // Returns the tilted coefficients.
 // Operations: 1279 (104 mul, 4 add, 1171 fma) and 1 inverse square root or reciprocal; 77 constants,
 //     93 live values.
-// Error: f32 rounding at most 2e-4 of the norm of a band, for n of unit length within 45 degrees of z
-//     (twice the worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5,
-//     1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
+//     10, 5.5e-1 at 15, 2e1 at 25 degrees; it grows without bound beyond.
 fn sh9_tilt_rgb(n: vec3<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = c[1] * n.y + c[3] * n.x;
     let t1 = 1.0 / (n.z + 1.0);

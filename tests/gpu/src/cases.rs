@@ -1,0 +1,211 @@
+//! What a kernel is run on and what it has to give: seeded inputs with the extremes among them, signals that are zero,
+//! huge, small or all of these by band, results of the interpreter in f64, and how far a driver may be from them.
+
+use crate::wrap;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use zonal_codegen::emit::Function;
+use zonal_codegen::eval::{Contraction, Number};
+use zonal_codegen::graph::Kind;
+use zonal_codegen::samples;
+use zonal_codegen::sh::exact::Exact;
+use zonal_codegen::spec::Family;
+
+/// How many inputs each kernel is run on.
+pub const INPUTS: usize = 2048;
+/// The first inputs hold the extremes of each parameter.
+const EXTREMES: usize = 16;
+/// So many inputs in a row have one kind of signal; a quarter of them have extreme parameters.
+const BLOCK: usize = 4 * EXTREMES;
+/// 2^100, about 1.3e30.
+const HUGE: f64 = (1u128 << 100) as f64;
+/// 2^-80, about 8e-25: what a driver loses by flushing subnormal numbers stays far below a rounding.
+const SMALL: f64 = 1.0 / (1u128 << 80) as f64;
+/// 2^-23, one unit in the last place of a number just above a power of two.
+const ULP: f64 = f32::EPSILON as f64;
+
+/// An f64 with the small constant of f32, so that the reference and the shader compute the same function: the angles of
+/// a rotation that leaves two of them free depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Wide(f64);
+
+macro_rules! operator {
+    ($($operator:ident $name:ident $sign:tt),*) => {$(
+        impl $operator for Wide {
+            type Output = Self;
+            fn $name(self, other: Self) -> Self {
+                Self(self.0 $sign other.0)
+            }
+        }
+    )*};
+}
+
+operator!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl Neg for Wide {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Number for Wide {
+    const ONE: Self = Self(1.0);
+    const ZERO: Self = Self(0.0);
+    const TINY: Self = Self(<f32 as Number>::TINY as f64);
+    const UNIT_ROUNDOFF: f64 = <f64 as Number>::UNIT_ROUNDOFF;
+    fn nearest(value: &Exact) -> Self {
+        Self(value.to_f64())
+    }
+    fn from_f64(value: f64) -> Self {
+        Self(value)
+    }
+    fn to_f64(self) -> f64 {
+        self.0
+    }
+    fn root(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self(self.0.mul_add(b.0, c.0))
+    }
+}
+
+/// How far a result may be from the interpreter's, in the kernel's own measure.
+///
+/// That is the rounding which the kernel's file promises, for additions and multiplications are rounded by drivers as by
+/// the interpreter, fused or not. Vulkan and WGSL allow 2 ulp for an inverse square root and 2.5 ulp for a division,
+/// where the promise was measured with correct roundings: each enters band l through three angles to the power l at most,
+/// hence 3 (n - 1) times 2.5 ulp for a kernel that has one. A flushed subnormal number changes a small signal by 2^-46 of
+/// it; 2^-40 leaves room for some.
+pub fn tolerance(function: &Function) -> f64 {
+    let built = &function.built;
+    let promised = match function.spec.family {
+        // The promise covers free angles, which say nothing; here they are the same, and l angles' errors add up.
+        Family::Angles => 8.0 * ULP * function.spec.order as f64,
+        _ => built.accuracy.rounding_f32,
+    };
+    let special = match built.code.cost(1).special {
+        0 => 0.0,
+        _ => 3.0 * (function.spec.order - 1) as f64 * 2.5 * ULP,
+    };
+    promised + special + 1.0 / (1u64 << 40) as f64
+}
+
+/// The band of an item of a signal or a result, if its length says so.
+fn band(index: usize, len: usize, order: usize) -> Option<usize> {
+    match len {
+        _ if len == order * order => Some(index.isqrt()),
+        _ if len == order => Some(index),
+        _ => None,
+    }
+}
+
+/// What the items of one band of a signal are multiplied by.
+fn scale(block: usize, band: Option<usize>) -> f64 {
+    const BY_BAND: [f64; 4] = [HUGE, 1.0, 0.0, SMALL];
+    match (block % 8, band) {
+        (4, _) => 0.0,
+        (5, _) => HUGE,
+        (6, _) => SMALL,
+        (7, Some(band)) => BY_BAND[band % 4],
+        _ => 1.0,
+    }
+}
+
+/// The inputs of one kernel and the results that they should have.
+#[derive(Debug)]
+pub struct Cases {
+    /// The inputs as the wrapped shader reads them.
+    pub inputs: Vec<f32>,
+    /// The results as it should write them, and what each is measured in.
+    wanted: Vec<(f64, f64)>,
+    /// How many numbers a result has.
+    result: usize,
+    channels: usize,
+    by_band: bool,
+}
+
+impl Cases {
+    /// The cases of a kernel.
+    pub fn new(function: &Function) -> Self {
+        let (built, order) = (&function.built, function.spec.order);
+        let params = built.code.params();
+        let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
+        let samples = samples::inputs(&function.spec, params, 7, INPUTS, max_angle);
+        let runner = built.code.runner::<Wide>();
+        let (shape, kind) = built.code.result();
+        let channels = wrap::channels(function, kind);
+        let by_band = !matches!(function.spec.family, Family::Basis | Family::Angles | Family::Eval);
+        let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
+        let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
+        for case in 0..INPUTS {
+            let parameters = if case % BLOCK < EXTREMES { case % EXTREMES } else { case };
+            // Channels share their parameters and differ in their signals.
+            let lists: Vec<Vec<Vec<Wide>>> = (0..channels)
+                .map(|channel| {
+                    let list = |(place, param): (usize, &zonal_codegen::kernel::Param)| match param.kind {
+                        Kind::Scalar => samples[parameters][place].iter().map(|&x| Wide(x)).collect(),
+                        Kind::Signal => {
+                            let signal = samples[(case + channel) % INPUTS][place].iter().enumerate();
+                            let len = param.shape.len();
+                            signal.map(|(i, x)| Wide(x * scale(case / BLOCK + channel, band_of(i, len)))).collect()
+                        }
+                    };
+                    params.iter().enumerate().map(list).collect()
+                })
+                .collect();
+            for (place, param) in params.iter().enumerate() {
+                let channels = &lists[..wrap::channels(function, param.kind)];
+                for i in 0..param.shape.len() {
+                    inputs.extend(channels.iter().map(|channel| channel[place][i].0 as f32));
+                }
+            }
+            let results: Vec<Vec<Wide>> = lists
+                .iter()
+                .map(|lists| {
+                    let slices: Vec<&[Wide]> = lists.iter().map(Vec::as_slice).collect();
+                    runner.run(&slices, Contraction::Separate)
+                })
+                .collect();
+            for i in 0..shape.len() {
+                let unit = |channel: usize| match kind {
+                    Kind::Signal => scale(case / BLOCK + channel, band_of(i, shape.len())),
+                    Kind::Scalar => 1.0,
+                };
+                wanted.extend(results.iter().enumerate().map(|(channel, result)| (result[i].0, unit(channel))));
+            }
+        }
+        Self { inputs, wanted, result: shape.len(), channels, by_band }
+    }
+
+    /// How many numbers a driver has to return.
+    pub fn output_len(&self) -> usize {
+        self.wanted.len()
+    }
+
+    /// The largest error in the kernel's measure: of a band as a whole, or of each number. Not finite if a zero signal
+    /// does not give exact zeros or if anything is not a number.
+    pub fn error(&self, got: &[f32]) -> f64 {
+        assert_eq!(got.len(), self.wanted.len());
+        let relative = |(&got, &(want, unit)): (&f32, &(f64, f64))| match (f64::from(got) - want, unit) {
+            (0.0, 0.0) => 0.0,
+            (difference, unit) => difference / unit,
+        };
+        let errors: Vec<f64> = got.iter().zip(&self.wanted).map(relative).collect();
+        let mut worst = 0.0;
+        for case in errors.chunks(self.result * self.channels) {
+            for channel in 0..self.channels {
+                let mut bands = vec![0.0; self.result];
+                for i in 0..self.result {
+                    let error = case[i * self.channels + channel];
+                    bands[if self.by_band { i.isqrt() } else { i }] += error * error;
+                }
+                worst = bands.into_iter().fold(worst, |worst, square: f64| match square.is_nan() {
+                    true => f64::INFINITY,
+                    false => worst.max(square),
+                });
+            }
+        }
+        worst.sqrt()
+    }
+}

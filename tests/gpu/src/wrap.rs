@@ -1,0 +1,137 @@
+//! Shaders around a generated function, which has neither an entry point nor a version of its own: a compute shader that
+//! calls it once a thread with numbers from a buffer, and a fragment shader for compilers that only look.
+
+use zonal_codegen::emit::dialect::{Dialect, Target};
+use zonal_codegen::emit::{Function, Module};
+use zonal_codegen::graph::Kind;
+use zonal_codegen::kernel::Shape;
+
+/// How many threads are one workgroup.
+pub const GROUP: usize = 64;
+
+/// The text of the file that holds one function.
+///
+/// # Panics
+///
+/// If the function does not fit its target: the catalogue's all do.
+pub fn file(function: &Function, target: Target) -> String {
+    let module = Module {
+        name: function.shader_name(),
+        origin: format!("`{}`", function.spec),
+        functions: vec![function.clone()],
+        constants: vec![],
+    };
+    module.shader(target).unwrap_or_else(|limit| panic!("{limit}"))
+}
+
+fn dialect(function: &Function, target: Target) -> Dialect {
+    Dialect { target, rgb: function.spec.rgb }
+}
+
+/// How many channels a number of this kind has in the function's text.
+pub fn channels(function: &Function, kind: Kind) -> usize {
+    match kind {
+        Kind::Signal => function.spec.channels(),
+        Kind::Scalar => 1,
+    }
+}
+
+/// How many numbers a call takes.
+pub fn input_len(function: &Function) -> usize {
+    function.built.code.params().iter().map(|param| param.shape.len() * channels(function, param.kind)).sum()
+}
+
+/// How many numbers a call returns.
+pub fn output_len(function: &Function) -> usize {
+    let (shape, kind) = function.built.code.result();
+    shape.len() * channels(function, kind)
+}
+
+/// A value of this shape, made of numbers that `next` names one after the other.
+fn value(dialect: Dialect, shape: Shape, kind: Kind, next: &mut impl FnMut() -> String) -> String {
+    let of = |shape: Shape| dialect.type_of(shape, kind);
+    let (items, part) = match shape {
+        Shape::Scalar if kind == Kind::Signal && dialect.rgb => (3, None),
+        Shape::Scalar => return next(),
+        Shape::Array(n) => (n, Some(Shape::Scalar)),
+        Shape::Pairs(n) => (n, Some(Shape::Pair)),
+        Shape::Vectors(n) => (n, Some(Shape::Vec3)),
+        plain => (plain.len(), None),
+    };
+    let parts: Vec<String> = (0..items)
+        .map(|_| match part {
+            Some(part) => value(dialect, part, kind, next),
+            None => next(),
+        })
+        .collect();
+    format!("{}({})", of(shape), parts.join(", "))
+}
+
+/// The function's file and an entry point that calls it for `count` inputs, packed in parameter order, all channels of
+/// a number together; the results lie the same way. `text` is the file, in WGSL or GLSL.
+pub fn compute(function: &Function, target: Target, text: &str, count: usize) -> String {
+    let dialect = dialect(function, target);
+    let mut place = 0;
+    let mut next = || {
+        place += 1;
+        format!("inputs[at + {}u]", place - 1)
+    };
+    let arguments: Vec<String> = function
+        .built
+        .code
+        .params()
+        .iter()
+        .map(|param| value(dialect, param.shape, param.kind, &mut next))
+        .collect();
+    let call = format!("{}({})", function.shader_name(), arguments.join(", "));
+    let (shape, kind) = function.built.code.result();
+    let letters: &[&str] = if channels(function, kind) == 3 { &[".x", ".y", ".z"] } else { &[""] };
+    let results: String = (0..shape.len())
+        .flat_map(|index| letters.iter().map(move |letter| (index, letter)))
+        .enumerate()
+        .map(|(place, (index, letter))| {
+            format!("    outputs[to + {place}u] = {}{letter};\n", dialect.component("result", shape, index))
+        })
+        .collect();
+    let (input, output) = (input_len(function), output_len(function));
+    match target {
+        Target::Glsl => format!(
+            "#version 450\n{text}\n\
+             layout(local_size_x = {GROUP}) in;\n\
+             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ float inputs[]; }};\n\
+             layout(std430, set = 0, binding = 1) buffer Outputs {{ float outputs[]; }};\n\
+             void main() {{\n    uint thread = gl_GlobalInvocationID.x;\n    if (thread >= {count}u) {{ return; }}\n    \
+             uint at = thread * {input}u;\n    uint to = thread * {output}u;\n    \
+             {} result = {call};\n{results}}}\n",
+            dialect.type_of(shape, kind)
+        ),
+        _ => format!(
+            "{text}\n\
+             @group(0) @binding(0) var<storage, read> inputs: array<f32>;\n\
+             @group(0) @binding(1) var<storage, read_write> outputs: array<f32>;\n\
+             @compute @workgroup_size({GROUP})\n\
+             fn main(@builtin(global_invocation_id) id: vec3<u32>) {{\n    let thread = id.x;\n    \
+             if thread >= {count}u {{ return; }}\n    let at = thread * {input}u;\n    let to = thread * {output}u;\n    \
+             let result = {call};\n{results}}}\n"
+        ),
+    }
+}
+
+/// A fragment shader in a version of GLSL, from the function's file: the arguments are uniforms, the result is a colour.
+pub fn fragment(function: &Function, version: &str, text: &str) -> String {
+    let dialect = dialect(function, Target::Glsl);
+    let (shape, kind) = function.built.code.result();
+    let params = function.built.code.params();
+    let uniforms: String = params.iter().map(|param| format!("uniform {};\n", dialect.parameter(param))).collect();
+    let arguments: Vec<&str> = params.iter().map(|param| param.name).collect();
+    let last = dialect.component("result", shape, shape.len() - 1);
+    let precision = if version.ends_with("es") { "precision highp float;\n" } else { "" };
+    format!(
+        "#version {version}\n{precision}{text}\n{uniforms}out vec4 colour;\n\
+         void main() {{\n    {} result = {}({});\n    colour = vec4({last}{});\n}}\n",
+        dialect.type_of(shape, kind),
+        function.shader_name(),
+        arguments.join(", "),
+        if channels(function, kind) == 3 { ", 1.0" } else { "" }
+    )
+}
