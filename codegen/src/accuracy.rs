@@ -46,7 +46,7 @@ pub fn round_up(value: f64) -> f64 {
 
 /// What a rounding error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Measure {
+pub enum Measure {
     /// Each band's error against the band's norm in the input.
     Bands,
     /// The value's error against the norm of all coefficients.
@@ -56,9 +56,10 @@ enum Measure {
 }
 
 impl Measure {
-    fn of(spec: &Spec) -> Self {
+    /// The measure of a spec's kernel.
+    pub fn of(spec: &Spec) -> Self {
         match spec.family {
-            Family::Basis | Family::Angles => Self::Absolute,
+            Family::Basis => Self::Absolute,
             Family::Eval => Self::Whole,
             _ => Self::Bands,
         }
@@ -72,7 +73,8 @@ impl Measure {
         }
     }
 
-    fn error(self, got: &[f64], want: &[f64], order: usize) -> f64 {
+    /// The largest error of `got` in this measure, for inputs whose bands have the norm one; NaN if there is one.
+    pub fn error(self, got: &[f64], want: &[f64], order: usize) -> f64 {
         let difference = |range: std::ops::Range<usize>| {
             got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
@@ -92,7 +94,7 @@ fn larger(a: f64, b: f64) -> f64 {
 pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, contraction: Contraction) -> f64 {
     let (narrow, wide) = (code.runner::<T>(), code.runner::<f64>());
     let max_angle = spec.max_angle().unwrap_or(std::f64::consts::PI);
-    let measure = Measure::of(spec);
+    let (measure, meaning) = (Measure::of(spec), Meaning::of(spec));
     samples::inputs(spec, code.params(), seed, count, max_angle)
         .iter()
         .map(|input| {
@@ -101,9 +103,41 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
             let wide_input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
             let want = wide.run(&wide_input, contraction);
-            measure.error(&got, &want, spec.order)
+            measure.error(&meaning.apply(got), &meaning.apply(want), spec.order)
         })
         .fold(0.0, larger)
+}
+
+/// What a result is compared by: itself, or, for the angles of a rotation, of which two have no meaning apart at the
+/// poles, the signal that they rotate.
+pub enum Meaning {
+    /// The result itself.
+    Itself,
+    /// What a fixed signal becomes.
+    Rotated(Box<Program<f64>>, Vec<f64>),
+}
+
+impl Meaning {
+    /// What the results of a spec's kernel are compared by.
+    pub fn of(spec: &Spec) -> Self {
+        let order = spec.order;
+        match spec.family {
+            Family::Angles => {
+                let norm = |i: usize| ((2 * i.isqrt() + 1) as f64).sqrt();
+                let signal = (0..order * order).map(|i| 1.0 / norm(i)).collect();
+                Self::Rotated(Box::new(Program::new(&Listing::new(&rotate::zyz_from_angles(order)))), signal)
+            }
+            _ => Self::Itself,
+        }
+    }
+
+    /// What a result means.
+    pub fn apply(&self, result: Vec<f64>) -> Vec<f64> {
+        match self {
+            Self::Itself => result,
+            Self::Rotated(program, signal) => program.run(&[&result, signal], Contraction::Separate),
+        }
+    }
 }
 
 impl Accuracy {

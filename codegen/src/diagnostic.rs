@@ -1,6 +1,7 @@
 //! What is wrong with something a person wrote, where it stands and what to do. It knows texts and places, nothing of
 //! kernels; the command line draws it with a caret, a build script gets it as one line.
 
+use crate::spec::SpecError;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -76,6 +77,12 @@ impl Diagnostic {
     /// A fault at a place.
     pub fn at(place: &Place, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { place: Some(place.clone()), ..Self::nowhere(message, help) }
+    }
+
+    /// A fault in a spec that stands alone, as an argument does. `name` is what errors call it.
+    pub fn of_spec(name: &str, text: &str, error: SpecError) -> Self {
+        let place = Place::whole(name, text);
+        Self::at(&place.within(text, error.at), error.message, error.help)
     }
 
     /// A fault that stands in no text.

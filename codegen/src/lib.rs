@@ -1,4 +1,32 @@
-//! Generates spherical-harmonics kernels.
+//! Generates spherical-harmonics kernels as WGSL, GLSL and Rust from one source.
+//!
+//! A kernel is data: it is built once as a small expression graph with exact constants; the printers, the counter of
+//! operations, the interpreter and the planner all read that graph.
+//!
+//! ```text
+//! Scene ──plan──▶ Spec ──built──▶ Kernel ──lay out──▶ Listing ──emit──▶ File ──validate──▶ File
+//! (what a scene   (which kernel,  (graph:             (operations       (text)             (naga, syn)
+//!  needs: orders,  which method)   exact)              in order)
+//!  error budget)                                        ├─▶ eval: the interpreter, f32 and f64
+//!                                                       ├─▶ cost: mul, add, fma, special, constants, live values
+//!                                                       └─▶ accuracy: rounding measured, method error computed
+//! ```
+//!
+//! From a build script, start at [`builder::Builder`]; for one kernel's text, cost and error, at [`built::Built`] and
+//! [`emit::Module`].
+//!
+//! ```
+//! use zonal_codegen::built::Built;
+//! use zonal_codegen::spec::Spec;
+//!
+//! let spec: Spec = "tilt:5".parse()?;
+//! let built = Built::new(&spec);
+//! assert_eq!(built.code.cost(1).total, 133);
+//! # Ok::<(), zonal_codegen::spec::SpecError>(())
+//! ```
+//!
+//! Convention everywhere: real orthonormal harmonics with the Condon-Shortley phase (band 1 is −y, z, −x), index
+//! l(l+1)+m; order n is the bands 0 to n − 1, n² coefficients; a rotation R takes c to D(R) c with y(Rω) = D(R) y(ω).
 
 pub mod accuracy;
 pub mod builder;

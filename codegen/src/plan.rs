@@ -46,13 +46,15 @@ pub struct EnvironmentPlan {
     pub order: usize,
     /// The bands whose coefficients are stored.
     pub bands: Vec<usize>,
-    /// The share of the whole energy in each band below `max_order`.
+    /// The share of each band below `max_order` in the energy that they hold together.
     pub energy: Vec<f64>,
+    /// The share of those bands in the energy of the whole map.
+    pub held: f64,
     /// The relative rms error of each order from 1 to `max_order`, against the whole map.
     pub errors: Vec<f64>,
     /// The bands below `max_order` that hold nothing.
     pub vanishing: Vec<usize>,
-    /// The relative rms error that each order from 1 to `max_order` adds to that of `max_order`.
+    /// The relative rms error of each order from 1 to `max_order`, against `max_order`.
     pub costs: Vec<f64>,
     /// How many RGB coefficients are stored, and how many `max_order` has.
     pub coefficients: [usize; 2],
@@ -193,8 +195,8 @@ fn small(kind: Turn, methods: Vec<Small>) -> Family {
     }
 }
 
-/// A number with two digits, as errors are shown.
-fn short(error: f64) -> String {
+/// An error with two digits, rounded up.
+pub fn short(error: f64) -> String {
     match error {
         _ if error < 1e-12 => "0".to_owned(),
         _ if (1e-3..1e3).contains(&error) => format!("{}", round_up(error)),
@@ -298,9 +300,13 @@ impl<'a> Contest<'a> {
             });
             return Err(Diagnostic::at(&max_error.place, message, help));
         };
-        let kept = self.entries.iter().filter(|(_, rival)| rival.admissible).count();
+        let which = match self.entries.iter().filter(|(_, rival)| rival.admissible).count() {
+            1 => "the only one that keeps".to_owned(),
+            kept => format!("the cheapest of {kept} that keep"),
+        };
         let reason = format!(
-            "cheapest of {} ways to {} by up to {} degrees, {kept} of which keep the error below {}",
+            "{which} an error of {}, of {} ways to {} by up to {} degrees",
+            max_error.value,
             self.entries.len(),
             match self.rotation.kind {
                 Turn::Tilt => "tilt z to a normal",
@@ -308,11 +314,10 @@ impl<'a> Contest<'a> {
                 Turn::Zyz => "turn about z, y and z",
             },
             self.rotation.max_angle.value,
-            max_error.value
         );
         for (place, (_, rival)) in self.entries.iter_mut().enumerate() {
             if place == best {
-                rival.verdict = "chosen: the cheapest that keeps the error".to_owned();
+                rival.verdict = "chosen".to_owned();
             } else if rival.admissible {
                 rival.verdict = "keeps the error too, but costs more".to_owned();
             }
@@ -517,40 +522,37 @@ impl EnvironmentPlan {
         };
         let which = match self.bands.len() == self.order {
             true => format!("order {}, index l(l+1)+m", self.order),
-            false => format!("the bands {}, one after the other; what is left out holds nothing", bands.join(", ")),
+            false => format!("the bands {}, one after the other; the bands between hold nothing", bands.join(", ")),
+        };
+        let error = match self.order == self.max_order {
+            true => String::new(),
+            false => format!(" They err by {} against order {}.", percent(self.costs[self.order - 1]), self.max_order),
         };
         Constants {
             name: self.name.clone(),
-            doc: format!(
-                "The {what} of `{}`: RGB coefficients of {which}. Error against the whole map: {}.",
-                self.map,
-                percent(self.errors[self.order - 1])
-            ),
+            doc: format!("The {what} of `{}`: RGB coefficients of {which}.{error}", self.map),
             values: self.values.clone(),
         }
     }
 
-    /// What was decided, in a sentence or two.
+    /// What was decided, in a few sentences.
     pub fn summary(&self) -> String {
-        let error = percent(self.errors[self.order - 1]);
-        let mut text = match self.order == self.max_order {
+        let cost = |order: usize| percent(self.costs[order - 1]);
+        let (order, budget) = (self.order, percent(self.budget));
+        let mut text = match order == self.max_order {
             true => format!(
-                "order {}, all that the scene affords: one order less would cost an error of {}, the budget is {}",
-                self.order,
-                percent(self.costs[self.order - 2]),
-                percent(self.budget)
+                "order {order}, all that the scene affords: one order less would err by {} against it, and the budget is \
+                 {budget}.",
+                cost(order - 1)
             ),
             false => format!(
-                "order {}: leaving out the bands from {} on costs an error of {}, within the budget of {}; one order less \
-                 would cost {}",
-                self.order,
-                self.order,
-                percent(self.costs[self.order - 1]),
-                percent(self.budget),
-                percent(self.costs[self.order - 2])
+                "order {order}: it errs by {} against order {}, within the budget of {budget}; one order less would err \
+                 by {}.",
+                cost(order),
+                self.max_order,
+                cost(order - 1)
             ),
         };
-        text += &format!(". Against the whole map it errs by {error}.");
         let missing: Vec<String> =
             self.vanishing.iter().filter(|l| !self.bands.contains(l)).map(usize::to_string).collect();
         if !missing.is_empty() {
@@ -560,11 +562,16 @@ impl EnvironmentPlan {
         let ([coefficients, all], [operations, whole]) = (self.coefficients, self.operations);
         if coefficients < all {
             text += &format!(
-                " That saves {} of {all} coefficients and {} of {whole} operations an RGB evaluation.",
+                " That saves {} of {all} coefficients and {} of {whole} operations of an RGB evaluation.",
                 all - coefficients,
                 whole.saturating_sub(operations)
             );
         }
+        text += &format!(" Order {} holds {} of the energy of the whole map", self.max_order, percent(self.held));
+        text += match self.held < 0.5 {
+            true => "; the rest is light too small for it.",
+            false => ".",
+        };
         text
     }
 }
@@ -605,7 +612,10 @@ mod environment {
             Light::Irradiance => radiance.irradiance(),
         };
         let max_order = wanted.max_order;
-        let energy: Vec<f64> = signal.band_energy().iter().map(|band| band / signal.energy()).take(max_order).collect();
+        let bands = &signal.band_energy()[..max_order];
+        let all: f64 = bands.iter().sum();
+        // Nothing but cancelling texels could leave all of them empty; radiance has a mean.
+        let energy: Vec<f64> = bands.iter().map(|band| band / all.max(f64::MIN_POSITIVE)).collect();
         let costs: Vec<f64> = (1..=max_order).map(|order| energy[order..].iter().sum::<f64>().sqrt()).collect();
         // The last entry is zero, so that one is found.
         let order = (MIN_ORDER..max_order).find(|&order| costs[order - 1] <= wanted.budget).unwrap_or(max_order);
@@ -619,6 +629,7 @@ mod environment {
             order,
             bands: (0..order).collect(),
             energy,
+            held: all / signal.energy(),
             errors: signal.errors()[..max_order].to_vec(),
             vanishing: (0..max_order).filter(|&l| signal.vanishes(l)).collect(),
             costs,
@@ -689,13 +700,13 @@ impl fmt::Display for EnvironmentPlan {
             crate::scene::Light::Irradiance => "irradiance",
         };
         writeln!(f, "`{}`, {width} x {height}, {signal}. Chosen: {}\n", self.map, self.summary())?;
-        let mut rows = vec![row(["band", "energy", "error of the order that ends here", "of which left out", ""])];
+        let mut rows = vec![row(["band", "energy", "error if it is the last", "error against the whole map", ""])];
         for l in 0..self.max_order {
             rows.push(vec![
                 l.to_string(),
                 percent(self.energy[l]),
-                percent(self.errors[l]),
                 percent(self.costs[l]),
+                percent(self.errors[l]),
                 match (l < self.order, self.bands.contains(&l)) {
                     _ if self.vanishing.contains(&l) => "holds nothing",
                     (true, true) if l + 1 == self.order => "the last that is kept",
@@ -754,7 +765,7 @@ impl fmt::Display for Plan {
             "\nTotal: multiplications, additions and multiply-adds, one each. Special: inverse square roots and reciprocals."
         )?;
         for chosen in self.kernels.iter().filter(|chosen| !chosen.rivals.is_empty()) {
-            writeln!(f, "\n## Why `{}`\n\nThe {}.\n", chosen.row.spec, chosen.reason)?;
+            writeln!(f, "\n## Why `{}`\n\nIt is {}.\n", chosen.row.spec, chosen.reason)?;
             let mut rows =
                 vec![row(["method", "takes", "total", "special", "price", "method error", "f32 rounding", "verdict"])];
             for rival in &chosen.rivals {

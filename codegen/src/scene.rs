@@ -11,7 +11,7 @@
 //! map = "maps/city_256x128.hdr"       # beside the scene file
 //! signal = "radiance"                 # or "irradiance"
 //! max_order = 5                       # 10 if left out
-//! budget = 0.05                       # the error, in rms of the whole, that leaving out orders below it may cost
+//! budget = 0.05                       # the relative rms error, against max_order, that leaving orders out may cost
 //! name = "city"                       # the constants are called CITY
 //!
 //! [[kernel]]
@@ -89,7 +89,7 @@ pub struct Environment {
     pub map: Located<String>,
     /// What is wanted of it.
     pub signal: Light,
-    /// The relative rms error that leaving out orders below `max_order` may cost.
+    /// The relative rms error against `max_order` that leaving out orders below it may cost.
     pub budget: f64,
     /// The most bands that the scene can afford.
     pub max_order: usize,

@@ -93,7 +93,8 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 36] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 32 live
 ///     values.
-/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
+/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for every unit q (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
@@ -195,9 +196,7 @@ pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> V {
     let t27 = T::lit(1.0488088481701516) * dir[1];
     let t28 = T::lit(1.0488088481701516) * dir[0];
     let t29 = c[35].fma(t26.fms(t27, t25 * t28), c[26].fma(t24, c[16]).fma(t26, c[34].fma(t24, c[24]).fma(t25, t23)));
-
-        c[25].fnma(t26.fma(t28, t25 * t27), t29)
-
+    c[25].fnma(t26.fma(t28, t25 * t27), t29)
 }
 
 /// [`eval`] of three channels that share the parameters, as plain arrays.
@@ -3600,9 +3599,7 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 36] {
             r[l * l + l - m] = sin_next;
         }
     }
-
-        r
-
+    r
 }
 
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -3706,9 +3703,7 @@ pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
             }
         }
     }
-
-        r
-
+    r
 }
 
 /// [`rotate_loop`] of three channels that share the parameters, as plain arrays.
@@ -3755,9 +3750,7 @@ pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
         r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
     }
     r[35] = (c[34] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[35])).fma(beta, c[35] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[35]), T::lit(1.0)));
-
-        r
-
+    r
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

@@ -116,7 +116,8 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 49] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 79 (41 mul, 5 add, 33 fma) and 1 inverse square root or reciprocal; 2 constants, 38 live
 ///     values.
-/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
+/// Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 19] {
@@ -236,9 +237,7 @@ pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 49]) -> V {
     let t36 = T::lit(1.0488088481701516) * dir[0];
     let t37 = c[37].fma(t34, c[25]).fnma(t32.fma(t36, t31 * t35), c[47].fma(t34, c[35]).fma(t32.fms(t35, t31 * t36), t33));
     let t38 = c[36].fnma(t27 * (T::lit(3.9246375605398574) * t26), c[48].fma(T::lit(1.9623187802699287) * t26.fms(t26, t27 * t27), t37));
-
-        t38
-
+    t38
 }
 
 /// [`eval`] of three channels that share the parameters, as plain arrays.
@@ -4923,9 +4922,7 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 49] {
             r[l * l + l - m] = sin_next;
         }
     }
-
-        r
-
+    r
 }
 
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -5038,9 +5035,7 @@ pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 49]) -> [V; 49] {
             }
         }
     }
-
-        r
-
+    r
 }
 
 /// [`rotate_loop`] of three channels that share the parameters, as plain arrays.
@@ -5091,9 +5086,7 @@ pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 49]) -> [V; 49] {
         r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
     }
     r[48] = (c[47] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[48])).fma(beta, c[48] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[48]), T::lit(1.0)));
-
-        r
-
+    r
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

@@ -144,7 +144,8 @@ pub fn basis<T: Real>(dir: [T; 3]) -> [T; 64] {
 ///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 /// Operations: 91 (47 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 2 constants, 44 live
 ///     values.
-/// Error: f32 rounding at most 6e0 of one, for every unit q (3 times the worst of 256 measured).
+/// Error: f32 rounding at most 4.3e-6 of the norm of a band, for every unit q (3 times the worst of 256
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 22] {
@@ -286,9 +287,7 @@ pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 64]) -> V {
     let t49 = T::lit(1.0350983390135313) * dir[1];
     let t50 = T::lit(1.0350983390135313) * dir[0];
     let t51 = c[63].fnma(t48.fma(t49, t47 * t50), c[50].fma(t46, c[36]).fnma(t48, c[62].fma(t46, c[48]).fma(t47, t45)));
-
-        c[49].fma(t48.fms(t50, t47 * t49), t51)
-
+    c[49].fma(t48.fms(t50, t47 * t49), t51)
 }
 
 /// [`eval`] of three channels that share the parameters, as plain arrays.
@@ -6555,9 +6554,7 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 64] {
             r[l * l + l - m] = sin_next;
         }
     }
-
-        r
-
+    r
 }
 
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -6682,9 +6679,7 @@ pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
             }
         }
     }
-
-        r
-
+    r
 }
 
 /// [`rotate_loop`] of three channels that share the parameters, as plain arrays.
@@ -6738,9 +6733,7 @@ pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
         r[i] = c[i + 1].fnma(T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]), c[i - 1] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[i])).fma(beta, c[i] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[i]), T::lit(1.0)));
     }
     r[63] = (c[62] * T::lit(TAYLOR15_Y_LOOP_DY_SUB_DIAG[63])).fma(beta, c[63] * half_square.fma(T::lit(TAYLOR15_Y_LOOP_DDY_DIAG[63]), T::lit(1.0)));
-
-        r
-
+    r
 }
 
 /// [`taylor15_y_loop`] of three channels that share the parameters, as plain arrays.

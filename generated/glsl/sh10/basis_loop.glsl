@@ -74,9 +74,7 @@ float[100] sh10_basis_loop(vec3 dir) {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -91,9 +91,7 @@ float sh10_eval(vec3 dir, float[100] c) {
     float t75 = 1.0274023 * dir.y;
     float t76 = 1.0274023 * dir.x;
     float t77 = t71 + (c[80] + c[98] * t72) * t73 + (c[64] + c[82] * t72) * t74 + c[99] * (t74 * t75 - t73 * t76);
-    return
-        t77 - c[81] * (t73 * t75 + t74 * t76)
-    ;
+    return t77 - c[81] * (t73 * t75 + t74 * t76);
 }
 
 #endif

@@ -130,9 +130,7 @@ float[100] sh10_rotate_loop(vec4 q, float[100] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

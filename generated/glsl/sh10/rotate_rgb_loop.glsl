@@ -130,9 +130,7 @@ vec3[100] sh10_rotate_rgb_loop(vec4 q, vec3[100] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

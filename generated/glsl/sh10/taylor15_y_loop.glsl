@@ -46,9 +46,7 @@ float[100] sh10_taylor15_y_loop(float beta, float[100] c) {
         r[i] = c[i] * (1.0 + half_square * SH10_TAYLOR15_Y_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[99] = c[99] * (1.0 + half_square * SH10_TAYLOR15_Y_LOOP_DDY_DIAG[99]) + c[98] * SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG[99] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -14,9 +14,7 @@
 //     of unit length (3 times the worst of 256 measured).
 float sh2_eval(vec3 dir, float[4] c) {
     float t0 = 0.48860252 * dir.z * c[2] + 0.2820948 * c[0] - 0.48860252 * dir.x * c[3] - 0.48860252 * dir.y * c[1];
-    return
-        t0
-    ;
+    return t0;
 }
 
 #endif

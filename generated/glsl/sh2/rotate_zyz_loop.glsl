@@ -89,9 +89,7 @@ float[4] sh2_rotate_zyz_loop(vec4 q, float[4] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -89,9 +89,7 @@ vec3[4] sh2_rotate_zyz_rgb_loop(vec4 q, vec3[4] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -63,9 +63,7 @@ float[9] sh3_basis_loop(vec3 dir) {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

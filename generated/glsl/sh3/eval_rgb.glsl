@@ -18,9 +18,7 @@ vec3 sh3_eval_rgb(vec3 dir, vec3[9] c) {
     vec3 t2 = (0.9461747 * t0 - 0.31539157) * c[6] + 0.2820948 * c[0] + 0.48860252 * dir.z * c[2] - 0.48860252 * dir.x * (c[3] + c[7] * t1);
     float t3 = 1.0925485 * dir.y;
     vec3 t4 = t2 - 0.48860252 * dir.y * (c[1] + c[5] * t1) + (0.54627424 - 0.54627424 * t0 - dir.y * t3) * c[8];
-    return
-        t4 + c[4] * (dir.x * t3)
-    ;
+    return t4 + c[4] * (dir.x * t3);
 }
 
 #endif

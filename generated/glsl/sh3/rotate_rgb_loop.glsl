@@ -89,9 +89,7 @@ vec3[9] sh3_rotate_rgb_loop(vec4 q, vec3[9] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

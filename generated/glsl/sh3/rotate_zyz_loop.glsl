@@ -89,9 +89,7 @@ float[9] sh3_rotate_zyz_loop(vec4 q, float[9] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

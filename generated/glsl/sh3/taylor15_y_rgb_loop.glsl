@@ -30,9 +30,7 @@ vec3[9] sh3_taylor15_y_rgb_loop(float beta, vec3[9] c) {
         r[i] = c[i] * (1.0 + half_square * SH3_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[8] = c[8] * (1.0 + half_square * SH3_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[8]) + c[7] * SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[8] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

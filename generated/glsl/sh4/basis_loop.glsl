@@ -64,9 +64,7 @@ float[16] sh4_basis_loop(vec3 dir) {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -23,9 +23,7 @@ float sh4_eval(vec3 dir, float[16] c) {
     float t7 = 0.54627424 - 0.54627424 * t0 - dir.y * t6;
     float t8 = 0.5900436 * t0 - 0.5900436;
     float t9 = t4 + (c[8] + c[14] * t5) * t7 + (c[4] + c[10] * t5) * (dir.x * t6) - c[15] * (dir.x * (t8 + 2.1602468 * t7));
-    return
-        t9 + c[9] * (dir.y * (t8 - 2.1602468 * t7))
-    ;
+    return t9 + c[9] * (dir.y * (t8 - 2.1602468 * t7));
 }
 
 #endif

@@ -91,9 +91,7 @@ float[16] sh4_rotate_loop(vec4 q, float[16] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -91,9 +91,7 @@ vec3[16] sh4_rotate_rgb_loop(vec4 q, vec3[16] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

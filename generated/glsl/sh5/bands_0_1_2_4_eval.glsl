@@ -28,9 +28,7 @@ float sh5_bands_0_1_2_4_eval(vec3 dir, float[18] c) {
     float t11 = 0.5900436 * t0 - 0.5900436;
     float t12 = t5 + (c[8] + c[15] * t6) * t8 + (c[4] + c[11] * t6) * t9 - c[16] * t10 * (dir.x * (t11 + 2.1602468 * t8));
     float t13 = t12 + c[10] * t10 * (dir.y * (t11 - 2.1602468 * t8)) + 2.0971956 * (t8 * t8 - t9 * t9) * c[17];
-    return
-        t13 + 4.1943913 * t8 * t9 * c[9]
-    ;
+    return t13 + 4.1943913 * t8 * t9 * c[9];
 }
 
 #endif

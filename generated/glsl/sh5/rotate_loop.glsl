@@ -93,9 +93,7 @@ float[25] sh5_rotate_loop(vec4 q, float[25] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

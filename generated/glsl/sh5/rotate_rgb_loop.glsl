@@ -93,9 +93,7 @@ vec3[25] sh5_rotate_rgb_loop(vec4 q, vec3[25] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -33,9 +33,7 @@ vec3[25] sh5_taylor15_y_rgb_loop(float beta, vec3[25] c) {
         r[i] = c[i] * (1.0 + half_square * SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[24] = c[24] * (1.0 + half_square * SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[24]) + c[23] * SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[24] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

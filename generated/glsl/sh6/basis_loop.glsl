@@ -66,9 +66,7 @@ float[36] sh6_basis_loop(vec3 dir) {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -39,9 +39,7 @@ float sh6_eval(vec3 dir, float[36] c) {
     float t23 = 1.0488088 * dir.y;
     float t24 = 1.0488088 * dir.x;
     float t25 = t19 + (c[24] + c[34] * t20) * t21 + (c[16] + c[26] * t20) * t22 + c[35] * (t22 * t23 - t21 * t24);
-    return
-        t25 - c[25] * (t21 * t23 + t22 * t24)
-    ;
+    return t25 - c[25] * (t21 * t23 + t22 * t24);
 }
 
 #endif

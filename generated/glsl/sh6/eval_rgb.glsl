@@ -39,9 +39,7 @@ vec3 sh6_eval_rgb(vec3 dir, vec3[36] c) {
     float t23 = 1.0488088 * dir.y;
     float t24 = 1.0488088 * dir.x;
     vec3 t25 = t19 + (c[24] + c[34] * t20) * t21 + (c[16] + c[26] * t20) * t22 + c[35] * (t22 * t23 - t21 * t24);
-    return
-        t25 - c[25] * (t21 * t23 + t22 * t24)
-    ;
+    return t25 - c[25] * (t21 * t23 + t22 * t24);
 }
 
 #endif

@@ -97,9 +97,7 @@ float[36] sh6_rotate_loop(vec4 q, float[36] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -97,9 +97,7 @@ vec3[36] sh6_rotate_rgb_loop(vec4 q, vec3[36] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

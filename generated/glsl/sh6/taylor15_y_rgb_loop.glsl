@@ -35,9 +35,7 @@ vec3[36] sh6_taylor15_y_rgb_loop(float beta, vec3[36] c) {
         r[i] = c[i] * (1.0 + half_square * SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[35] = c[35] * (1.0 + half_square * SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[35]) + c[34] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[35] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -67,9 +67,7 @@ float[49] sh7_basis_loop(vec3 dir) {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -102,9 +102,7 @@ float[49] sh7_rotate_loop(vec4 q, float[49] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -102,9 +102,7 @@ vec3[49] sh7_rotate_rgb_loop(vec4 q, vec3[49] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

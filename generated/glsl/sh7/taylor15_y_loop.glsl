@@ -37,9 +37,7 @@ float[49] sh7_taylor15_y_loop(float beta, float[49] c) {
         r[i] = c[i] * (1.0 + half_square * SH7_TAYLOR15_Y_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[48] = c[48] * (1.0 + half_square * SH7_TAYLOR15_Y_LOOP_DDY_DIAG[48]) + c[47] * SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG[48] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -63,9 +63,7 @@ float sh8_eval(vec3 dir, float[64] c) {
     float t47 = 1.0350983 * dir.y;
     float t48 = 1.0350983 * dir.x;
     float t49 = t43 + (c[48] + c[62] * t44) * t45 - (c[36] + c[50] * t44) * t46 - c[63] * (t45 * t48 + t46 * t47);
-    return
-        t49 + c[49] * (t46 * t48 - t45 * t47)
-    ;
+    return t49 + c[49] * (t46 * t48 - t45 * t47);
 }
 
 #endif

@@ -63,9 +63,7 @@ vec3 sh8_eval_rgb(vec3 dir, vec3[64] c) {
     float t47 = 1.0350983 * dir.y;
     float t48 = 1.0350983 * dir.x;
     vec3 t49 = t43 + (c[48] + c[62] * t44) * t45 - (c[36] + c[50] * t44) * t46 - c[63] * (t45 * t48 + t46 * t47);
-    return
-        t49 + c[49] * (t46 * t48 - t45 * t47)
-    ;
+    return t49 + c[49] * (t46 * t48 - t45 * t47);
 }
 
 #endif

@@ -109,9 +109,7 @@ float[64] sh8_rotate_loop(vec4 q, float[64] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -109,9 +109,7 @@ vec3[64] sh8_rotate_rgb_loop(vec4 q, vec3[64] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

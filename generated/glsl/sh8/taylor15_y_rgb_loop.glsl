@@ -40,9 +40,7 @@ vec3[64] sh8_taylor15_y_rgb_loop(float beta, vec3[64] c) {
         r[i] = c[i] * (1.0 + half_square * SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[63] = c[63] * (1.0 + half_square * SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[63]) + c[62] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[63] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

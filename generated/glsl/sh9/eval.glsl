@@ -75,9 +75,7 @@ float sh9_eval(vec3 dir, float[81] c) {
     float t59 = 1.0350983 * dir.y;
     float t60 = 1.0350983 * dir.x;
     float t61 = t57 - (c[63] + c[79] * t58) * (t55 * t60 + t56 * t59) + (c[49] + c[65] * t58) * (t56 * t60 - t55 * t59);
-    return
-        t61 + 1.8610717 * (t44 * t44 - t45 * t45) * c[80] + 7.806063 * t43 * t45 * c[64]
-    ;
+    return t61 + 1.8610717 * (t44 * t44 - t45 * t45) * c[80] + 7.806063 * t43 * t45 * c[64];
 }
 
 #endif

@@ -118,9 +118,7 @@ float[81] sh9_rotate_loop(vec4 q, float[81] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

@@ -118,9 +118,7 @@ vec3[81] sh9_rotate_rgb_loop(vec4 q, vec3[81] c) {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

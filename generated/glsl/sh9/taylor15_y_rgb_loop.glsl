@@ -43,9 +43,7 @@ vec3[81] sh9_taylor15_y_rgb_loop(float beta, vec3[81] c) {
         r[i] = c[i] * (1.0 + half_square * SH9_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[80] = c[80] * (1.0 + half_square * SH9_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[80]) + c[79] * SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[80] * beta;
-    return
-        r
-    ;
+    return r;
 }
 
 #endif

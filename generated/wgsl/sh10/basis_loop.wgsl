@@ -71,8 +71,6 @@ fn sh10_basis_loop(dir: vec3<f32>) -> array<f32, 100> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

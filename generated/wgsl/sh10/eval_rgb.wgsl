@@ -88,8 +88,6 @@ fn sh10_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 100>) -> vec3<f32> {
     let t75 = 1.0274023 * dir.y;
     let t76 = 1.0274023 * dir.x;
     let t77 = t71 + (c[80] + c[98] * t72) * t73 + (c[64] + c[82] * t72) * t74 + c[99] * (t74 * t75 - t73 * t76);
-    return
-        t77 - c[81] * (t73 * t75 + t74 * t76)
-    ;
+    return t77 - c[81] * (t73 * t75 + t74 * t76);
 }
 

@@ -127,8 +127,6 @@ fn sh10_rotate_loop(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -127,8 +127,6 @@ fn sh10_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f3
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -11,8 +11,6 @@
 //     of unit length (3 times the worst of 256 measured).
 fn sh2_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
     let t0 = 0.48860252 * dir.z * c[2] + 0.2820948 * c[0] - 0.48860252 * dir.x * c[3] - 0.48860252 * dir.y * c[1];
-    return
-        t0
-    ;
+    return t0;
 }
 

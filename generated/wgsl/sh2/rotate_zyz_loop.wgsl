@@ -86,8 +86,6 @@ fn sh2_rotate_zyz_loop(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

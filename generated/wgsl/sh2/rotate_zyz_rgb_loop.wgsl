@@ -86,8 +86,6 @@ fn sh2_rotate_zyz_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -27,8 +27,6 @@ fn sh2_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>
         r[i] = c[i] * (1.0 + half_square * SH2_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[3] = c[3] * (1.0 + half_square * SH2_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[3]) + c[2] * SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[3] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -60,8 +60,6 @@ fn sh3_basis_loop(dir: vec3<f32>) -> array<f32, 9> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

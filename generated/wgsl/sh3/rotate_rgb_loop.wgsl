@@ -86,8 +86,6 @@ fn sh3_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>,
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

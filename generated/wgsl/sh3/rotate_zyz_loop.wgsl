@@ -86,8 +86,6 @@ fn sh3_rotate_zyz_loop(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

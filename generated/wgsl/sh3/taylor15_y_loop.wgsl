@@ -27,8 +27,6 @@ fn sh3_taylor15_y_loop(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
         r[i] = c[i] * (1.0 + half_square * SH3_TAYLOR15_Y_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[8] = c[8] * (1.0 + half_square * SH3_TAYLOR15_Y_LOOP_DDY_DIAG[8]) + c[7] * SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG[8] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

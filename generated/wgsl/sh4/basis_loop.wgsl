@@ -61,8 +61,6 @@ fn sh4_basis_loop(dir: vec3<f32>) -> array<f32, 16> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

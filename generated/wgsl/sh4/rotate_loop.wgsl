@@ -88,8 +88,6 @@ fn sh4_rotate_loop(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

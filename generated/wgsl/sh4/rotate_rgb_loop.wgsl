@@ -88,8 +88,6 @@ fn sh4_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -28,8 +28,6 @@ fn sh4_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32
         r[i] = c[i] * (1.0 + half_square * SH4_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[15] = c[15] * (1.0 + half_square * SH4_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[15]) + c[14] * SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[15] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -61,8 +61,6 @@ fn sh5_basis_loop(dir: vec3<f32>) -> array<f32, 25> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

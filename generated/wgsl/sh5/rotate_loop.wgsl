@@ -90,8 +90,6 @@ fn sh5_rotate_loop(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -90,8 +90,6 @@ fn sh5_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -63,8 +63,6 @@ fn sh6_basis_loop(dir: vec3<f32>) -> array<f32, 36> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

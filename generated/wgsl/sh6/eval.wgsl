@@ -36,8 +36,6 @@ fn sh6_eval(dir: vec3<f32>, c: array<f32, 36>) -> f32 {
     let t23 = 1.0488088 * dir.y;
     let t24 = 1.0488088 * dir.x;
     let t25 = t19 + (c[24] + c[34] * t20) * t21 + (c[16] + c[26] * t20) * t22 + c[35] * (t22 * t23 - t21 * t24);
-    return
-        t25 - c[25] * (t21 * t23 + t22 * t24)
-    ;
+    return t25 - c[25] * (t21 * t23 + t22 * t24);
 }
 

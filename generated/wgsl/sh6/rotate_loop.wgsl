@@ -94,8 +94,6 @@ fn sh6_rotate_loop(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

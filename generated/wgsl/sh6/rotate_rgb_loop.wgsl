@@ -94,8 +94,6 @@ fn sh6_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -32,8 +32,6 @@ fn sh6_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 36>) -> array<vec3<f32
         r[i] = c[i] * (1.0 + half_square * SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[35] = c[35] * (1.0 + half_square * SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[35]) + c[34] * SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[35] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -64,8 +64,6 @@ fn sh7_basis_loop(dir: vec3<f32>) -> array<f32, 49> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

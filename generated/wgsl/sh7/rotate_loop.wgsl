@@ -99,8 +99,6 @@ fn sh7_rotate_loop(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -99,8 +99,6 @@ fn sh7_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

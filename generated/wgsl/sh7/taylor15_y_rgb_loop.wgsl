@@ -34,8 +34,6 @@ fn sh7_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32
         r[i] = c[i] * (1.0 + half_square * SH7_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[48] = c[48] * (1.0 + half_square * SH7_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[48]) + c[47] * SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[48] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -66,8 +66,6 @@ fn sh8_basis_loop(dir: vec3<f32>) -> array<f32, 64> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -60,8 +60,6 @@ fn sh8_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 64>) -> vec3<f32> {
     let t47 = 1.0350983 * dir.y;
     let t48 = 1.0350983 * dir.x;
     let t49 = t43 + (c[48] + c[62] * t44) * t45 - (c[36] + c[50] * t44) * t46 - c[63] * (t45 * t48 + t46 * t47);
-    return
-        t49 + c[49] * (t46 * t48 - t45 * t47)
-    ;
+    return t49 + c[49] * (t46 * t48 - t45 * t47);
 }
 

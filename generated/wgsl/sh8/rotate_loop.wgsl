@@ -106,8 +106,6 @@ fn sh8_rotate_loop(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -106,8 +106,6 @@ fn sh8_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -37,8 +37,6 @@ fn sh8_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32
         r[i] = c[i] * (1.0 + half_square * SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[63] = c[63] * (1.0 + half_square * SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG[63]) + c[62] * SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG[63] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -67,8 +67,6 @@ fn sh9_basis_loop(dir: vec3<f32>) -> array<f32, 81> {
             r[l * l + l - m] = sin_next;
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -115,8 +115,6 @@ fn sh9_rotate_loop(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

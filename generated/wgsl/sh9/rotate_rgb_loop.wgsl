@@ -115,8 +115,6 @@ fn sh9_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>
             }
         }
     }
-    return
-        r
-    ;
+    return r;
 }
 

@@ -40,8 +40,6 @@ fn sh9_taylor15_y_loop(beta: f32, c: array<f32, 81>) -> array<f32, 81> {
         r[i] = c[i] * (1.0 + half_square * SH9_TAYLOR15_Y_LOOP_DDY_DIAG[i]) + (c[i - 1] * SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i] - c[i + 1] * SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG[i + 1]) * beta;
     }
     r[80] = c[80] * (1.0 + half_square * SH9_TAYLOR15_Y_LOOP_DDY_DIAG[80]) + c[79] * SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG[80] * beta;
-    return
-        r
-    ;
+    return r;
 }
 

@@ -50,7 +50,9 @@ impl Gpu {
             _ => wgpu::ShaderSource::Wgsl(Cow::Borrowed(text)),
         };
         let device = &self.device;
+        let t0 = std::time::Instant::now();
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source });
+        let t1 = std::time::Instant::now();
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(label),
             layout: None,
@@ -59,6 +61,7 @@ impl Gpu {
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
+        let t2 = std::time::Instant::now();
         let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("inputs"),
             contents: bytemuck::cast_slice(inputs),
@@ -88,6 +91,8 @@ impl Gpu {
         self.queue.submit([encoder.finish()]);
         read.map_async(wgpu::MapMode::Read, .., |result| result.expect("the device gives its memory"));
         device.poll(wgpu::PollType::wait_indefinitely()).expect("the device finishes");
+        let t3 = std::time::Instant::now();
+        eprintln!("{label} {target} module {:?} pipeline {:?} dispatch {:?}", t1-t0,t2-t1,t3-t2);
         let view = read.get_mapped_range(..).expect("the memory is mapped");
         bytemuck::pod_collect_to_vec(&view)
     }

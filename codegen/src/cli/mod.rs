@@ -1,0 +1,236 @@
+//! The command line: its arguments, and how what goes wrong is shown.
+
+mod commands;
+mod vectors;
+
+use clap::{Parser, Subcommand};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use zonal_codegen::builder::Error;
+use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::spec::{Spec, family_names};
+
+/// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.
+#[derive(Parser)]
+#[command(version, about, after_help = "Try `zonal generate`, then read what it wrote; or `zonal show rotate:5`.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Chooses, generates, validates and writes the kernels of a scene.
+    Generate {
+        /// The scene, a TOML file; without one, a glossy scene that zonal carries with it.
+        scene: Option<PathBuf>,
+        /// The folder to write to, instead of the one that the scene names.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Shows what a scene would get, and why.
+    Plan {
+        /// The scene, a TOML file; without one, the glossy scene that zonal carries with it.
+        scene: Option<PathBuf>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Lists the standard specs with their costs and errors.
+    List {
+        /// Only this family.
+        #[arg(long, value_parser = family_names())]
+        family: Option<String>,
+        /// Only this order.
+        #[arg(long, value_parser = clap::value_parser!(u64).range(2..=10))]
+        order: Option<u64>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints one kernel.
+    Show {
+        /// What to print, as in `rotate:5:rgb`.
+        spec: String,
+        /// The language.
+        #[arg(long, default_value = "wgsl", value_parser = Target::ALL.map(Target::name))]
+        target: String,
+    },
+    /// Projects an environment map and says what each order leaves out.
+    Project {
+        /// The map, .hdr or .exr, twice as wide as high.
+        map: PathBuf,
+        /// How many bands.
+        #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=64))]
+        order: u64,
+        /// Irradiance instead of radiance.
+        #[arg(long)]
+        irradiance: bool,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints test vectors as JSON: inputs, and what a kernel gives in f32 and f64.
+    Vectors {
+        /// The kernel, as in `rotate:5:rgb`.
+        spec: String,
+        /// A JSON list of objects keyed by parameter name, instead of seeded inputs.
+        #[arg(long, value_name = "FILE", conflicts_with_all = ["count", "seed"])]
+        inputs: Option<PathBuf>,
+        /// How many seeded inputs, extremes first.
+        #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+        count: u64,
+        /// Which seeded inputs.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Writes the standard catalogue, or checks it.
+    Catalog {
+        /// Writes nothing; fails if a file is stale, missing or orphaned.
+        #[arg(long)]
+        check: bool,
+        /// The folder of the catalogue.
+        #[arg(long, value_name = "DIR", default_value = "generated")]
+        dir: PathBuf,
+    },
+}
+
+/// Why a command ends early.
+enum Failure {
+    /// Something is wrong, and this says what.
+    Shown(Diagnostic),
+    /// Nobody reads the output any more.
+    Closed,
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::Shown(diagnostic)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Scene(diagnostic) => diagnostic.into(),
+            other => Diagnostic::nowhere(other.to_string(), "").into(),
+        }
+    }
+}
+
+macro_rules! failure_from {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Error::from(error).into()
+            }
+        })*
+    };
+}
+
+failure_from!(zonal_codegen::catalog::GenerateError, zonal_codegen::files::FileError);
+
+/// Prints to the standard output; a closed pipe ends the command in silence.
+fn out(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => Failure::Closed,
+        _ => Diagnostic::nowhere(format!("cannot print: {error}"), "").into(),
+    })
+}
+
+/// Prints a value as JSON.
+fn out_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| Diagnostic::nowhere(format!("cannot print JSON: {error}"), ""))?;
+    out(&(text + "\n"))
+}
+
+/// A spec that stands on the command line.
+fn spec_of(text: &str) -> Result<Spec, Failure> {
+    text.parse().map_err(|error| Diagnostic::of_spec("SPEC", text, error).into())
+}
+
+/// A diagnostic as miette draws it.
+struct Drawn<'a> {
+    diagnostic: &'a Diagnostic,
+    source: Option<NamedSource<String>>,
+}
+
+impl<'a> Drawn<'a> {
+    fn new(diagnostic: &'a Diagnostic) -> Self {
+        let source =
+            diagnostic.place.as_ref().map(|place| NamedSource::new(&place.source.name, place.source.text.clone()));
+        Self { diagnostic, source }
+    }
+}
+
+impl fmt::Display for Drawn<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.diagnostic.message)
+    }
+}
+
+impl fmt::Debug for Drawn<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl std::error::Error for Drawn<'_> {}
+
+impl miette::Diagnostic for Drawn<'_> {
+    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        (!self.diagnostic.help.is_empty()).then(|| Box::new(&self.diagnostic.help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let place = self.diagnostic.place.as_ref()?;
+        // Of a fault that spans lines the first is enough.
+        let line = place.text().lines().next().unwrap_or("").len();
+        let label = LabeledSpan::underline((place.span.start, line));
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+fn draw(diagnostic: &Diagnostic) -> String {
+    let theme = match io::stderr().is_terminal() {
+        true => GraphicalTheme::default(),
+        false => GraphicalTheme::none(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
+    let mut text = String::new();
+    match handler.render_report(&mut text, &Drawn::new(diagnostic)) {
+        Ok(()) => text,
+        Err(_) => format!("{diagnostic}\n"),
+    }
+}
+
+/// Runs the command and says how it ended: 0, 1 for what went wrong, 2 for arguments that make no sense.
+pub fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Generate { scene, out } => commands::generate(scene, out),
+        Command::Plan { scene, json } => commands::plan(scene, json),
+        Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
+        Command::Show { spec, target } => commands::show(&spec, &target),
+        Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
+        Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
+        Command::Catalog { check, dir } => commands::catalog(&dir, check),
+    };
+    match result {
+        Ok(()) | Err(Failure::Closed) => ExitCode::SUCCESS,
+        Err(Failure::Shown(diagnostic)) => {
+            // If even this cannot be printed, the exit code still tells.
+            let _ = write!(io::stderr(), "{}", draw(&diagnostic));
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! All that was measured, as JSON, and how two reports differ.
+
+use crate::costs::Costs;
+use crate::errors::Curve;
+use crate::factorisation::Factorisation;
+use crate::fronts::Front;
+use crate::rounding::Rounding;
+use crate::timing::Timing;
+use crate::{Progress, costs, errors, factorisation, fronts, rounding};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// How far two floating-point figures may lie apart, relatively: another machine's sine may differ in its last bit.
+const TOLERANCE: f64 = 0.01;
+
+/// All that was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// The angles in degrees of every curve.
+    pub angles: Vec<f64>,
+    /// The error over the angle, by order and method.
+    pub errors: Vec<Curve>,
+    /// What each kernel costs.
+    pub costs: Vec<Costs>,
+    /// How each kernel rounds.
+    pub rounding: Vec<Rounding>,
+    /// What a budget buys.
+    pub fronts: Vec<Front>,
+    /// The lobe sets of the zonal factorisation.
+    pub factorisation: Factorisation,
+    /// How long kernels took where they were last timed.
+    pub timing: Option<Timing>,
+}
+
+impl Report {
+    /// Measures everything but times.
+    pub fn measure(progress: &dyn Progress) -> Self {
+        Self {
+            angles: errors::grid(),
+            errors: errors::measure(progress),
+            costs: costs::measure(progress),
+            rounding: rounding::measure(progress),
+            fronts: fronts::measure(progress),
+            factorisation: factorisation::measure(progress),
+            timing: None,
+        }
+    }
+
+    /// JSON with one line an item of each list.
+    pub fn to_json(&self) -> String {
+        fn lines(value: &Value, depth: usize) -> String {
+            let indent = "  ".repeat(depth + 1);
+            let (open, items, close): (_, Vec<String>, _) = match value {
+                Value::Object(fields) if depth < 2 => {
+                    let field = |(name, value)| format!("{indent}\"{name}\": {}", lines(value, depth + 1));
+                    ('{', fields.iter().map(field).collect(), '}')
+                }
+                Value::Array(items) if items.iter().any(Value::is_object) && depth < 3 => {
+                    ('[', items.iter().map(|item| format!("{indent}{item}")).collect(), ']')
+                }
+                other => return other.to_string(),
+            };
+            format!("{open}\n{}\n{}{close}", items.join(",\n"), "  ".repeat(depth))
+        }
+        let value = serde_json::to_value(self).expect("a report has names for its fields");
+        lines(&value, 0) + "\n"
+    }
+
+    /// Where a fresh report differs from this one, times left out: counts must agree, errors to one percent.
+    pub fn differences(&self, fresh: &Self) -> Vec<String> {
+        let value = |report: &Self| {
+            serde_json::to_value(Self { timing: None, ..report.clone() }).expect("a report has names for its fields")
+        };
+        let mut found = Vec::new();
+        compare("", &value(self), &value(fresh), &mut found);
+        found
+    }
+
+    /// The costs of a spec.
+    pub fn cost(&self, spec: &str) -> Option<&Costs> {
+        self.costs.iter().find(|costs| costs.spec == spec)
+    }
+
+    /// The curve of a method at an order.
+    pub fn curve(&self, method: &str, order: usize) -> Option<&Curve> {
+        self.errors.iter().find(|curve| curve.method == method && curve.order == order)
+    }
+
+    /// The rounding of a spec.
+    pub fn rounding_of(&self, spec: &str) -> Option<&Rounding> {
+        self.rounding.iter().find(|rounding| rounding.spec == spec)
+    }
+}
+
+fn close(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(x), Value::Number(y)) if x.is_f64() && y.is_f64() => {
+            let (x, y) = (x.as_f64().unwrap_or(f64::NAN), y.as_f64().unwrap_or(f64::NAN));
+            (x - y).abs() <= TOLERANCE * x.abs().max(y.abs())
+        }
+        _ => a == b,
+    }
+}
+
+fn compare(path: &str, old: &Value, new: &Value, found: &mut Vec<String>) {
+    match (old, new) {
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            for (name, value) in a {
+                compare(&format!("{path}/{name}"), value, &b[name], found);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            for (place, (x, y)) in a.iter().zip(b).enumerate() {
+                let name = x.get("spec").and_then(Value::as_str).map_or_else(|| place.to_string(), str::to_owned);
+                compare(&format!("{path}/{name}"), x, y, found);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) => found.push(format!("{path}: {} items, now {}", a.len(), b.len())),
+        _ if close(old, new) => {}
+        _ => found.push(format!("{path}: {old}, now {new}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn counts_must_agree_and_errors_nearly() {
+        let old = json!({"costs": [{"spec": "a", "operations": 5, "error": 1.0e-3}], "none": null});
+        for (new, count) in [
+            (old.clone(), 0),
+            (json!({"costs": [{"spec": "a", "operations": 5, "error": 1.005e-3}], "none": null}), 0),
+            (json!({"costs": [{"spec": "a", "operations": 6, "error": 1.1e-3}], "none": null}), 2),
+            (json!({"costs": [], "none": null}), 1),
+            (json!({"costs": [{"spec": "a", "operations": 5, "error": null}], "none": 1.0}), 2),
+        ] {
+            let mut found = Vec::new();
+            compare("", &old, &new, &mut found);
+            assert_eq!(found.len(), count, "{found:?}");
+        }
+    }
+}

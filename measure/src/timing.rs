@@ -1,0 +1,150 @@
+//! Nanoseconds a vector of the compiled kernels. A time means little on another machine, so that each is also given as
+//! a ratio to a copy of the same bytes, timed in turn with the kernel in the same run.
+
+use crate::{Progress, significant};
+use serde::{Deserialize, Serialize};
+use std::hint::black_box;
+use std::time::Instant;
+use zonal::real::{Lanes, Real, Signal};
+use zonal_codegen::samples::Random;
+
+/// How many rounds of copy and kernel a median is taken over.
+const ROUNDS: usize = 15;
+/// The bytes of each of the two buffers: more than the first cache holds, less than the second.
+const BYTES: usize = 1 << 17;
+/// A round passes over the buffers so often.
+const PASSES: usize = 3;
+
+/// A kernel's time in one layout.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Time {
+    /// Nanoseconds a vector, the median.
+    pub nanoseconds: f64,
+    /// The median of the ratios to a copy.
+    pub copies: f64,
+}
+
+/// The times of a kernel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Times {
+    /// The spec.
+    pub spec: String,
+    /// The order.
+    pub order: usize,
+    /// One vector at a time in f32.
+    pub f32: Time,
+    /// One vector at a time in f64.
+    pub f64: Time,
+    /// Sixteen vectors at once, interleaved, in f32.
+    pub lanes: Time,
+}
+
+/// Where and how kernels were timed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// The processor's architecture and operating system.
+    pub machine: String,
+    /// The times.
+    pub kernels: Vec<Times>,
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    significant(values[values.len() / 2])
+}
+
+fn seconds(mut work: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    for _ in 0..PASSES {
+        work();
+    }
+    start.elapsed().as_secs_f64()
+}
+
+/// Times a kernel against a copy; `lanes` vectors are worked on in one call.
+fn time<T: Real, P: Copy, const N: usize>(lanes: usize, params: &[P], kernel: impl Fn(P, &[T; N]) -> [T; N]) -> Time {
+    let count = (BYTES / size_of::<[T; N]>()).max(params.len());
+    let input: Vec<[T; N]> = (0..count).map(|i| std::array::from_fn(|j| T::lit(((i + j) % 7) as f64 - 3.0))).collect();
+    let mut output = input.clone();
+    let (mut times, mut ratios) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let copy = seconds(|| black_box(&mut output).copy_from_slice(black_box(&input)));
+        let run = seconds(|| {
+            let params = black_box(params);
+            for (place, (out, c)) in black_box(&mut output).iter_mut().zip(black_box(&input)).enumerate() {
+                *out = kernel(params[place % params.len()], c);
+            }
+        });
+        times.push(run * 1e9 / (count * lanes * PASSES) as f64);
+        ratios.push(run / copy);
+    }
+    Time { nanoseconds: median(times), copies: median(ratios) }
+}
+
+/// Parameters for a kernel: quaternions, normals, phases, small angles.
+struct Params<T> {
+    quaternions: Vec<[T; 4]>,
+    normals: Vec<[T; 3]>,
+    phases: Vec<[T; 2]>,
+    angles: Vec<T>,
+}
+
+impl<T: Real> Params<T> {
+    fn new() -> Self {
+        let mut random = Random::new(1);
+        Self {
+            quaternions: (0..64).map(|_| random.unit::<4>().map(T::lit)).collect(),
+            normals: (0..64).map(|_| random.unit::<3>().map(f64::abs).map(T::lit)).collect(),
+            phases: (0..64).map(|_| random.unit::<2>().map(T::lit)).collect(),
+            angles: (0..64).map(|_| T::lit(0.2 * random.signed())).collect(),
+        }
+    }
+}
+
+/// The three layouts of one kernel.
+macro_rules! times {
+    ($order:literal, $spec:literal, $field:ident, $module:ident :: $name:ident) => {{
+        fn layout<T: Real + Signal<T>>(lanes: usize) -> Time {
+            let params = Params::<T>::new();
+            time(lanes, &params.$field, |p, c: &[T; $order * $order]| zonal::$module::$name(p, c))
+        }
+        Times {
+            spec: format!($spec, $order),
+            order: $order,
+            f32: layout::<f32>(1),
+            f64: layout::<f64>(1),
+            lanes: layout::<Lanes<f32, 16>>(16),
+        }
+    }};
+}
+
+/// The kernels that are timed at one order.
+macro_rules! order {
+    ($progress:ident, $kernels:ident, $order:literal, $module:ident, $zyz:literal $zyz_name:ident) => {
+        order!(@ $progress, $kernels, $order, $module,
+            $zyz quaternions $zyz_name,
+            "rotate:{}:zxzxz" quaternions rotate_zxzxz,
+            "rotate:{}:align" normals rotate_align,
+            "tilt:{}" normals tilt,
+            "rotate_y:{}" phases rotate_y,
+            "taylor1:{}" angles taylor1_y,
+            "taylor15:{}" angles taylor15_y,
+            "taylor2:{}" angles taylor2_y,
+            "lf3:{}" angles lf3_y
+        );
+    };
+    (@ $progress:ident, $kernels:ident, $order:literal, $module:ident, $($spec:literal $field:ident $name:ident),*) => { $(
+        $kernels.push(times!($order, $spec, $field, $module::$name));
+        $progress.step();
+    )* };
+}
+
+/// Times the kernels of the orders 3, 5 and 8, one after another.
+pub fn measure(progress: &dyn Progress) -> Timing {
+    progress.stage("times", 27);
+    let mut kernels = Vec::new();
+    order!(progress, kernels, 3, sh3, "rotate:{}:zyz" rotate_zyz);
+    order!(progress, kernels, 5, sh5, "rotate:{}" rotate);
+    order!(progress, kernels, 8, sh8, "rotate:{}" rotate);
+    Timing { machine: format!("{}, {}", std::env::consts::ARCH, std::env::consts::OS), kernels }
+}

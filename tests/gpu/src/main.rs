@@ -1,0 +1,12 @@
+//! Runs the bench on the Vulkan driver that the environment names and prints what it measured, a row a text.
+
+use zonal_gpu_tests::bench::{Mode, run};
+
+fn main() -> Result<(), String> {
+    let mode = match std::env::args().nth(1).as_deref() {
+        Some("catalogue") => Mode::Catalogue,
+        Some("mutated") => Mode::Mutated,
+        _ => return Err("say `catalogue` or `mutated`".to_owned()),
+    };
+    run(mode, |driver| println!("{driver}"), |row| println!("{row}"))
+}

@@ -1,0 +1,481 @@
+//! The command line as a user sees it: bad input of every kind gets one clear message, an exit code and no file; what
+//! the commands print can be read back.
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::process::{Command, Stdio};
+use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::validate::validate;
+use zonal_tests::command::{Folder, Run, zonal};
+use zonal_tests::{numbers, repository};
+
+/// Runs what must fail; the folder must hold nothing but what was there.
+fn fails(folder: &Folder, arguments: &[&str]) -> String {
+    let before = folder.names();
+    let Run { code, out, err } = folder.run(arguments);
+    assert_eq!(code, Some(1), "{arguments:?}: {out}{err}");
+    assert_eq!(folder.names(), before, "{arguments:?} wrote something");
+    assert!(!err.contains("panicked"), "{err}");
+    err
+}
+
+/// A scene's text and what its error must say.
+fn refused(scene: &str, place: &str, parts: &[&str]) {
+    let folder = Folder::new();
+    std::fs::copy(repository("scenes/maps/studio_256x128.hdr"), folder.path("studio.hdr")).expect("copied");
+    folder.put("bad.toml", scene);
+    for command in ["generate", "plan"] {
+        let message = fails(&folder, &[command, "bad.toml"]);
+        assert!(message.contains(&format!("bad.toml:{place}]")), "{place} is not in\n{message}");
+        assert!(message.contains('^') || message.contains('|'), "no caret in\n{message}");
+        for part in parts {
+            assert!(message.contains(part), "`{part}` is not in\n{message}");
+        }
+    }
+}
+
+const ENVIRONMENT: &str = "name = \"a\"\n[environment]\nsignal = \"radiance\"\nbudget = 0.1\n";
+
+#[test]
+fn unknown_keys_are_refused_with_a_suggestion() {
+    refused("nmae = \"a\"\n", "1:1", &["unknown field `nmae`", "did you mean `name`?", "^^^^"]);
+    refused(
+        "name = \"a\"\n[[kernel]]\nspecs = \"eval:3\"\n",
+        "3:1",
+        &["unknown field `specs`", "did you mean `spec`?", "3 | specs = \"eval:3\"", "^^^^^"],
+    );
+    refused(&format!("{ENVIRONMENT}map = \"studio.hdr\"\nbuget = 1\n"), "6:1", &["`buget`", "did you mean `budget`?"]);
+    refused("name = \"a\"\n[[rotation]]\nangle = 3\n", "3:1", &["unknown field `angle`", "known are"]);
+    refused("name = \"a\"\ntargets = [\"wgsl\", \"glls\"]\n", "2:20", &["`glls` is no target", "did you mean `glsl`?"]);
+    refused(
+        "name = \"a\"\n[[rotation]]\nkind = \"tlit\"\n",
+        "3:8",
+        &["unknown variant `tlit`", "did you mean `tilt`?", "^^^^^^"],
+    );
+}
+
+#[test]
+fn wrong_types_are_refused() {
+    refused("name = 5\n", "1:8", &["invalid type: integer `5`, expected a string"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = [\"eval:3\"]\n", "3:8", &["invalid type: sequence"]);
+    refused("name = \"a\"\ntargets = \"wgsl\"\n", "2:11", &["expected a sequence"]);
+    refused("name = \"a\"\nkernel = \"eval:3\"\n", "2:10", &["expected a sequence"]);
+    let rotation = |line: &str| {
+        let all = ["kind = \"y\"", "order = 5", "max_angle = 9", "max_error = 1"];
+        let key = line.split(' ').next().expect("a key");
+        let lines: Vec<&str> = all.into_iter().map(|other| if other.starts_with(key) { line } else { other }).collect();
+        format!("name = \"a\"\n[[rotation]]\n{}\n", lines.join("\n"))
+    };
+    refused(&rotation("order = true"), "4:9", &["expected an order from 2 to 16 or \"environment\""]);
+    refused(&rotation("order = \"five\""), "4:9", &["`five` is no order"]);
+    refused(&rotation("order = 5.5"), "4:9", &["floating point", "expected an order"]);
+    refused(&rotation("max_angle = \"15\""), "5:13", &["invalid type: string"]);
+    refused(&rotation("max_angle = -1"), "5:13", &["-1 is out of range", "above 0 and up to 180"]);
+    refused(&rotation("max_angle = nan"), "5:13", &["NaN is out of range"]);
+    refused(&rotation("max_error = inf"), "6:13", &["inf is out of range"]);
+    refused(&rotation("max_error = 1e-9"), "6:13", &["no method keeps an error of 0.000000001", "allow"]);
+}
+
+#[test]
+fn orders_out_of_range_are_refused() {
+    refused(
+        "name = \"a\"\n[[kernel]]\nspec = \"eval:1\"\n",
+        "3:14",
+        &["order 1 is out of range", "orders are 2 to 16"],
+    );
+    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:17\"\n", "3:9", &["order 17 is too long unrolled"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = 'basis:99'\n", "3:15", &["order 99 is out of range", "^^"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:99999999999999999999\"\n", "3:14", &["is no order"]);
+    refused("name = \"a\"\n[[rotation]]\nkind = \"y\"\norder = 17\n", "4:9", &["order 17 is out of range"]);
+    refused("name = \"a\"\n[[rotation]]\nkind = \"y\"\norder = -5\n", "4:9", &["order -5 is out of range"]);
+    refused(&format!("{ENVIRONMENT}map = \"studio.hdr\"\nmax_order = 40\n"), "6:13", &["order 40 is out of range"]);
+    refused(&format!("{ENVIRONMENT}map = \"studio.hdr\"\nmax_order = \"environment\"\n"), "6:13", &["cannot be"]);
+    refused(&ENVIRONMENT.replace("0.1", "1.5"), "2:1", &["missing field `map`"]);
+    refused(&format!("{}map = \"studio.hdr\"\n", ENVIRONMENT.replace("0.1", "1.5")), "4:10", &["1.5 is out of range"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:environment\"\n", "3:14", &["no environment", "^^^^^^^^^^^"]);
+}
+
+#[test]
+fn unknown_methods_are_refused() {
+    refused(
+        "name = \"a\"\n[[kernel]]\nspec = \"rotat:5\"\n",
+        "3:9",
+        &["`rotat` is no family", "did you mean `rotate`?", "^^^^^"],
+    );
+    refused("name = \"a\"\n[[kernel]]\nspec = \"rotate:5:zyx\"\n", "3:18", &["`zyx` is no method", "`zyz`"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:5:rbg\"\n", "3:16", &["`rbg` is no option", "`rgb`"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = \"\"\n", "3:9", &["is no family"]);
+    let folder = Folder::new();
+    let message = fails(&folder, &["show", "rotate:5:zxz"]);
+    assert!(message.contains("SPEC:1:10]") && message.contains("did you mean"), "{message}");
+}
+
+#[test]
+fn methods_that_cannot_take_the_angle_are_refused() {
+    refused(
+        "name = \"a\"\n[[kernel]]\nspec = \"taylor15:5\"\nmax_angle = 60\n",
+        "4:13",
+        &["`taylor15:5` takes angles up to", "not 60", "`rotate_y:5` takes every angle", "^^"],
+    );
+    refused("name = \"a\"\n[[kernel]]\nspec = \"tilt:5\"\nmax_angle = 90.5\n", "4:13", &["not 90.5", "`rotate:5`"]);
+    let folder = Folder::new();
+    folder.put("good.toml", "name = \"a\"\n[[kernel]]\nspec = \"rotate_y:5\"\nmax_angle = 60\n");
+    assert_eq!(folder.run(["plan", "good.toml"]).code, Some(0));
+}
+
+#[test]
+fn duplicate_names_are_refused() {
+    let kernels = |kernels: &[&str]| {
+        let tables: Vec<String> = kernels.iter().map(|keys| format!("[[kernel]]\n{keys}\n")).collect();
+        format!("name = \"a\"\n{}", tables.concat())
+    };
+    refused(&kernels(&["spec = \"eval:3\"", "spec = \"eval:3\""]), "5:8", &["`eval:3` stands twice"]);
+    refused(
+        &kernels(&["spec = \"eval:3\"\nname = \"shade\"", "spec = \"eval:4\"\nname = \"shade\""]),
+        "7:8",
+        &["the name `shade` is taken already"],
+    );
+    refused(
+        &kernels(&["spec = \"eval:3\"", "spec = \"eval:4\"\nname = \"sh3_eval\""]),
+        "6:8",
+        &["`sh3_eval` is taken"],
+    );
+    // In Rust the functions of an order have the short names.
+    refused(&kernels(&["spec = \"eval:3\"", "spec = \"basis:3\"\nname = \"eval\""]), "6:8", &["`eval` is taken"]);
+    refused("name = \"a\"\nname = \"b\"\n", "2:1", &["duplicate key"]);
+    refused("name = \"a\"\ntargets = [\"wgsl\", \"wgsl\"]\n", "2:20", &["`wgsl` stands twice"]);
+}
+
+#[test]
+fn names_that_a_target_would_not_take_are_refused() {
+    let named = |name: &str| format!("name = \"a\"\n[[kernel]]\nspec = \"eval:3\"\nname = \"{name}\"\n");
+    for (name, why) in [
+        ("my-eval", "is no identifier"),
+        ("3eval", "is no identifier"),
+        ("größe", "is no identifier"),
+        ("", "is no identifier"),
+        ("texture", "reserved in WGSL"),
+        ("precise", "reserved in WGSL"),
+        ("sampler2D", "reserved in GLSL"),
+        ("subroutine", "reserved in WGSL"),
+        ("dyn", "reserved in Rust"),
+        ("box", "reserved in Rust"),
+        ("mix", "built-in function"),
+        ("gl_eval", "starts with `gl_`"),
+        ("my__eval", "holds `__`"),
+        ("eval3", "ends in a digit, and naga renames"),
+    ] {
+        let why = if name == "texture" { "`texture` is" } else { why };
+        refused(&named(name), "4:8", &[why]);
+    }
+    refused("name = \"../a\"\n[[kernel]]\nspec = \"eval:3\"\n", "1:8", &["is no identifier"]);
+    refused("name = \"\"\n[[kernel]]\nspec = \"eval:3\"\n", "1:8", &["is no identifier"]);
+    refused(&format!("{ENVIRONMENT}map = \"studio.hdr\"\nname = \"fn\"\n"), "6:8", &["reserved in WGSL"]);
+}
+
+#[test]
+fn maps_that_cannot_be_used_are_refused() {
+    let folder = Folder::new();
+    let scene = |map: &str| {
+        folder.put("bad.toml", format!("{ENVIRONMENT}map = \"{map}\"\n[[kernel]]\nspec = \"eval:environment\"\n"));
+        let message = fails(&folder, &["generate", "bad.toml"]);
+        assert!(message.contains("bad.toml:5:7]") && message.contains('^'), "{message}");
+        let alone = fails(&folder, &["project", map]);
+        let first = |text: &str| text.lines().next().unwrap_or("").to_owned();
+        assert!(first(&alone).contains(&first(&message)), "{alone}\n{message}");
+        message
+    };
+    let studio = std::fs::read(repository("scenes/maps/studio_256x128.hdr")).expect("a map");
+    assert!(scene("none.hdr").contains("none.hdr: cannot be read"));
+    assert!(scene(".").contains("cannot be read"));
+    folder.put("short.hdr", &studio[..studio.len() / 2]);
+    assert!(scene("short.hdr").contains("cannot be decoded (it ends too early)"));
+    folder.put("text.exr", "no image at all");
+    assert!(scene("text.exr").contains("neither Radiance HDR nor OpenEXR"));
+    folder.put("empty.hdr", "");
+    assert!(scene("empty.hdr").contains("holds nothing"));
+    std::fs::copy(repository("tests/data/adversarial_sky_negative.exr"), folder.path("sky.exr")).expect("copied");
+    let message = scene("sky.exr");
+    assert!(
+        message.contains("negative radiance, down to -3394") && message.contains("clamp the map to 0"),
+        "{message}"
+    );
+    for (value, name) in [(f32::NAN, "NaN"), (f32::INFINITY, "inf")] {
+        folder.put("odd.exr", exr(value));
+        assert!(
+            scene("odd.exr")
+                .contains(&format!("1 of its texels are not finite, the first at column 1, row 0 ({name})"))
+        );
+    }
+}
+
+/// An uncompressed OpenEXR image of 2×1 texels, all of it 1 but for the red of the second texel.
+fn exr(red: f32) -> Vec<u8> {
+    let mut bytes = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
+    let mut attribute = |name: &str, kind: &str, value: &[u8]| {
+        for text in [name, kind] {
+            bytes.extend(text.as_bytes());
+            bytes.push(0);
+        }
+        bytes.extend((value.len() as u32).to_le_bytes());
+        bytes.extend(value);
+    };
+    let mut channels = Vec::new();
+    for name in [b'B', b'G', b'R'] {
+        channels.extend([name, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
+    }
+    channels.push(0);
+    let window: Vec<u8> = [0u32, 0, 1, 0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    attribute("channels", "chlist", &channels);
+    attribute("compression", "compression", &[0]);
+    attribute("dataWindow", "box2i", &window);
+    attribute("displayWindow", "box2i", &window);
+    attribute("lineOrder", "lineOrder", &[0]);
+    attribute("pixelAspectRatio", "float", &1f32.to_le_bytes());
+    attribute("screenWindowCenter", "v2f", &[0; 8]);
+    attribute("screenWindowWidth", "float", &1f32.to_le_bytes());
+    bytes.push(0);
+    let start = bytes.len() as u64 + 8;
+    bytes.extend(start.to_le_bytes());
+    bytes.extend(0u32.to_le_bytes());
+    bytes.extend(24u32.to_le_bytes());
+    bytes.extend([1.0, 1.0, 1.0, 1.0, 1.0, red].iter().flat_map(|x: &f32| x.to_le_bytes()));
+    bytes
+}
+
+#[test]
+fn output_never_leaves_its_folder() {
+    for output in ["../out", "/tmp/out", "a/../../out", ""] {
+        let scene = format!("name = \"a\"\noutput = \"{output}\"\n[[kernel]]\nspec = \"eval:3\"\n");
+        refused(&scene, "2:10", &["leads out of the folder", "without `..`"]);
+    }
+}
+
+#[test]
+fn folders_that_cannot_be_written_are_refused() {
+    let folder = Folder::new();
+    folder.put("file", "a regular file");
+    let message = fails(&folder, &["generate", "--out", "file/out"]);
+    assert!(message.contains("cannot create `file/out`") && message.contains("check that the folder"), "{message}");
+    // A folder stands where a file should be: nothing beside it is written.
+    let taken = folder.path("out/glossy.rs");
+    std::fs::create_dir_all(&taken).expect("a folder");
+    let message = fails(&folder, &["generate", "--out", "out"]);
+    assert!(message.contains("cannot write `out/glossy.rs`"), "{message}");
+    assert_eq!(std::fs::read_dir(folder.path("out")).expect("readable").count(), 1);
+}
+
+#[test]
+fn texts_that_are_no_scenes_are_refused() {
+    refused("name = \"a\n", "1:10", &["string"]);
+    refused("name = \"a\"\n[[kernel]\n", "2:9", &["^"]);
+    refused("[[kernel]]\nspec = \"eval:3\"\n", "1:1", &["missing field `name`", "add it"]);
+    refused("name = \"a\"\n", "1:8", &["asks for nothing"]);
+    refused("name = \"a\"\n[environment]\n", "2:1", &["missing field"]);
+    let folder = Folder::new();
+    for (content, part) in [
+        (&b""[..], "bad.toml: is empty"),
+        (b" \n\n", "is empty"),
+        (b"\xff\xfe\0\x01", "is no text (byte 0"),
+        (b"\0\0", "bad.toml:1:1]"),
+    ] {
+        folder.put("bad.toml", content);
+        let message = fails(&folder, &["generate", "bad.toml"]);
+        assert!(message.contains(part), "{message}");
+    }
+    folder.put("bad.toml", vec![b'#'; 2 << 20]);
+    assert!(fails(&folder, &["generate", "bad.toml"]).contains("larger than a scene may be"));
+    assert!(fails(&folder, &["generate", "none.toml"]).contains("none.toml: cannot be read"));
+    assert!(fails(&folder, &["generate", "."]).contains("cannot be read"));
+    // Deep nesting must not overflow the stack.
+    folder.put("bad.toml", format!("name = {}", "[".repeat(100_000)));
+    fails(&folder, &["generate", "bad.toml"]);
+}
+
+#[test]
+fn arguments_that_make_no_sense_are_usage_errors() {
+    let folder = Folder::new();
+    for arguments in [
+        &["generate", "a", "b"][..],
+        &["frobnicate"],
+        &["show", "eval:3", "--target", "hlsl"],
+        &["list", "--order", "99"],
+        &["project", "a.hdr", "--order", "0"],
+        &["vectors", "eval:3", "--count", "0"],
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.code, Some(2), "{arguments:?}: {}", run.err);
+        assert!(run.err.contains("error:"), "{}", run.err);
+    }
+}
+
+#[test]
+fn generating_twice_touches_nothing() {
+    let folder = Folder::new();
+    let first = folder.run(["generate"]);
+    assert_eq!(first.code, Some(0), "{}", first.err);
+    let names = ["glossy.glsl", "glossy.md", "glossy.rs", "glossy.wgsl"];
+    let state = || {
+        names.map(|name| {
+            let path = folder.path("zonal-out/glossy").join(name);
+            let time = std::fs::metadata(&path).and_then(|data| data.modified()).expect("a file");
+            (std::fs::read(path).expect("a file"), time)
+        })
+    };
+    let before = state();
+    let second = folder.run(["generate", repository("scenes/glossy.toml").to_str().expect("a path")]);
+    assert!(second.out.contains("0 of them changed"), "{}", second.out);
+    assert_eq!(state(), before, "the embedded scene is the one in scenes/, and unchanged files stay");
+    assert_eq!(std::fs::read_dir(folder.path("zonal-out/glossy")).expect("readable").count(), names.len());
+    for part in ["city: order 5", "tilt:5:rgb as `sh5_tilt_rgb`", "glossy.wgsl (", "all validated"] {
+        assert!(first.out.contains(part), "`{part}` is not in\n{}", first.out);
+    }
+}
+
+#[test]
+fn list_has_the_figures() {
+    let folder = Folder::new();
+    let run = folder.run(["list", "--json", "--order", "3"]);
+    let rows: Value = serde_json::from_str(&run.out).expect("JSON");
+    let rows = rows.as_array().expect("a list");
+    assert!(rows.len() > 40);
+    for row in rows {
+        for key in ["mul", "add", "fma", "special", "total", "order", "channels", "constants", "live", "rounding_f32"] {
+            assert!(row[key].is_number(), "{key} in {row}");
+        }
+        let sum = ["mul", "add", "fma"].iter().map(|key| row[key].as_u64().expect("a count")).sum::<u64>();
+        assert_eq!(row["total"].as_u64(), Some(sum), "{row}");
+    }
+    let specs: BTreeSet<&str> = rows.iter().filter_map(|row| row["spec"].as_str()).collect();
+    assert!(specs.contains("rotate:3") && specs.contains("eval:3:rgb"));
+    let table = folder.run(["list", "--order", "3", "--family", "tilt"]).out;
+    assert_eq!(table.lines().count(), 4, "{table}");
+    assert!(table.contains("| tilt:3:rgb |"), "{table}");
+}
+
+#[test]
+fn show_prints_what_validates() {
+    let folder = Folder::new();
+    for spec in ["basis:5", "eval:3:rgb", "rotate:4", "tilt:6:rgb", "taylor15:5:loop", "zhf:3"] {
+        for target in Target::ALL {
+            let run = folder.run(["show", spec, "--target", target.name()]);
+            assert_eq!(run.code, Some(0), "{}", run.err);
+            assert!(run.out.contains("@generated by zonal") && run.out.contains(spec));
+            validate(target, spec, &run.out).expect("valid");
+        }
+    }
+}
+
+#[test]
+fn vectors_read_their_own_inputs() {
+    let folder = Folder::new();
+    for spec in [
+        "basis:4",
+        "eval:3:rgb",
+        "rotate:3:matrix:rgb",
+        "rotate:4:euler",
+        "taylor15:5",
+        "tilt:4",
+        "rotate_z:3",
+        "rotate:5:loop",
+    ] {
+        let text = folder.run(["vectors", spec, "--count", "20", "--seed", "7"]).out;
+        let vectors: Value = serde_json::from_str(&text).expect("JSON");
+        let cases = vectors["cases"].as_array().expect("cases");
+        assert_eq!(cases.len(), 20);
+        let inputs: Vec<&Value> = cases.iter().map(|case| &case["inputs"]).collect();
+        folder.put("inputs.json", serde_json::to_string(&inputs).expect("JSON"));
+        assert_eq!(folder.run(["vectors", spec, "--inputs", "inputs.json"]).out, text, "{spec}");
+    }
+}
+
+#[test]
+fn vectors_take_lists_flat_or_nested_and_grey() {
+    let folder = Folder::new();
+    let results = |spec: &str, inputs: &str| {
+        folder.put("inputs.json", inputs);
+        let run = folder.run(["vectors", spec, "--inputs", "inputs.json"]);
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        let vectors: Value = serde_json::from_str(&run.out).expect("JSON");
+        vectors["cases"][0]["f64"].clone()
+    };
+    let up = numbers(&results("basis:2", r#"[{"dir": [0, 0, 1]}]"#));
+    assert_eq!(up[1], 0.0);
+    assert!((up[0] - 0.28209479177387814).abs() < 1e-15 && (up[2] - 0.4886025119029199).abs() < 1e-15);
+    let grey = results("eval:2:rgb", r#"[{"dir": [0, 0, 1], "c": [1, 2, 3, 4]}]"#);
+    let triples = results("eval:2:rgb", r#"[{"dir": [0, 0, 1], "c": [[1,1,1],[2,2,2],[3,3,3],[4,4,4]]}]"#);
+    assert_eq!(grey, triples);
+    assert_eq!(numbers(&grey), [numbers(&grey)[0]; 3]);
+    let nested = results("rotate:2:matrix", r#"[{"m": [[1,0,0],[0,1,0],[0,0,1]], "c": [1,2,3,4]}]"#);
+    assert_eq!(numbers(&nested), [1.0, 2.0, 3.0, 4.0]);
+    assert_eq!(results("rotate:2:matrix", r#"[{"m": [1,0,0,0,1,0,0,0,1], "c": [1,2,3,4]}]"#), nested);
+    assert_eq!(numbers(&results("rotate_z:2", r#"[{"cs": [1, 0], "c": [1,2,3,4]}]"#)), [1.0, 2.0, 3.0, 4.0]);
+}
+
+#[test]
+fn vectors_say_what_is_wrong_with_inputs() {
+    let folder = Folder::new();
+    for (inputs, parts) in [
+        ("[{\"dir\": [0, 0 1]}]", &["inputs.json:1:16]", "is no JSON"][..]),
+        ("{\"dir\": [0, 0, 1]}", &["is no list"]),
+        ("[5]", &["item 0 is no object"]),
+        ("[{\"dir\": [0, 0, 1]}, {}]", &["object 1 has no `dir`"]),
+        ("[{\"direction\": [0, 0, 1]}]", &["object 0: `direction` is no parameter", "are dir"]),
+        ("[{\"dir\": [0, 1]}]", &["object 0, `dir`: expected a list of 3 numbers, found a list of 2"]),
+        ("[{\"dir\": [0, 0, \"1\"]}]", &["expected a number, found a text"]),
+        ("[{\"dir\": [0, 0, null]}]", &["expected a number, found null"]),
+        ("[{\"dir\": [0, 0, [1]]}]", &["expected a number, found a list of 1"]),
+        ("[{\"dir\": 1}]", &["expected a list of 3 numbers, found the number 1"]),
+        ("[{\"dir\": [0, 0, 1e300]}]", &["does not fit in f32"]),
+        ("[{\"dir\": [0, 0, NaN]}]", &["is no JSON"]),
+        ("", &["is no JSON"]),
+    ] {
+        folder.put("inputs.json", inputs);
+        let message = fails(&folder, &["vectors", "basis:3", "--inputs", "inputs.json"]);
+        for part in parts {
+            assert!(message.contains(part), "`{part}` is not in\n{message}");
+        }
+    }
+    fails(&folder, &["vectors", "basis:3", "--inputs", "none.json"]);
+    fails(&folder, &["vectors", "basis:3:rgb"]);
+}
+
+#[test]
+fn project_tells_the_energy_of_each_band() {
+    let folder = Folder::new();
+    let studio = repository("scenes/maps/studio_256x128.hdr");
+    let studio = studio.to_str().expect("a path");
+    let run = folder.run(["project", studio, "--order", "4", "--irradiance", "--json"]);
+    let found: Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(found["coefficients"].as_array().map(Vec::len), Some(16));
+    assert_eq!(found["bands"][3]["energy"].as_f64(), Some(0.0), "irradiance has no band 3");
+    assert!(found["bands"][2]["error"].as_f64().expect("a number") < 0.1);
+    assert!(folder.run(["project", studio]).out.contains("256 x 128, radiance"));
+}
+
+#[test]
+fn a_closed_pipe_ends_in_silence() {
+    let mut child = Command::new(zonal())
+        .args(["vectors", "rotate:5", "--count", "2000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("runs");
+    let mut start = [0; 10];
+    child.stdout.take().expect("a pipe").read_exact(&mut start).expect("prints");
+    let end = child.wait_with_output().expect("ends");
+    assert_eq!((end.status.code(), String::from_utf8_lossy(&end.stderr).as_ref()), (Some(0), ""));
+}
+
+#[test]
+fn a_catalogue_is_checked_and_never_eats_other_files() {
+    let folder = Folder::new();
+    folder.put("notes.txt", "mine");
+    let message = fails(&folder, &["catalog", "--dir", "."]);
+    assert!(message.contains("zonal did not write its `notes.txt`"), "{message}");
+    let message = fails(&folder, &["catalog", "--check", "--dir", "none"]);
+    assert!(message.contains("run `zonal catalog --dir none`"), "{message}");
+    let checked = folder.run(["catalog", "--check", "--dir", repository("generated").to_str().expect("a path")]);
+    assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
+}

@@ -1,0 +1,132 @@
+//! Scenes as the library plans them: the two that the project ships, and rotations chosen by their errors.
+
+use std::path::Path;
+use zonal_codegen::accuracy::method_error;
+use zonal_codegen::builder::Builder;
+use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::plan::{Plan, price};
+use zonal_codegen::scene::{Maps, Scene};
+use zonal_tests::{repository, spec};
+
+fn plan(text: &str) -> Result<Plan, Diagnostic> {
+    Plan::new(&Scene::parse("scene.toml", text, Maps::Folder(repository("scenes")))?)
+}
+
+fn shipped(name: &str) -> Plan {
+    Builder::scene(repository("scenes").join(name)).plan().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn specs(plan: &Plan) -> Vec<&str> {
+    plan.kernels.iter().map(|chosen| chosen.row.spec.as_str()).collect()
+}
+
+fn rotation(kind: &str, order: usize, max_angle: f64, max_error: f64) -> Result<Plan, Diagnostic> {
+    plan(&format!(
+        "name = \"a\"\n[[rotation]]\nkind = \"{kind}\"\norder = {order}\nmax_angle = {max_angle}\nmax_error = {max_error}\n"
+    ))
+}
+
+#[test]
+fn diffuse_finds_that_three_bands_suffice() {
+    let plan = shipped("diffuse.toml");
+    assert_eq!(specs(&plan), ["eval:3:rgb"]);
+    let environment = plan.environment.expect("has one");
+    assert_eq!((environment.order, environment.max_order), (3, 8));
+    assert_eq!(environment.vanishing, [3, 5, 7]);
+    assert_eq!(environment.values.len(), 9);
+    assert!(environment.costs[2] <= environment.budget && environment.costs[1] > environment.budget);
+    assert_eq!(environment.coefficients, [9, 64]);
+    assert!(environment.operations[0] < environment.operations[1] / 4);
+    assert!((environment.energy.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    assert!(environment.held > 0.999);
+}
+
+#[test]
+fn glossy_picks_the_tilt() {
+    let plan = shipped("glossy.toml");
+    assert_eq!(specs(&plan), ["eval:5:rgb", "rotate:5:rgb", "tilt:5:rgb"]);
+    assert_eq!(plan.environment.as_ref().expect("has one").order, 5);
+    let tilt = &plan.kernels[2];
+    assert!(tilt.method_error.expect("approximate") <= 0.05);
+    assert!(tilt.rivals.len() >= 6);
+    for verdict in ["chosen", "keeps the error too, but costs more", "leaves the spin about the normal open"] {
+        assert!(tilt.rivals.iter().any(|rival| rival.verdict == verdict), "{verdict}");
+    }
+}
+
+#[test]
+fn vanishing_bands_are_not_stored_where_only_eval_and_basis_read_them() {
+    let with = |kernels: &str| {
+        plan(&format!(
+            "name = \"a\"\n[environment]\nmap = \"maps/studio_256x128.hdr\"\nsignal = \"irradiance\"\nbudget = 0.04\n{kernels}"
+        ))
+        .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let eval = with("[[kernel]]\nspec = \"eval:environment:rgb\"\n");
+    assert_eq!(specs(&eval), ["eval:5:bands=0+1+2+4:rgb"]);
+    assert_eq!(eval.environment.expect("has one").values.len(), 18);
+    let rotated = with("[[kernel]]\nspec = \"eval:environment:rgb\"\n[[kernel]]\nspec = \"rotate:environment:rgb\"\n");
+    assert_eq!(specs(&rotated), ["eval:5:rgb", "rotate:5:rgb"]);
+    assert_eq!(rotated.environment.expect("has one").values.len(), 25);
+    // The constants alone are whole too: their index is l(l+1)+m.
+    assert_eq!(with("").environment.expect("has one").values.len(), 25);
+}
+
+#[test]
+fn the_cheapest_rotation_within_the_error_is_chosen() {
+    let mut chosen = Vec::new();
+    for kind in ["tilt", "y", "zyz"] {
+        for order in [2, 3, 5, 8] {
+            for max_angle in [1.0, 5.0, 15.0, 25.0, 60.0, 180.0] {
+                for max_error in [0.001, 0.05, 0.3] {
+                    let plan = rotation(kind, order, max_angle, max_error).unwrap_or_else(|error| panic!("{error}"));
+                    let best = &plan.kernels[0];
+                    let function = &plan.module.functions[0];
+                    let cost = price(function.built.code.cost(1));
+                    let angle = f64::to_radians(max_angle);
+                    assert!(method_error(&function.spec, angle) + best.row.accuracy.rounding_f32 <= max_error);
+                    assert!(function.spec.max_angle().is_none_or(|limit| angle <= limit));
+                    for rival in best.rivals.iter().filter(|rival| rival.admissible) {
+                        assert!(rival.price >= cost, "{} beats {}", rival.spec, best.row.spec);
+                        assert!(rival.method_error + rival.rounding_f32 <= max_error);
+                    }
+                    chosen.push(best.row.spec.clone());
+                }
+            }
+        }
+    }
+    for family in ["tilt:", "rotate_y:", "taylor1:", "lf3:", "mix:", "rotate:8:euler", "rotate:8"] {
+        assert!(chosen.iter().any(|spec| spec.starts_with(family)), "{family} is never chosen: {chosen:?}");
+    }
+}
+
+#[test]
+fn errors_are_one_plain_line_in_the_library() {
+    let error = rotation("tilt", 5, 15.0, 1e-9).expect_err("too small");
+    let text = error.to_string();
+    assert!(text.starts_with("scene.toml:6:13: no method keeps an error of 0.000000001; allow "), "{text}");
+    assert_eq!(format!("{error:?}"), text, "a build script that returns it shows the same");
+    let error = Scene::read(Path::new("no/such.toml")).expect_err("missing");
+    assert!(error.to_string().starts_with("no/such.toml: cannot be read"), "{error}");
+}
+
+#[test]
+fn a_rotation_that_is_there_already_is_not_printed_twice() {
+    let plan = plan(
+        "name = \"a\"\n[[kernel]]\nspec = \"tilt:3\"\n[[rotation]]\nkind = \"tilt\"\norder = 3\nmax_angle = 10\n\
+         max_error = 0.1\n[[rotation]]\nkind = \"tilt\"\norder = 3\nmax_angle = 5\nmax_error = 0.1\nname = \"bump\"\n",
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(specs(&plan), ["tilt:3"; 3]);
+    let names: Vec<String> = plan.module.functions.iter().map(|function| function.shader_name()).collect();
+    assert_eq!(names, ["sh3_tilt", "bump"]);
+}
+
+#[test]
+fn plans_are_json_too() {
+    let plan = serde_json::to_value(shipped("diffuse.toml")).expect("JSON");
+    assert_eq!(plan["environment"]["order"], 3);
+    assert_eq!(plan["kernels"][0]["total"], plan["environment"]["operations"][0]);
+    assert_eq!(plan["targets"], serde_json::json!(["wgsl", "glsl", "rust"]));
+    assert_eq!(spec(plan["kernels"][0]["spec"].as_str().expect("a spec")).order, 3);
+}
