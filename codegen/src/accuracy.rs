@@ -12,7 +12,9 @@ use crate::spec::{Family, Method, Spec};
 /// The tilts in degrees at which a file's head says the method's error.
 pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
 /// How many inputs rounding is measured over.
-pub const SAMPLES: usize = 256;
+const SAMPLES: usize = 256;
+/// How many for a loop, whose interpreter is slower; its unrolled twin has the others.
+const LOOP_SAMPLES: usize = 32;
 /// The measured worst case is multiplied by this before it is promised.
 pub const MARGIN: f64 = 3.0;
 const SEED: u64 = 0x5a_0a_1;
@@ -24,6 +26,8 @@ pub struct Accuracy {
     pub rounding_f32: f64,
     /// What the rounding error is relative to.
     pub relative_to: &'static str,
+    /// How many inputs it was measured over.
+    pub samples: usize,
     /// For an approximate rotation the largest error of any band (spectral norm) at angles in degrees.
     pub method: Vec<(f64, f64)>,
 }
@@ -98,7 +102,8 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
     samples::inputs(spec, code.params(), seed, count, max_angle)
         .iter()
         .map(|input| {
-            let rounded: Vec<Vec<T>> = input.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
+            let rounded: Vec<Vec<T>> =
+                input.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
             let narrow_input: Vec<&[T]> = rounded.iter().map(Vec::as_slice).collect();
             let wide_input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
@@ -143,15 +148,14 @@ impl Meaning {
 impl Accuracy {
     /// Measures a kernel.
     pub fn of(spec: &Spec, code: &Code) -> Self {
+        let samples = match code {
+            Code::Straight(_) => SAMPLES,
+            Code::Loop(_) => LOOP_SAMPLES,
+        };
         let worst = [Contraction::Separate, Contraction::Fused]
-            .map(|contraction| rounding::<f32>(spec, code, SEED, SAMPLES, contraction))
+            .map(|contraction| rounding::<f32>(spec, code, SEED, samples, contraction))
             .into_iter()
             .fold(0.0, larger);
-        Self::with_rounding(spec, worst)
-    }
-
-    /// The same, with the largest rounding error measured already.
-    pub fn with_rounding(spec: &Spec, worst: f64) -> Self {
         let method = match spec.max_angle().is_some() {
             true => {
                 let errors = method_errors(spec, &ANGLES.map(f64::to_radians));
@@ -159,11 +163,7 @@ impl Accuracy {
             }
             false => vec![],
         };
-        Self {
-            rounding_f32: round_up(worst * MARGIN),
-            relative_to: Measure::of(spec).name(),
-            method,
-        }
+        Self { rounding_f32: round_up(worst * MARGIN), relative_to: Measure::of(spec).name(), samples, method }
     }
 }
 
@@ -217,10 +217,8 @@ pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
 /// The spectral norm of a square matrix by the power iteration on MᵀM, started from every unit vector's image.
 pub fn spectral_norm(columns: &[Vec<f64>]) -> f64 {
     let n = columns.len();
-    let gram: Vec<Vec<f64>> = columns
-        .iter()
-        .map(|a| columns.iter().map(|b| a.iter().zip(b).map(|(x, y)| x * y).sum()).collect())
-        .collect();
+    let gram: Vec<Vec<f64>> =
+        columns.iter().map(|a| columns.iter().map(|b| a.iter().zip(b).map(|(x, y)| x * y).sum()).collect()).collect();
     let scale = gram.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     if scale == 0.0 || !scale.is_finite() {
         return scale;
@@ -228,9 +226,8 @@ pub fn spectral_norm(columns: &[Vec<f64>]) -> f64 {
     // Squaring the matrix doubles the exponent of the iteration: twenty squarings are 2^20 steps.
     let mut power: Vec<Vec<f64>> = gram.iter().map(|row| row.iter().map(|x| x / scale).collect()).collect();
     for _ in 0..20 {
-        let square: Vec<Vec<f64>> = (0..n)
-            .map(|i| (0..n).map(|j| (0..n).map(|k| power[i][k] * power[k][j]).sum()).collect())
-            .collect();
+        let square: Vec<Vec<f64>> =
+            (0..n).map(|i| (0..n).map(|j| (0..n).map(|k| power[i][k] * power[k][j]).sum()).collect()).collect();
         let size = square.iter().flatten().fold(0.0f64, |m: f64, x: &f64| m.max(x.abs()));
         power = square.into_iter().map(|row| row.into_iter().map(|x| x / size).collect()).collect();
     }

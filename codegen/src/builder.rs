@@ -218,3 +218,28 @@ fn located_limit(plan: &Plan, error: GenerateError) -> Error {
         None => error.into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::emit::Limit;
+
+    #[test]
+    fn a_kernel_that_is_too_long_is_shown_where_it_was_asked_for() {
+        let plan = Builder::new("a").spec("eval:2").spec("eval:3").plan().expect("valid");
+        let limit = |spec: &str| Limit {
+            spec: spec.to_owned(),
+            target: Target::Wgsl,
+            size: 6000,
+            what: "statements",
+            limit: 5000,
+            help: "take a lower order".to_owned(),
+        };
+        let error = located_limit(&plan, limit("eval:3").into()).to_string();
+        assert!(
+            error.starts_with("Builder::spec:1:1: `eval:3` is too long for wgsl: 6000 statements, and 5000"),
+            "{error}"
+        );
+        assert!(matches!(located_limit(&plan, limit("eval:4").into()), Error::Generate(_)));
+    }
+}

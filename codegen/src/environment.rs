@@ -70,9 +70,7 @@ pub enum MapError {
         source: std::io::Error,
     },
     /// The content is in another format, whatever the file is called.
-    #[error(
-        "{name}: holds {found}, neither Radiance HDR nor OpenEXR; save the map as .hdr or .exr"
-    )]
+    #[error("{name}: holds {found}, neither Radiance HDR nor OpenEXR; save the map as .hdr or .exr")]
     Format {
         /// The file.
         name: String,
@@ -195,8 +193,7 @@ impl Map {
                 let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes));
                 Self::decode(name, decoder)
             } else if matches!(image::guess_format(bytes), Ok(ImageFormat::OpenExr)) {
-                let decoder =
-                    OpenExrDecoder::with_alpha_preference(Cursor::new(bytes), Some(false));
+                let decoder = OpenExrDecoder::with_alpha_preference(Cursor::new(bytes), Some(false));
                 Self::decode(name, decoder)
             } else {
                 let found = match image::guess_format(bytes) {
@@ -204,10 +201,7 @@ impl Map {
                     Err(_) if bytes.is_empty() => "nothing".to_string(),
                     Err(_) => "unknown data".to_string(),
                 };
-                Err(MapError::Format {
-                    name: name.to_string(),
-                    found,
-                })
+                Err(MapError::Format { name: name.to_string(), found })
             }
         }));
         let decoded = decoded.unwrap_or_else(|_| Err(malformed(name, "the decoder gave up")));
@@ -224,73 +218,39 @@ impl Map {
     pub fn checked(self, name: &str) -> Result<Self, MapError> {
         check_size(name, self.width, self.height)?;
         if self.texels.len() != self.width * self.height {
-            return Err(malformed(
-                name,
-                &format!("it has {} texels", self.texels.len()),
-            ));
+            return Err(malformed(name, &format!("it has {} texels", self.texels.len())));
         }
         let place = |i: usize| (i % self.width, i / self.width);
         let wrong = |bad: fn(f64) -> bool| {
             let found = |t: &[f64; 3]| t.iter().copied().find(|&v| bad(v));
-            let mut wrong = self
-                .texels
-                .iter()
-                .enumerate()
-                .filter_map(|(i, t)| Some((i, found(t)?)));
-            wrong
-                .next()
-                .map(|(i, value)| (place(i), value, 1 + wrong.count()))
+            let mut wrong = self.texels.iter().enumerate().filter_map(|(i, t)| Some((i, found(t)?)));
+            wrong.next().map(|(i, value)| (place(i), value, 1 + wrong.count()))
         };
         if let Some(((x, y), value, count)) = wrong(|v| !v.is_finite()) {
-            return Err(MapError::NotFinite {
-                name: name.to_string(),
-                count,
-                x,
-                y,
-                value,
-            });
+            return Err(MapError::NotFinite { name: name.to_string(), count, x, y, value });
         }
         if let Some(((x, y), _, count)) = wrong(|v| v < 0.0) {
             let lowest = self.texels.iter().flatten().copied().fold(0.0, f64::min);
-            return Err(MapError::Negative {
-                name: name.to_string(),
-                count,
-                lowest,
-                x,
-                y,
-            });
+            return Err(MapError::Negative { name: name.to_string(), count, lowest, x, y });
         }
         if self.texels.iter().flatten().all(|&v| v == 0.0) {
-            return Err(MapError::Black {
-                name: name.to_string(),
-            });
+            return Err(MapError::Black { name: name.to_string() });
         }
         Ok(self)
     }
 
-    fn decode<D: ImageDecoder>(
-        name: &str,
-        decoder: Result<D, ImageError>,
-    ) -> Result<Self, MapError> {
+    fn decode<D: ImageDecoder>(name: &str, decoder: Result<D, ImageError>) -> Result<Self, MapError> {
         let undecodable = |error: ImageError| match error {
-            ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => {
-                malformed(name, "it ends too early")
-            }
+            ImageError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => malformed(name, "it ends too early"),
             error => malformed(name, &error.to_string()),
         };
         let decoder = decoder.map_err(undecodable)?;
         let (width, height) = decoder.dimensions();
         let (width, height) = (width as usize, height as usize);
         check_size(name, width, height)?;
-        let image = DynamicImage::from_decoder(decoder)
-            .map_err(undecodable)?
-            .into_rgb32f();
+        let image = DynamicImage::from_decoder(decoder).map_err(undecodable)?.into_rgb32f();
         let texels = image.pixels().map(|p| p.0.map(f64::from)).collect();
-        Ok(Self {
-            width,
-            height,
-            texels,
-        })
+        Ok(Self { width, height, texels })
     }
 
     /// The unit direction (x, y, z) of the centre of the texel in column `x` (from 0 at the left) of row `y` (from 0
@@ -316,8 +276,7 @@ impl Map {
     /// If the map was made by hand and its width is 0; see [`Map::checked`].
     pub fn energy(&self) -> f64 {
         let rows = self.texels.chunks_exact(self.width).enumerate();
-        rows.map(|(y, row)| self.solid_angle(y) * row.iter().flatten().map(|v| v * v).sum::<f64>())
-            .sum()
+        rows.map(|(y, row)| self.solid_angle(y) * row.iter().flatten().map(|v| v * v).sum::<f64>()).sum()
     }
 
     /// The radiance projected on the first `order` bands: the coefficients, and the energy that they leave out.
@@ -343,11 +302,7 @@ impl Map {
                 }
             }
         }
-        let mut projection = Projection {
-            order,
-            coefficients,
-            beyond: 0.0,
-        };
+        let mut projection = Projection { order, coefficients, beyond: 0.0 };
         projection.beyond = (self.energy() - projection.energy()).max(0.0);
         projection
     }
@@ -359,15 +314,9 @@ impl Map {
             .map(|m| {
                 let m = m as f64;
                 let half = PI * m / width;
-                let weight = if m == 0.0 {
-                    2.0 * PI / width
-                } else {
-                    2.0 * half.sin() / m
-                };
+                let weight = if m == 0.0 { 2.0 * PI / width } else { 2.0 * half.sin() / m };
                 let phase = |x: usize| m * (PI - 2.0 * PI * (x as f64 + 0.5) / width);
-                (0..self.width)
-                    .map(|x| [weight * phase(x).cos(), weight * phase(x).sin()])
-                    .collect()
+                (0..self.width).map(|x| [weight * phase(x).cos(), weight * phase(x).sin()]).collect()
             })
             .collect();
         let rows = self.texels[..self.width * self.height].par_chunks_exact(self.width);
@@ -415,9 +364,7 @@ impl Projection {
     /// identity this is the integral over the sphere of the square of what the band adds.
     pub fn band_energy(&self) -> Vec<f64> {
         let band = |l: usize| &self.coefficients[l * l..(l + 1) * (l + 1)];
-        (0..self.order)
-            .map(|l| band(l).iter().flatten().map(|c| c * c).sum())
-            .collect()
+        (0..self.order).map(|l| band(l).iter().flatten().map(|c| c * c).sum()).collect()
     }
 
     /// The energy of all bands, those beyond the projection included.
@@ -458,11 +405,7 @@ impl Projection {
             let terms = (0..self.order).map(|l| (2 * l + 1) as f64 * factors[l] * factors[l]);
             beyond = beyond.min(uniform * (all - terms.sum::<f64>()).max(0.0));
         }
-        Self {
-            order: self.order,
-            coefficients,
-            beyond,
-        }
+        Self { order: self.order, coefficients, beyond }
     }
 
     /// The relative rms error that each order leaves: entry n−1 is √(energy left out by order n / energy of all), from
@@ -472,11 +415,7 @@ impl Projection {
         let mut left = self.beyond;
         let mut errors = vec![0.0; self.order];
         for (error, band) in errors.iter_mut().zip(self.band_energy()).rev() {
-            *error = if total > 0.0 {
-                (left / total).sqrt()
-            } else {
-                0.0
-            };
+            *error = if total > 0.0 { (left / total).sqrt() } else { 0.0 };
             left += band;
         }
         errors
@@ -485,10 +424,7 @@ impl Projection {
     /// The smallest order whose relative rms error, as [`Projection::errors`] gives it, is at most `budget`; none if
     /// the whole projection leaves more, and a larger one has to be made to find it.
     pub fn smallest_order(&self, budget: f64) -> Option<usize> {
-        self.errors()
-            .iter()
-            .position(|&error| error <= budget)
-            .map(|i| i + 1)
+        self.errors().iter().position(|&error| error <= budget).map(|i| i + 1)
     }
 
     /// The values of R, G and B that the bands give in a direction (x, y, z), of length 1. A truncated series rings:
@@ -518,9 +454,7 @@ pub fn cosine_lobe(l: usize) -> f64 {
     if l % 2 == 1 {
         return 0.0;
     }
-    let central: f64 = (1..=l / 2)
-        .map(|k| -((2 * k - 1) as f64) / (2 * k) as f64)
-        .product();
+    let central: f64 = (1..=l / 2).map(|k| -((2 * k - 1) as f64) / (2 * k) as f64).product();
     let l = l as f64;
     -2.0 * PI * central / ((l + 2.0) * (l - 1.0))
 }
@@ -533,11 +467,7 @@ pub(crate) fn basis(order: usize, direction: [f64; 3], values: &mut [f64]) {
     let (mut cos, mut sin) = (1.0, 0.0);
     for m in 0..order {
         if m > 0 {
-            let factor = if m == 1 {
-                3.0
-            } else {
-                (2 * m + 1) as f64 / (2 * m) as f64
-            };
+            let factor = if m == 1 { 3.0 } else { (2 * m + 1) as f64 / (2 * m) as f64 };
             sectoral *= -factor.sqrt();
             (cos, sin) = (x * cos - y * sin, x * sin + y * cos);
         }
@@ -566,45 +496,24 @@ fn gauss_legendre_5() -> [(f64, f64); 5] {
     let outer = (5.0 + 2.0 * root_10_7).sqrt() / 3.0;
     let inner_weight = (322.0 + 13.0 * root_70) / 900.0;
     let outer_weight = (322.0 - 13.0 * root_70) / 900.0;
-    [
-        (-outer, outer_weight),
-        (-inner, inner_weight),
-        (0.0, 128.0 / 225.0),
-        (inner, inner_weight),
-        (outer, outer_weight),
-    ]
+    [(-outer, outer_weight), (-inner, inner_weight), (0.0, 128.0 / 225.0), (inner, inner_weight), (outer, outer_weight)]
 }
 
 fn check_size(name: &str, width: usize, height: usize) -> Result<(), MapError> {
     let name = name.to_string();
     if width == 0 || height == 0 {
-        Err(MapError::Empty {
-            name,
-            width,
-            height,
-        })
+        Err(MapError::Empty { name, width, height })
     } else if Some(width) != height.checked_mul(2) {
-        Err(MapError::Shape {
-            name,
-            width,
-            height,
-        })
+        Err(MapError::Shape { name, width, height })
     } else if width > MAX_WIDTH {
-        Err(MapError::TooLarge {
-            name,
-            width,
-            height,
-        })
+        Err(MapError::TooLarge { name, width, height })
     } else {
         Ok(())
     }
 }
 
 fn malformed(name: &str, message: &str) -> MapError {
-    MapError::Malformed {
-        name: name.to_string(),
-        message: message.replace(char::is_control, " "),
-    }
+    MapError::Malformed { name: name.to_string(), message: message.replace(char::is_control, " ") }
 }
 
 #[cfg(test)]
@@ -615,20 +524,14 @@ mod tests {
     fn random() -> impl FnMut() -> f64 {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         move || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         }
     }
 
     /// A map whose texels hold the value of `radiance`, by column, row and direction, in all channels.
     fn map(height: usize, radiance: impl Fn(usize, usize, [f64; 3]) -> f64) -> Map {
-        let mut map = Map {
-            width: 2 * height,
-            height,
-            texels: Vec::new(),
-        };
+        let mut map = Map { width: 2 * height, height, texels: Vec::new() };
         for (x, y) in (0..height).flat_map(|y| (0..2 * height).map(move |x| (x, y))) {
             map.texels.push([radiance(x, y, map.direction(x, y)); 3]);
         }
@@ -637,11 +540,7 @@ mod tests {
 
     fn distance(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
         assert_eq!(a.len(), b.len());
-        let squares = a
-            .iter()
-            .flatten()
-            .zip(b.iter().flatten())
-            .map(|(a, b)| (a - b) * (a - b));
+        let squares = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
         squares.sum::<f64>().sqrt()
     }
 
@@ -649,10 +548,7 @@ mod tests {
         let mut pair = (0.0, 1.0);
         for k in 0..l {
             let k = k as f64;
-            pair = (
-                pair.1,
-                ((2.0 * k + 1.0) * z * pair.1 - k * pair.0) / (k + 1.0),
-            );
+            pair = (pair.1, ((2.0 * k + 1.0) * z * pair.1 - k * pair.0) / (k + 1.0));
         }
         pair.1
     }
@@ -694,10 +590,7 @@ mod tests {
                 nu * 1.25f64.sqrt() * (x * x - y * y),
             ];
             for (value, expected) in values.iter().zip(expected) {
-                assert!(
-                    (value - expected).abs() < 1e-15,
-                    "{value} is not {expected}"
-                );
+                assert!((value - expected).abs() < 1e-15, "{value} is not {expected}");
             }
             for l in 0..20 {
                 let sum: f64 = values[l * l..(l + 1) * (l + 1)].iter().map(|v| v * v).sum();
@@ -746,11 +639,7 @@ mod tests {
             let c = map.project(2).coefficients;
             let vector = [-c[3][0], -c[1][0], c[2][0]];
             let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
-            let cos: f64 = vector
-                .iter()
-                .zip(map.direction(x, y))
-                .map(|(a, b)| a * b / length)
-                .sum();
+            let cos: f64 = vector.iter().zip(map.direction(x, y)).map(|(a, b)| a * b / length).sum();
             assert!(cos > 0.98, "column {x}, row {y}: cosine {cos}");
         }
     }
@@ -775,9 +664,7 @@ mod tests {
     fn a_bright_hemisphere_is_projected_exactly() {
         // The texels' edges are the hemisphere's, so that rounding alone is left.
         for height in [2, 6, 128] {
-            let c = map(height, |_, _, d| f64::from(d[2] > 0.0))
-                .project(8)
-                .coefficients;
+            let c = map(height, |_, _, d| f64::from(d[2] > 0.0)).project(8).coefficients;
             for l in 0..8 {
                 // The integral of P_l from 0 to 1.
                 let integral = match l {
@@ -785,18 +672,10 @@ mod tests {
                     _ => (legendre(l - 1, 0.0) - legendre(l + 1, 0.0)) / (2 * l + 1) as f64,
                 };
                 let expected = ((2 * l + 1) as f64 * PI).sqrt() * integral;
-                assert!(
-                    (c[l * (l + 1)][0] - expected).abs() < 1e-13,
-                    "height {height}, band {l}"
-                );
+                assert!((c[l * (l + 1)][0] - expected).abs() < 1e-13, "height {height}, band {l}");
             }
-            let c = map(height, |_, _, d| f64::from(d[1] > 0.0))
-                .project(8)
-                .coefficients;
-            assert!(
-                (c[1][0] + (3.0 * PI).sqrt() / 2.0).abs() < 1e-13,
-                "height {height}"
-            );
+            let c = map(height, |_, _, d| f64::from(d[1] > 0.0)).project(8).coefficients;
+            assert!((c[1][0] + (3.0 * PI).sqrt() / 2.0).abs() < 1e-13, "height {height}");
             assert!(c[2][0].abs() < 1e-13 && c[3][0].abs() < 1e-13);
         }
     }
@@ -822,11 +701,7 @@ mod tests {
     fn a_sampled_series_comes_back() {
         let mut random = random();
         let coefficients = (0..25).map(|_| [random(), random(), random()]).collect();
-        let series = Projection {
-            order: 5,
-            coefficients,
-            beyond: 0.0,
-        };
+        let series = Projection { order: 5, coefficients, beyond: 0.0 };
         let error = |height: usize| {
             let mut map = map(height, |_, _, _| 0.0);
             for i in 0..map.texels.len() {
@@ -845,19 +720,10 @@ mod tests {
     #[test]
     fn shifting_columns_turns_the_series_about_z() {
         let mut random = random();
-        let texels = (0..16 * 8)
-            .map(|_| [random(), random(), random()])
-            .collect();
-        let map = Map {
-            width: 16,
-            height: 8,
-            texels,
-        };
+        let texels = (0..16 * 8).map(|_| [random(), random(), random()]).collect();
+        let map = Map { width: 16, height: 8, texels };
         let mut turned = map.clone();
-        turned
-            .texels
-            .chunks_exact_mut(16)
-            .for_each(|row| row.rotate_left(3));
+        turned.texels.chunks_exact_mut(16).for_each(|row| row.rotate_left(3));
         let angle = 3.0 * 2.0 * PI / 16.0;
         let mut expected = map.project(7).coefficients;
         for (l, m) in (0..7).flat_map(|l| (1..=l).map(move |m| (l, m))) {
@@ -875,14 +741,8 @@ mod tests {
     #[test]
     fn energies_obey_parseval_even_for_orders_beyond_the_map() {
         let mut random = random();
-        let texels = (0..8 * 4)
-            .map(|_| [random().abs(), random().abs(), random().abs()])
-            .collect();
-        let map = Map {
-            width: 8,
-            height: 4,
-            texels,
-        };
+        let texels = (0..8 * 4).map(|_| [random().abs(), random().abs(), random().abs()]).collect();
+        let map = Map { width: 8, height: 4, texels };
         let whole = map.project(60);
         assert!((whole.energy() / map.energy() - 1.0).abs() < 1e-14);
         let errors = whole.errors();
@@ -904,9 +764,7 @@ mod tests {
         assert!(truth.beyond < 1e-6 * truth.energy());
         for (order, promised) in [(10, 0.032), (32, 0.0053), (64, 0.0019)] {
             let judged = map.project(order).irradiance();
-            assert!(
-                judged.beyond >= truth.beyond + truth.band_energy()[order..].iter().sum::<f64>()
-            );
+            assert!(judged.beyond >= truth.beyond + truth.band_energy()[order..].iter().sum::<f64>());
             for (judged, truth) in judged.errors().iter().zip(truth.errors()) {
                 assert!(*judged >= truth && judged * judged < truth * truth + promised * promised);
             }
@@ -933,10 +791,7 @@ mod tests {
         assert_eq!(read(&hdr(&texel.repeat(16 * 8))), [1.0, 0.5, 0.25]);
         let old = [b"#?RGBE\n", &hdr(&texel.repeat(16 * 8))[11..]].concat();
         assert_eq!(read(&old), [1.0, 0.5, 0.25]);
-        assert_eq!(
-            read(&exr(2, 1, vec![1.0, 0.5, 0.25, 0.0, 0.0, 0.0])),
-            [1.0, 0.5, 0.25]
-        );
+        assert_eq!(read(&exr(2, 1, vec![1.0, 0.5, 0.25, 0.0, 0.0, 0.0])), [1.0, 0.5, 0.25]);
     }
 
     #[test]
@@ -944,9 +799,7 @@ mod tests {
         let message = |width: u32, height: u32, change: &[(usize, f32)]| {
             let mut texels = vec![1.0; 3 * (width * height) as usize];
             change.iter().for_each(|&(i, v)| texels[i] = v);
-            Map::from_bytes("a.exr", &exr(width, height, texels))
-                .unwrap_err()
-                .to_string()
+            Map::from_bytes("a.exr", &exr(width, height, texels)).unwrap_err().to_string()
         };
         assert_eq!(
             message(4, 2, &[(10, f32::NAN), (23, f32::INFINITY), (0, -1.0)]),
@@ -964,33 +817,17 @@ mod tests {
              convert it to that layout, uncropped"
         );
         let black: Vec<_> = (0..6).map(|i| (i, 0.0)).collect();
-        assert_eq!(
-            message(2, 1, &black),
-            "a.exr: is black all over; check how it was exported"
-        );
+        assert_eq!(message(2, 1, &black), "a.exr: is black all over; check how it was exported");
         let sized = |size: &str| {
             let file = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n{size}\n");
             Map::from_bytes("a.hdr", file.as_bytes()).unwrap_err()
         };
         assert!(matches!(sized("-Y 0 +X 0"), MapError::Empty { .. }));
-        assert!(matches!(
-            sized("-Y 8192 +X 16384"),
-            MapError::TooLarge { width: 16384, .. }
-        ));
-        assert!(matches!(
-            sized("-Y 100000 +X 100000"),
-            MapError::Shape { .. }
-        ));
+        assert!(matches!(sized("-Y 8192 +X 16384"), MapError::TooLarge { width: 16384, .. }));
+        assert!(matches!(sized("-Y 100000 +X 100000"), MapError::Shape { .. }));
         assert!(matches!(sized("+Y 8 +X 16"), MapError::Malformed { .. }));
-        let short = Map {
-            width: 2,
-            height: 1,
-            texels: vec![[1.0; 3]],
-        };
-        assert!(matches!(
-            short.checked("short"),
-            Err(MapError::Malformed { .. })
-        ));
+        let short = Map { width: 2, height: 1, texels: vec![[1.0; 3]] };
+        assert!(matches!(short.checked("short"), Err(MapError::Malformed { .. })));
     }
 
     #[test]

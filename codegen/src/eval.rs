@@ -88,10 +88,7 @@ pub struct Program<T> {
 impl<T: Number> Program<T> {
     /// Rounds the constants of a listing.
     pub fn new(listing: &Listing) -> Self {
-        Self {
-            listing: listing.clone(),
-            constants: listing.constants.iter().map(T::nearest).collect(),
-        }
+        Self { listing: listing.clone(), constants: listing.constants.iter().map(T::nearest).collect() }
     }
 
     /// The listing that is run.

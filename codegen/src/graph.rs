@@ -49,6 +49,7 @@ pub struct Graph {
     nodes: Vec<Node>,
     kinds: Vec<Kind>,
     known: HashMap<Node, Id>,
+    stages: Vec<Vec<Id>>,
 }
 
 impl Graph {
@@ -75,6 +76,17 @@ impl Graph {
     /// Whether the graph has no node.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
+    }
+
+    /// Notes that what follows in a band, or in an invariant part of it, depends on the signal through these values
+    /// alone, and that an orthogonal map has made them. It changes no operation: the proof of rounding bounds cuts here.
+    pub fn stage(&mut self, values: &[Id]) {
+        self.stages.push(values.to_vec());
+    }
+
+    /// The noted stages, in order.
+    pub fn stages(&self) -> &[Vec<Id>] {
+        &self.stages
     }
 
     fn push(&mut self, node: Node, kind: Kind) -> Id {

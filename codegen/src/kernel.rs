@@ -92,28 +92,14 @@ impl Builder {
     /// Declares a parameter and returns its components in flat order.
     pub fn param(&mut self, name: &'static str, shape: Shape, kind: Kind, doc: impl Into<String>) -> Vec<Id> {
         let param = self.params.len() as u32;
-        self.params.push(Param {
-            name,
-            shape,
-            kind,
-            doc: doc.into(),
-        });
-        (0..shape.len() as u32)
-            .map(|index| self.graph.input(param, index, kind))
-            .collect()
+        self.params.push(Param { name, shape, kind, doc: doc.into() });
+        (0..shape.len() as u32).map(|index| self.graph.input(param, index, kind)).collect()
     }
 
     /// The kernel with these outputs.
     pub fn finish(self, outputs: Vec<Id>, result: Shape, doc: impl Into<String>) -> Kernel {
         assert_eq!(outputs.len(), result.len(), "one output for each number of the result");
         let result_kind = outputs.iter().map(|&id| self.graph.kind(id)).max().unwrap_or(Kind::Scalar);
-        Kernel {
-            params: self.params,
-            graph: self.graph,
-            outputs,
-            result,
-            result_kind,
-            result_doc: doc.into(),
-        }
+        Kernel { params: self.params, graph: self.graph, outputs, result, result_kind, result_doc: doc.into() }
     }
 }

@@ -29,11 +29,12 @@
 //! l(l+1)+m; order n is the bands 0 to n − 1, n² coefficients; a rotation R takes c to D(R) c with y(Rω) = D(R) y(ω).
 
 pub mod accuracy;
+pub mod bound;
 pub mod builder;
 pub mod built;
 pub mod catalog;
-pub mod diagnostic;
 pub mod code;
+pub mod diagnostic;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;

@@ -113,6 +113,8 @@ pub struct Listing {
     pub steps: Vec<Step>,
     /// One operand a number of the result.
     pub outputs: Vec<Operand>,
+    /// Where a proof may cut, in order, signs left out; see [`Graph::stage`].
+    pub stages: Vec<Vec<Operand>>,
     /// The shape of the result.
     pub result: Shape,
     /// Whether the result is linear in the signal.
@@ -139,11 +141,7 @@ impl<'a> Layout<'a> {
     /// Depth first from the outputs; who uses each node, negations looked through.
     fn new(kernel: &'a Kernel) -> Self {
         let graph = &kernel.graph;
-        let mut layout = Self {
-            graph,
-            order: Vec::new(),
-            users: HashMap::new(),
-        };
+        let mut layout = Self { graph, order: Vec::new(), users: HashMap::new() };
         let mut seen = std::collections::HashSet::new();
         let mut stack: Vec<(Id, bool)> = kernel.outputs.iter().rev().map(|&id| (id, false)).collect();
         while let Some((id, ready)) = stack.pop() {
@@ -188,7 +186,9 @@ impl<'a> Layout<'a> {
         for product in products {
             let users = &self.users[&product];
             let free = users.iter().enumerate().all(|(i, user)| {
-                matches!(self.graph.node(*user), Node::Add(..)) && !fused.contains_key(user) && !users[..i].contains(user)
+                matches!(self.graph.node(*user), Node::Add(..))
+                    && !fused.contains_key(user)
+                    && !users[..i].contains(user)
             });
             if free {
                 fused.extend(users.iter().map(|&user| (user, product)));
@@ -210,6 +210,7 @@ impl Listing {
             constants: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
+            stages: Vec::new(),
             result: kernel.result,
             result_kind: kernel.result_kind,
             result_doc: kernel.result_doc.clone(),
@@ -231,10 +232,7 @@ impl Listing {
                     Operand::Const(place)
                 }
                 Node::Tiny => Operand::Tiny,
-                &Node::Input { param, index } => Operand::Input {
-                    param: param as usize,
-                    index: index as usize,
-                },
+                &Node::Input { param, index } => Operand::Input { param: param as usize, index: index as usize },
                 // A negation is a step only where nothing else can carry the sign.
                 Node::Neg(_) if !outputs.contains(&id) => continue,
                 node => {
@@ -246,17 +244,15 @@ impl Listing {
                         Node::Add(a, b) => Self::sum(graph, &operands, fused.get(&id).copied(), a, b),
                         _ => unreachable!("leaves are handled above"),
                     };
-                    listing.steps.push(Step {
-                        op,
-                        kind: graph.kind(id),
-                        uses: 0,
-                    });
+                    listing.steps.push(Step { op, kind: graph.kind(id), uses: 0 });
                     Operand::Step(listing.steps.len() - 1)
                 }
             };
             operands.insert(id, operand);
         }
         listing.outputs = kernel.outputs.iter().map(|id| operands[id]).collect();
+        let stage = |ids: &Vec<Id>| ids.iter().map(|&id| operands.get(&unsigned(graph, id).0).copied()).collect();
+        listing.stages = graph.stages().iter().filter_map(stage).collect();
         listing.count_uses();
         listing
     }
@@ -337,9 +333,6 @@ impl Listing {
             ends[end] += 1;
             live = live.max(alive);
         }
-        Footprint {
-            constants: self.constants.len(),
-            live,
-        }
+        Footprint { constants: self.constants.len(), live }
     }
 }

@@ -11,7 +11,7 @@ const WGSL: &str = "NULL Self abstract active alias alignas alignof array as asm
     for friend from fxgroup get goto groupshared highp if impl implements import inline instanceof interface layout \
     let loop lowp macro macro_rules match mediump meta mod module move mut mutable namespace new nil noexcept noinline \
     nointerpolation non_coherent noncoherent noperspective null nullptr of operator override package packoffset \
-    partial pass patch pixelfragment precise precision premerge priv protected ptr pub public readonly ref regardless \
+    partial partition pass patch pixelfragment precise precision premerge priv protected ptr pub public readonly ref regardless \
     register reinterpret_cast require requires resource restrict return self set shared sizeof smooth snorm static \
     static_assert static_cast std struct subroutine super switch target template this thread_local throw trait true \
     try type typedef typeid typename typeof union unless unorm unsafe unsized use using var varying virtual volatile \

@@ -612,10 +612,14 @@ mod environment {
             Light::Irradiance => radiance.irradiance(),
         };
         let max_order = wanted.max_order;
-        let bands = &signal.band_energy()[..max_order];
-        let all: f64 = bands.iter().sum();
-        // Nothing but cancelling texels could leave all of them empty; radiance has a mean.
-        let energy: Vec<f64> = bands.iter().map(|band| band / all.max(f64::MIN_POSITIVE)).collect();
+        let vanishing: Vec<usize> = (0..max_order).filter(|&l| signal.vanishes(l)).collect();
+        let mut energy = signal.band_energy();
+        energy.truncate(max_order);
+        let held = energy.iter().sum::<f64>() / signal.energy();
+        vanishing.iter().for_each(|&l| energy[l] = 0.0);
+        // No map is black, so that this is above zero.
+        let all: f64 = energy.iter().sum();
+        energy.iter_mut().for_each(|band| *band /= all);
         let costs: Vec<f64> = (1..=max_order).map(|order| energy[order..].iter().sum::<f64>().sqrt()).collect();
         // The last entry is zero, so that one is found.
         let order = (MIN_ORDER..max_order).find(|&order| costs[order - 1] <= wanted.budget).unwrap_or(max_order);
@@ -629,9 +633,9 @@ mod environment {
             order,
             bands: (0..order).collect(),
             energy,
-            held: all / signal.energy(),
+            held,
             errors: signal.errors()[..max_order].to_vec(),
-            vanishing: (0..max_order).filter(|&l| signal.vanishes(l)).collect(),
+            vanishing,
             costs,
             coefficients: [0, 0],
             operations: [0, 0],

@@ -253,13 +253,7 @@ operators! {
 impl Stmt {
     /// A loop over every whole number from `from` to below `to`.
     pub fn each(name: Name, from: impl Into<Int>, to: impl Into<Int>, body: Vec<Self>) -> Self {
-        Self::For {
-            name,
-            from: from.into(),
-            to: to.into(),
-            step: 1,
-            body,
-        }
+        Self::For { name, from: from.into(), to: to.into(), step: 1, body }
     }
 
     /// Stores an item of an array.
@@ -274,24 +268,14 @@ impl LoopKernel {
         let blank = |len: usize| vec![0.0f32; len];
         let program = LoopProgram {
             kernel: self.clone(),
-            tables: self
-                .tables
-                .iter()
-                .map(|table| blank(table.values.len()))
-                .collect(),
+            tables: self.tables.iter().map(|table| blank(table.values.len())).collect(),
         };
         let inputs: Vec<Vec<f32>> = self.params.iter().map(|p| blank(p.shape.len())).collect();
         let inputs: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
         let [scalar, signal] = program.execute(&inputs, Contraction::Separate).counts;
         let of = |count: fn(&Cost) -> usize| count(&scalar) + channels * count(&signal);
         let (mul, add, fma) = (of(|c| c.mul), of(|c| c.add), of(|c| c.fma));
-        Cost {
-            mul,
-            add,
-            fma,
-            special: of(|c| c.special),
-            total: mul + add + fma,
-        }
+        Cost { mul, add, fma, special: of(|c| c.special), total: mul + add + fma }
     }
 }
 
@@ -306,10 +290,7 @@ impl<T: Number> LoopProgram<T> {
     /// Rounds the tables of a kernel.
     pub fn new(kernel: &LoopKernel) -> Self {
         let round = |table: &Table| table.values.iter().map(T::nearest).collect();
-        Self {
-            kernel: kernel.clone(),
-            tables: kernel.tables.iter().map(round).collect(),
-        }
+        Self { kernel: kernel.clone(), tables: kernel.tables.iter().map(round).collect() }
     }
 
     /// Runs it for one channel. `inputs` holds one slice a parameter, of as many numbers as its shape says; the result
@@ -320,9 +301,7 @@ impl<T: Number> LoopProgram<T> {
     /// If a slice is shorter than its parameter's shape, or the kernel names what it has not declared, leaves an array
     /// or has a signal as the second factor of a product.
     pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
-        self.execute(inputs, contraction).floats[self.kernel.output]
-            .1
-            .to_vec()
+        self.execute(inputs, contraction).floats[self.kernel.output].1.to_vec()
     }
 
     fn execute<'a>(&'a self, inputs: &[&'a [T]], contraction: Contraction) -> Machine<'a, T> {
@@ -330,8 +309,7 @@ impl<T: Number> LoopProgram<T> {
         let params = kernel.params.iter().zip(inputs);
         let params = params.map(|(param, &input)| (param.name, (param.kind, Cow::Borrowed(input))));
         let tables = kernel.tables.iter().zip(&self.tables);
-        let tables =
-            tables.map(|(table, values)| (table.name, (Kind::Scalar, Cow::Borrowed(&values[..]))));
+        let tables = tables.map(|(table, values)| (table.name, (Kind::Scalar, Cow::Borrowed(&values[..]))));
         let mut machine = Machine {
             contraction,
             ints: HashMap::new(),
@@ -379,13 +357,7 @@ impl<T: Number> Machine<'_, T> {
                 let array = self.floats.get_mut(name).expect("the array is declared");
                 array.1.to_mut()[index] = value;
             }
-            Stmt::For {
-                name,
-                from,
-                to,
-                step,
-                body,
-            } => {
+            Stmt::For { name, from, to, step, body } => {
                 for i in (self.int(from)..self.int(to)).step_by(*step) {
                     self.ints.insert(name, i);
                     self.block(body);
@@ -420,16 +392,9 @@ impl<T: Number> Machine<'_, T> {
             *value = self.num(arg);
         }
         let [(a, _), (b, second), (c, _)] = values;
-        let kind = values
-            .iter()
-            .map(|(_, kind)| *kind)
-            .max()
-            .unwrap_or(Kind::Scalar);
+        let kind = values.iter().map(|(_, kind)| *kind).max().unwrap_or(Kind::Scalar);
         let product = matches!(op, NumOp::Mul | NumOp::Fma(_));
-        assert!(
-            !product || second == Kind::Scalar,
-            "a signal is the second factor of {value:?}"
-        );
+        assert!(!product || second == Kind::Scalar, "a signal is the second factor of {value:?}");
         let count = &mut self.counts[kind as usize];
         match op {
             NumOp::Neg => {}

@@ -33,7 +33,7 @@ use crate::emit::dialect::Target;
 use crate::files;
 use crate::spec::{self, MAX_ORDER, MIN_ORDER};
 use serde::Deserialize;
-use serde::de::{Deserializer, Error as _, Visitor};
+use serde::de::{Deserializer, Visitor};
 use serde_spanned::Spanned;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -158,7 +158,7 @@ pub struct Scene {
 #[serde(deny_unknown_fields)]
 struct Manifest {
     name: Spanned<String>,
-    targets: Option<Spanned<Vec<Spanned<Target>>>>,
+    targets: Option<Spanned<Vec<Spanned<String>>>>,
     output: Option<Spanned<String>>,
     environment: Option<EnvironmentTable>,
     #[serde(default)]
@@ -224,14 +224,6 @@ impl<'de> Deserialize<'de> for Order {
             }
         }
         deserializer.deserialize_any(OrderVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for Target {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        let names = Self::ALL.map(Self::name);
-        text.parse().map_err(|_| D::Error::custom(format!("`{text}` is no target; {}", spec::hint(&text, &names))))
     }
 }
 
@@ -367,18 +359,22 @@ impl Scene {
     }
 }
 
-fn targets(locate: &Locator, list: Spanned<Vec<Spanned<Target>>>) -> Result<Vec<Target>, Diagnostic> {
+fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<Target>, Diagnostic> {
     let list = locate.at(list);
     if list.value.is_empty() {
         return Err(Diagnostic::at(&list.place, "no target is named", "name wgsl, glsl or rust, or leave the key out"));
     }
     let mut targets: Vec<Target> = Vec::new();
-    for target in list.value {
-        let target = locate.at(target);
-        if targets.contains(&target.value) {
-            return Err(Diagnostic::at(&target.place, format!("`{}` stands twice", target.value), "leave one out"));
+    for text in list.value {
+        let Located { value, place } = locate.at(text);
+        let Ok(target) = value.parse() else {
+            let help = spec::hint(&value, &Target::ALL.map(Target::name));
+            return Err(Diagnostic::at(&place, format!("`{value}` is no target"), help));
+        };
+        if targets.contains(&target) {
+            return Err(Diagnostic::at(&place, format!("`{value}` stands twice"), "leave one out"));
         }
-        targets.push(target.value);
+        targets.push(target);
     }
     targets.sort();
     Ok(targets)

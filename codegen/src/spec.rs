@@ -181,7 +181,12 @@ fn suggest<'a>(got: &str, known: &[&'a str]) -> Option<&'a str> {
         row[b.len()]
     };
     let best = known.iter().min_by_key(|name| distance(got, name))?;
-    (distance(got, best) <= 3).then_some(*best)
+    let longer = known.iter().find(|name| got.len() >= 3 && name.contains(got));
+    match distance(got, best) {
+        0 | 1 => Some(*best),
+        2 | 3 => Some(*longer.unwrap_or(best)),
+        _ => longer.copied(),
+    }
 }
 
 /// "did you mean …", or the list of what is known.
@@ -195,13 +200,7 @@ pub(crate) fn hint(got: &str, known: &[&str]) -> String {
 impl Spec {
     /// A spec of all bands, one channel, unrolled.
     pub fn new(family: Family, order: usize) -> Self {
-        Self {
-            order,
-            family,
-            bands: (0..order).collect(),
-            rgb: false,
-            form: Form::Unrolled,
-        }
+        Self { order, family, bands: (0..order).collect(), rgb: false, form: Form::Unrolled }
     }
 
     /// The same for three channels.
@@ -313,11 +312,7 @@ struct Piece<'a> {
 
 impl Piece<'_> {
     fn error(&self, message: String, help: impl Into<String>) -> SpecError {
-        SpecError {
-            message,
-            help: help.into(),
-            at: self.at.clone(),
-        }
+        SpecError { message, help: help.into(), at: self.at.clone() }
     }
 }
 
@@ -337,8 +332,8 @@ fn parse_small(piece: &Piece<'_>, order: usize) -> Result<Vec<Small>, SpecError>
     let known: Vec<&str> = Small::ALL.iter().map(|(_, name)| *name).collect();
     let mut methods = Vec::new();
     for name in &names {
-        let method = small(name)
-            .ok_or_else(|| piece.error(format!("`{name}` is no small-angle method"), hint(name, &known)))?;
+        let method =
+            small(name).ok_or_else(|| piece.error(format!("`{name}` is no small-angle method"), hint(name, &known)))?;
         methods.push(method);
     }
     if methods.len() == 1 {
@@ -370,10 +365,8 @@ fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>
 
 fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
     let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
-    let order: usize = piece
-        .text
-        .parse()
-        .map_err(|_| piece.error(format!("`{}` is no order", piece.text), range.clone()))?;
+    let order: usize =
+        piece.text.parse().map_err(|_| piece.error(format!("`{}` is no order", piece.text), range.clone()))?;
     if !(MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
         return Err(piece.error(format!("order {order} is out of range"), range));
     }
@@ -411,7 +404,9 @@ impl FromStr for Spec {
                 options = others;
                 Family::SmallY(parse_small(list, order)?)
             }
-            (name, None) => PLAIN.iter().find(|(_, known)| *known == name).map(|(family, _)| family.clone()).expect("is known"),
+            (name, None) => {
+                PLAIN.iter().find(|(_, known)| *known == name).map(|(family, _)| family.clone()).expect("is known")
+            }
         };
         let is_rotate = head.text == "rotate";
         for option in options {

@@ -28,11 +28,7 @@ pub fn validate(target: Target, file: &str, text: &str) -> Result<(), Invalid> {
             format!("{error} at line {}, column {}", start.line, start.column + 1)
         }),
     };
-    reason.map_err(|reason| Invalid {
-        target,
-        file: file.to_owned(),
-        reason,
-    })
+    reason.map_err(|reason| Invalid { target, file: file.to_owned(), reason })
 }
 
 fn check(module: &naga::Module, text: &str) -> Result<(), String> {
@@ -52,8 +48,7 @@ fn wgsl(text: &str) -> Result<(), String> {
 fn glsl(text: &str) -> Result<(), String> {
     let whole = format!("#version 450\n{text}\nvoid main() {{}}\n");
     let options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);
-    let module = naga::front::glsl::Frontend::default()
-        .parse(&options, &whole)
-        .map_err(|error| error.emit_to_string(&whole))?;
+    let module =
+        naga::front::glsl::Frontend::default().parse(&options, &whole).map_err(|error| error.emit_to_string(&whole))?;
     check(&module, &whole)
 }

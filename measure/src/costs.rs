@@ -44,8 +44,12 @@ fn of(spec: &Spec) -> Costs {
     let listing = Listing::new(&zonal_codegen::built::kernel(spec));
     let Cost { mul, fma, special, total, .. } = listing.cost(1);
     let footprint = listing.footprint();
-    let module =
-        Module { name: function.shader_name(), origin: format!("`{spec}`"), functions: vec![function], constants: vec![] };
+    let module = Module {
+        name: function.shader_name(),
+        origin: format!("`{spec}`"),
+        functions: vec![function],
+        constants: vec![],
+    };
     let bytes = |target| module.shader(target).map_or(0, |text| text.len());
     Costs {
         spec: spec.to_string(),

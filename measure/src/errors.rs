@@ -29,7 +29,7 @@ pub const LEVELS: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
 pub const SHOWN: [f64; 5] = [5.0, 10.0, 15.0, 25.0, 45.0];
 /// The smallest and the largest angle in degrees.
 pub const RANGE: [f64; 2] = [0.1, 45.0];
-const STEPS: usize = 40;
+const STEPS: usize = 64;
 /// Where the search for a crossing below the grid begins.
 const SMALLEST: f64 = 1e-3;
 
@@ -46,8 +46,6 @@ pub struct Curve {
     pub reaches: [[Option<f64>; 4]; 5],
     /// For each of [`NORMS`] the error at each angle of [`SHOWN`].
     pub shown: [[f64; 5]; 5],
-    /// The law of the largest error at each angle of the grid.
-    pub law: Vec<f64>,
 }
 
 /// The angles of the grid in degrees, evenly spaced in their logarithm.
@@ -164,7 +162,6 @@ impl Comparison {
             errors: errors.map(|list| list.into_iter().map(significant).collect()),
             reaches,
             shown: std::array::from_fn(|norm| shown.map(|all| significant(all[norm]))),
-            law: grid.iter().map(|degrees| significant(method.law(self.order, degrees.to_radians()))).collect(),
         }
     }
 }

@@ -113,7 +113,8 @@ impl<'a> Weighing<'a> {
         let mut total = self.set_up[highest];
         let mut bands = Vec::new();
         for l in 1..self.order {
-            let keeps = |way: &usize| self.errors[*way][angle][l] <= error && (l <= highest || self.ways[*way] != Band::Exact);
+            let keeps =
+                |way: &usize| self.errors[*way][angle][l] <= error && (l <= highest || self.ways[*way] != Band::Exact);
             let way = (0..self.ways.len()).filter(keeps).min_by_key(|way| self.estimates[*way][l])?;
             total += self.estimates[way][l];
             bands.push(self.ways[way]);

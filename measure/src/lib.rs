@@ -20,6 +20,7 @@ pub mod timing;
 pub use report::Report;
 
 use rayon::prelude::*;
+use std::path::Path;
 
 /// Where a run says how far it is.
 pub trait Progress: Sync {
@@ -70,4 +71,22 @@ pub fn render(report: &Report) -> Vec<File> {
     files.extend(tables::files(report));
     files.extend(plots::files(report));
     files
+}
+
+/// What is stale in a folder of tables and plots, given a fresh report: figures that changed, times apart, and files that
+/// are not what the folder's own figures make.
+pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
+    let path = folder.join("measure.json");
+    let fault = |error: &dyn std::fmt::Display| vec![format!("{}: {error}", path.display())];
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) => return fault(&error),
+    };
+    let old: Report = match serde_json::from_str(&text) {
+        Ok(old) => old,
+        Err(error) => return fault(&error),
+    };
+    let differs = |file: &File| std::fs::read_to_string(folder.join(&file.name)).map_or(true, |text| text != file.text);
+    let files = render(&old).into_iter().filter(differs).map(|file| format!("{} does not show its figures", file.name));
+    old.differences(fresh).into_iter().chain(files).collect()
 }

@@ -1,2 +1,81 @@
-//! The command.
-fn main() {}
+//! The command `cargo measure`: measures, and writes the tables and plots of `docs/measure`, or says that they are stale.
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::time::Duration;
+use zonal_measure::{Progress, Report, render, stale, timing};
+
+/// Measure every method: errors over the angle, operations, memory, rounding, time.
+#[derive(Parser)]
+#[command(name = "cargo measure", version)]
+struct Arguments {
+    /// Compare the docs with a fresh measurement and the tables and plots with their figures; write nothing.
+    #[arg(long)]
+    check: bool,
+    /// Leave the times as they are.
+    #[arg(long)]
+    no_timing: bool,
+    /// The folder of the tables and plots.
+    #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure"))]
+    output: PathBuf,
+}
+
+/// A bar for the stage that is running.
+struct Bar(Mutex<ProgressBar>);
+
+impl Progress for Bar {
+    fn stage(&self, name: &str, steps: usize) {
+        let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} {elapsed}").expect("is a template");
+        let bar = ProgressBar::new(steps as u64).with_style(style.progress_chars("=> ")).with_message(name.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        let mut current = self.0.lock().expect("no holder panics");
+        current.finish();
+        *current = bar;
+    }
+
+    fn step(&self) {
+        self.0.lock().expect("no holder panics").inc(1);
+    }
+}
+
+fn write(folder: &Path, report: &Report) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    render(report).into_iter().try_for_each(|file| std::fs::write(folder.join(file.name), file.text))
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let folder = &arguments.output;
+    let bar = Bar(Mutex::new(ProgressBar::hidden()));
+    let mut report = Report::measure(&bar);
+    if arguments.check {
+        bar.0.lock().expect("no holder panics").finish();
+        let found = stale(folder, &report);
+        found.iter().take(20).for_each(|difference| eprintln!("{difference}"));
+        return match found.len() {
+            0 => ExitCode::SUCCESS,
+            count => {
+                eprintln!("{}: {count} differences; `cargo measure` writes it again", folder.display());
+                ExitCode::FAILURE
+            }
+        };
+    }
+    report.timing = match arguments.no_timing {
+        false => Some(timing::measure(&bar)),
+        true => std::fs::read_to_string(folder.join("measure.json"))
+            .ok()
+            .and_then(|text| serde_json::from_str::<Report>(&text).ok())
+            .and_then(|old| old.timing),
+    };
+    bar.0.lock().expect("no holder panics").finish();
+    match write(folder, &report) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}: {error}; name a folder that can be written with --output", folder.display());
+            ExitCode::FAILURE
+        }
+    }
+}

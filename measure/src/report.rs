@@ -9,6 +9,7 @@ use crate::timing::Timing;
 use crate::{Progress, costs, errors, factorisation, fronts, rounding};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use zonal_codegen::spec::Spec;
 
 /// How far two floating-point figures may lie apart, relatively: another machine's sine may differ in its last bit.
 const TOLERANCE: f64 = 0.01;
@@ -76,8 +77,9 @@ impl Report {
         found
     }
 
-    /// The costs of a spec.
-    pub fn cost(&self, spec: &str) -> Option<&Costs> {
+    /// The costs of a spec, its order written as `n`: `rotate:n:zyz`.
+    pub fn cost(&self, spec: &str, order: usize) -> Option<&Costs> {
+        let spec = at_order(spec, order)?;
         self.costs.iter().find(|costs| costs.spec == spec)
     }
 
@@ -86,10 +88,17 @@ impl Report {
         self.errors.iter().find(|curve| curve.method == method && curve.order == order)
     }
 
-    /// The rounding of a spec.
-    pub fn rounding_of(&self, spec: &str) -> Option<&Rounding> {
+    /// The rounding of a spec, its order written as `n`.
+    pub fn rounding_of(&self, spec: &str, order: usize) -> Option<&Rounding> {
+        let spec = at_order(spec, order)?;
         self.rounding.iter().find(|rounding| rounding.spec == spec)
     }
+}
+
+/// A spec with its order put in, as reports write it: `rotate:n:zyz` is `rotate:5` at order 5, where z, y, z is the default.
+fn at_order(spec: &str, order: usize) -> Option<String> {
+    let spec: Spec = spec.replacen(":n", &format!(":{order}"), 1).parse().ok()?;
+    Some(spec.to_string())
 }
 
 fn close(a: &Value, b: &Value) -> bool {

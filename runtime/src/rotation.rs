@@ -25,9 +25,7 @@ impl<C: Coefficients> Rotation<C> {
     /// The rotation of a unit quaternion; see the [crate](crate#input-that-is-not-unit) for one that is not.
     #[inline]
     pub fn new(q: C::Quat) -> Self {
-        Self {
-            angles: C::angles(C::Scalar::quaternion(q)),
-        }
+        Self { angles: C::angles(C::Scalar::quaternion(q)) }
     }
 
     /// The rotation of a rotation matrix, by way of its quaternion.

@@ -71,7 +71,8 @@ pub fn band_error(got: &[f64], want: &[f64]) -> f64 {
     (0..got.len().isqrt())
         .map(|l| {
             let range = l * l..(l + 1) * (l + 1);
-            let difference: Vec<f64> = got[range.clone()].iter().zip(&want[range.clone()]).map(|(a, b)| a - b).collect();
+            let difference: Vec<f64> =
+                got[range.clone()].iter().zip(&want[range.clone()]).map(|(a, b)| a - b).collect();
             norm(&difference) / norm(&want[range])
         })
         .fold(0.0, larger)

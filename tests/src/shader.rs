@@ -8,8 +8,8 @@ use std::fmt::Debug;
 use naga::front::{glsl, wgsl};
 use naga::valid::{Capabilities, FunctionInfo, ValidationFlags, Validator};
 use naga::{
-    Arena, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Literal, MathFunction,
-    Module, Scalar, ShaderStage, Statement, Type, TypeInner, UnaryOperator, UniqueArena,
+    Arena, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Literal, MathFunction, Module, Scalar,
+    ShaderStage, Statement, Type, TypeInner, UnaryOperator, UniqueArena,
 };
 
 /// A loop that runs longer than this is an error, so that a test of a wrong loop ends.
@@ -78,10 +78,7 @@ impl Shader {
     pub fn parse(language: Language, text: &str) -> Result<Shader, String> {
         let wrapped;
         let (module, source) = match language {
-            Language::Wgsl => (
-                wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?,
-                text,
-            ),
+            Language::Wgsl => (wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?, text),
             Language::Glsl => {
                 wrapped = format!("#version 450\n{text}\nvoid main() {{}}\n");
                 let module = glsl::Frontend::default()
@@ -93,37 +90,22 @@ impl Shader {
         let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&module)
             .map_err(|error| error.emit_to_string(source))?;
-        let frames = module
-            .functions
-            .iter()
-            .map(|(handle, function)| Frame::new(&module, function, &info[handle]))
-            .collect();
+        let frames =
+            module.functions.iter().map(|(handle, function)| Frame::new(&module, function, &info[handle])).collect();
         Ok(Shader { module, frames })
     }
 
     /// The names of the functions, callees before callers, entry points left out; overloads of one name repeat it.
     pub fn functions(&self) -> Vec<String> {
         let is_entry = |name: &String| self.module.entry_points.iter().any(|e| e.name == *name);
-        let names = self
-            .module
-            .functions
-            .iter()
-            .filter_map(|(_, f)| f.name.clone());
+        let names = self.module.functions.iter().filter_map(|(_, f)| f.name.clone());
         names.filter(|name| !is_entry(name)).collect()
     }
 
     /// Calls a function, and adds what it executes to `counts`. Of overloads, the one that takes these arguments runs.
-    pub fn call(
-        &self,
-        function: &str,
-        args: &[Value],
-        counts: &mut Counts,
-        fma: Fma,
-    ) -> Result<Value, String> {
+    pub fn call(&self, function: &str, args: &[Value], counts: &mut Counts, fma: Fma) -> Result<Value, String> {
         let functions = self.module.functions.iter();
-        let mut overloads = functions
-            .filter(|(_, f)| f.name.as_deref() == Some(function))
-            .peekable();
+        let mut overloads = functions.filter(|(_, f)| f.name.as_deref() == Some(function)).peekable();
         if overloads.peek().is_none() {
             let known = self.functions().join("`, `");
             return Err(format!("no function `{function}`; there are `{known}`"));
@@ -132,15 +114,8 @@ impl Shader {
             .find_map(|(handle, f)| Some((handle, self.encode_arguments(f, args)?)))
             .ok_or_else(|| format!("no `{function}` takes arguments of these types"))?;
         let result = self.module.functions[handle].result.as_ref();
-        let ty = result
-            .ok_or_else(|| format!("`{function}` returns nothing"))?
-            .ty;
-        let mut machine = Machine {
-            shader: self,
-            memory: Vec::new(),
-            counts,
-            fma,
-        };
+        let ty = result.ok_or_else(|| format!("`{function}` returns nothing"))?.ty;
+        let mut machine = Machine { shader: self, memory: Vec::new(), counts, fma };
         machine
             .invoke(handle, &words)
             .and_then(|words| self.decode(ty, &words))
@@ -164,33 +139,17 @@ impl Shader {
             (&TypeInner::Scalar(Scalar::I32), Value::I32(x)) => words.push(*x as u32),
             (&TypeInner::Scalar(Scalar::U32), Value::U32(x)) => words.push(*x),
             (&TypeInner::Scalar(Scalar::BOOL), Value::Bool(x)) => words.push(u32::from(*x)),
-            (
-                &TypeInner::Vector {
-                    size,
-                    scalar: Scalar::F32,
-                },
-                Value::Vec(xs),
-            ) if xs.len() == size as usize => {
+            (&TypeInner::Vector { size, scalar: Scalar::F32 }, Value::Vec(xs)) if xs.len() == size as usize => {
                 words.extend(xs.iter().map(|x| x.to_bits()));
             }
-            (
-                &TypeInner::Matrix {
-                    columns,
-                    rows,
-                    scalar: Scalar::F32,
-                },
-                Value::Mat(m),
-            ) if m.len() == columns as usize && m.iter().all(|c| c.len() == rows as usize) => {
+            (&TypeInner::Matrix { columns, rows, scalar: Scalar::F32 }, Value::Mat(m))
+                if m.len() == columns as usize && m.iter().all(|c| c.len() == rows as usize) =>
+            {
                 words.extend(m.iter().flatten().map(|x| x.to_bits()));
             }
-            (
-                &TypeInner::Array {
-                    base,
-                    size: ArraySize::Constant(count),
-                    ..
-                },
-                Value::Array(xs),
-            ) if xs.len() == count.get() as usize => {
+            (&TypeInner::Array { base, size: ArraySize::Constant(count), .. }, Value::Array(xs))
+                if xs.len() == count.get() as usize =>
+            {
                 for x in xs {
                     self.encode(base, x, words)?;
                 }
@@ -207,35 +166,13 @@ impl Shader {
             (&TypeInner::Scalar(Scalar::I32), &[x]) => Value::I32(x as i32),
             (&TypeInner::Scalar(Scalar::U32), &[x]) => Value::U32(x),
             (&TypeInner::Scalar(Scalar::BOOL), &[x]) => Value::Bool(x != 0),
-            (
-                &TypeInner::Vector {
-                    scalar: Scalar::F32,
-                    ..
-                },
-                _,
-            ) => Value::Vec(floats(words)),
-            (
-                &TypeInner::Matrix {
-                    rows,
-                    scalar: Scalar::F32,
-                    ..
-                },
-                _,
-            ) => Value::Mat(words.chunks(rows as usize).map(floats).collect()),
-            (
-                &TypeInner::Array {
-                    base,
-                    size: ArraySize::Constant(count),
-                    ..
-                },
-                _,
-            ) => {
+            (&TypeInner::Vector { scalar: Scalar::F32, .. }, _) => Value::Vec(floats(words)),
+            (&TypeInner::Matrix { rows, scalar: Scalar::F32, .. }, _) => {
+                Value::Mat(words.chunks(rows as usize).map(floats).collect())
+            }
+            (&TypeInner::Array { base, size: ArraySize::Constant(count), .. }, _) => {
                 let items = words.chunks(words.len() / count.get() as usize);
-                Value::Array(
-                    items
-                        .map(|item| self.decode(base, item))
-                        .collect::<Result<_, _>>()?,
-                )
+                Value::Array(items.map(|item| self.decode(base, item)).collect::<Result<_, _>>()?)
             }
             (inner, _) => return Err(format!("a result of type {inner:?} is not supported")),
         })
@@ -273,44 +210,24 @@ impl Shape {
             Scalar::BOOL => Ok(Kind::Bool),
             other => Err(format!("a scalar of type {other:?} is not supported")),
         };
-        let shape = |kind, stride, count| Shape {
-            kind,
-            words: stride * count,
-            stride,
-            count,
-        };
+        let shape = |kind, stride, count| Shape { kind, words: stride * count, stride, count };
         Ok(match *inner {
             TypeInner::Scalar(s) => shape(scalar(s)?, 1, 1),
             TypeInner::Vector { size, scalar: s } => shape(scalar(s)?, 1, size as usize),
-            TypeInner::Matrix {
-                columns,
-                rows,
-                scalar: Scalar::F32,
-            } => shape(Kind::Matrix, rows as usize, columns as usize),
-            TypeInner::Array {
-                base,
-                size: ArraySize::Constant(count),
-                ..
-            } => {
+            TypeInner::Matrix { columns, rows, scalar: Scalar::F32 } => {
+                shape(Kind::Matrix, rows as usize, columns as usize)
+            }
+            TypeInner::Array { base, size: ArraySize::Constant(count), .. } => {
                 let item = Shape::of(types, &types[base].inner)?;
                 shape(Kind::Array, item.words, count.get() as usize)
             }
             TypeInner::Pointer { base, .. } => {
                 let target = Shape::of(types, &types[base].inner)?;
-                Shape {
-                    kind: Kind::Pointer,
-                    words: 1,
-                    ..target
-                }
+                Shape { kind: Kind::Pointer, words: 1, ..target }
             }
             TypeInner::ValuePointer { size, .. } => {
                 let count = size.map_or(1, |size| size as usize);
-                Shape {
-                    kind: Kind::Pointer,
-                    words: 1,
-                    stride: 1,
-                    count,
-                }
+                Shape { kind: Kind::Pointer, words: 1, stride: 1, count }
             }
             _ => return Err(format!("a value of type {inner:?} is not supported")),
         })
@@ -341,20 +258,14 @@ impl Frame {
         let mut arguments = Vec::new();
         for argument in &function.arguments {
             arguments.push(words.len());
-            words.resize(
-                words.len() + Shape::of(types, &types[argument.ty].inner)?.words,
-                0,
-            );
+            words.resize(words.len() + Shape::of(types, &types[argument.ty].inner)?.words, 0);
         }
         let mut locals = Vec::new();
         for (_, local) in function.local_variables.iter() {
             locals.push(words.len());
             match local.init {
                 Some(init) => words.extend(constant(module, &function.expressions, init)?),
-                None => words.resize(
-                    words.len() + Shape::of(types, &types[local.ty].inner)?.words,
-                    0,
-                ),
+                None => words.resize(words.len() + Shape::of(types, &types[local.ty].inner)?.words, 0),
             }
         }
         let mut slots = Vec::new();
@@ -378,36 +289,22 @@ impl Frame {
             }
             slots.push(Slot { at, shape });
         }
-        Ok(Frame {
-            words,
-            slots,
-            pointers,
-        })
+        Ok(Frame { words, slots, pointers })
     }
 }
 
 /// The words of a constant expression.
-fn constant(
-    module: &Module,
-    expressions: &Arena<Expression>,
-    handle: Handle<Expression>,
-) -> Result<Vec<u32>, String> {
+fn constant(module: &Module, expressions: &Arena<Expression>, handle: Handle<Expression>) -> Result<Vec<u32>, String> {
     Ok(match expressions[handle] {
         Expression::Literal(Literal::F32(x)) => vec![x.to_bits()],
         Expression::Literal(Literal::I32(x)) => vec![x as u32],
         Expression::Literal(Literal::U32(x)) => vec![x],
         Expression::Literal(Literal::Bool(x)) => vec![u32::from(x)],
-        Expression::Constant(named) => constant(
-            module,
-            &module.global_expressions,
-            module.constants[named].init,
-        )?,
+        Expression::Constant(named) => constant(module, &module.global_expressions, module.constants[named].init)?,
         Expression::ZeroValue(ty) => {
             vec![0; Shape::of(&module.types, &module.types[ty].inner)?.words]
         }
-        Expression::Splat { size, value } => {
-            constant(module, expressions, value)?.repeat(size as usize)
-        }
+        Expression::Splat { size, value } => constant(module, expressions, value)?.repeat(size as usize),
         Expression::Compose { ref components, .. } => {
             let mut words = Vec::new();
             for &component in components {
@@ -442,10 +339,7 @@ struct Activation<'a> {
 impl Activation<'_> {
     fn slot(&self, expression: Handle<Expression>) -> Slot {
         let slot = self.frame.slots[expression.index()];
-        Slot {
-            at: self.base + slot.at,
-            ..slot
-        }
+        Slot { at: self.base + slot.at, ..slot }
     }
 }
 
@@ -460,9 +354,7 @@ struct Machine<'a> {
 impl<'a> Machine<'a> {
     fn invoke(&mut self, handle: Handle<Function>, args: &[u32]) -> Result<Vec<u32>, String> {
         let shader = self.shader;
-        let frame = shader.frames[handle.index()]
-            .as_ref()
-            .map_err(Clone::clone)?;
+        let frame = shader.frames[handle.index()].as_ref().map_err(Clone::clone)?;
         let function = &shader.module.functions[handle];
         let base = self.memory.len();
         self.memory.extend_from_slice(&frame.words);
@@ -470,11 +362,7 @@ impl<'a> Machine<'a> {
         for &(pointer, target) in &frame.pointers {
             self.memory[base + pointer] = (base + target) as u32;
         }
-        let activation = Activation {
-            function,
-            frame,
-            base,
-        };
+        let activation = Activation { function, frame, base };
         let result = match self.block(activation, &function.body)? {
             Flow::Return(Some(value)) => self.words(activation.slot(value)).to_vec(),
             _ => Vec::new(),
@@ -501,19 +389,11 @@ impl<'a> Machine<'a> {
                 }
             }
             Statement::Block(block) => return self.block(a, block),
-            Statement::If {
-                condition,
-                accept,
-                reject,
-            } => {
+            Statement::If { condition, accept, reject } => {
                 let taken = self.word(a.slot(*condition)) != 0;
                 return self.block(a, if taken { accept } else { reject });
             }
-            Statement::Loop {
-                body,
-                continuing,
-                break_if,
-            } => {
+            Statement::Loop { body, continuing, break_if } => {
                 return self.repeat(a, body, continuing, *break_if);
             }
             Statement::Break => return Ok(Flow::Break),
@@ -524,11 +404,7 @@ impl<'a> Machine<'a> {
                 let value = a.slot(*value);
                 self.copy(value.at, to, value.shape.words);
             }
-            Statement::Call {
-                function,
-                arguments,
-                result,
-            } => {
+            Statement::Call { function, arguments, result } => {
                 let mut words = Vec::new();
                 for &argument in arguments {
                     words.extend_from_slice(self.words(a.slot(argument)));
@@ -583,19 +459,13 @@ impl<'a> Machine<'a> {
                 let index = a.slot(index);
                 let word = self.word(index);
                 let signed = index.shape.kind == Kind::Sint;
-                let index = if signed {
-                    i64::from(word as i32)
-                } else {
-                    i64::from(word)
-                };
+                let index = if signed { i64::from(word as i32) } else { i64::from(word) };
                 self.access(out, a.slot(base), index)?;
             }
             Expression::Splat { value, .. } => {
                 self.map(&"Splat", out, [a.slot(value)], |[x]| Some(x))?;
             }
-            Expression::Swizzle {
-                vector, pattern, ..
-            } => {
+            Expression::Swizzle { vector, pattern, .. } => {
                 let vector = a.slot(vector);
                 for lane in 0..out.shape.words {
                     self.memory[out.at + lane] = self.memory[vector.at + pattern[lane] as usize];
@@ -622,23 +492,11 @@ impl<'a> Machine<'a> {
                     }
                 }
             }
-            Expression::Select {
-                condition,
-                accept,
-                reject,
-            } => {
+            Expression::Select { condition, accept, reject } => {
                 let operands = [a.slot(condition), a.slot(accept), a.slot(reject)];
-                self.map(&"Select", out, operands, |[c, x, y]| {
-                    Some(if c != 0 { x } else { y })
-                })?;
+                self.map(&"Select", out, operands, |[c, x, y]| Some(if c != 0 { x } else { y }))?;
             }
-            Expression::Math {
-                fun,
-                arg,
-                arg1,
-                arg2,
-                ..
-            } => {
+            Expression::Math { fun, arg, arg1, arg2, .. } => {
                 let operands = [arg, arg1.unwrap_or(arg), arg2.unwrap_or(arg)].map(|x| a.slot(x));
                 let (kind, fused) = (operands[0].shape.kind, self.fma == Fma::Fused);
                 self.map(&fun, out, operands, |words| math(fun, kind, fused, words))?;
@@ -664,15 +522,8 @@ impl<'a> Machine<'a> {
 
     /// Takes an element of a value, or turns a pointer into one to the element.
     fn access(&mut self, out: Slot, base: Slot, index: i64) -> Result<(), String> {
-        let Shape {
-            kind,
-            stride,
-            count,
-            ..
-        } = base.shape;
-        let element = usize::try_from(index)
-            .ok()
-            .filter(|&element| element < count);
+        let Shape { kind, stride, count, .. } = base.shape;
+        let element = usize::try_from(index).ok().filter(|&element| element < count);
         let Some(element) = element else {
             return Err(format!("index {index} is outside {count} elements"));
         };
@@ -693,8 +544,7 @@ impl<'a> Machine<'a> {
         f: impl Fn([u32; N]) -> Option<u32>,
     ) -> Result<(), String> {
         for lane in 0..out.shape.words {
-            let words =
-                operands.map(|x| self.memory[x.at + if x.shape.words == 1 { 0 } else { lane }]);
+            let words = operands.map(|x| self.memory[x.at + if x.shape.words == 1 { 0 } else { lane }]);
             self.memory[out.at + lane] = f(words).ok_or_else(|| {
                 let kinds = operands.map(|operand| operand.shape.kind);
                 format!("{what:?} of {kinds:?} is not supported, or has no result for {words:?}")

@@ -66,9 +66,3 @@ fn errors_say_where() {
     assert!(message(Builder::scene("no/such.toml")).starts_with("no/such.toml: cannot be read"));
     assert!(matches!(Builder::new("a").spec("eval:3").write_to_out_dir(), Err(Error::NoOutDir)));
 }
-
-#[test]
-fn kernels_that_no_target_takes_are_refused_with_the_limit() {
-    let long = message(Builder::new("a").spec("zhf:10").spec("rotate:16"));
-    assert!(long.starts_with("Builder::spec:1:1: `") && long.contains("is too long for wgsl"), "{long}");
-}

@@ -14,16 +14,17 @@ fn the_catalogue_is_deterministic_and_fresh() {
     assert_eq!(first, second, "twice the same bytes");
     let found = differences(&repository("generated"), &first).expect("generated/ can be read");
     let list: Vec<String> = found.iter().map(Difference::to_string).collect();
-    assert!(list.is_empty(), "generated/ is not what the generator writes; run `cargo zonal catalog`:\n{}", list.join("\n"));
+    assert!(
+        list.is_empty(),
+        "generated/ is not what the generator writes; run `cargo zonal catalog`:\n{}",
+        list.join("\n")
+    );
 }
 
 #[test]
 fn stale_missing_and_orphaned_files_are_found() {
     let folder = std::env::temp_dir().join(format!("zonal-catalog-{}", std::process::id()));
-    let file = |path: &str, text: &str| File {
-        path: path.to_owned(),
-        text: text.to_owned(),
-    };
+    let file = |path: &str, text: &str| File { path: path.to_owned(), text: text.to_owned() };
     let wanted = [file("wgsl/a.wgsl", "a"), file("wgsl/b.wgsl", "b"), file("c.md", "c")];
     assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 3);
     assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 0, "unchanged files stay");

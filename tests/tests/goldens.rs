@@ -81,9 +81,7 @@ fn rotated(case: &Value, c: &[f64]) -> Vec<f64> {
 }
 
 fn quaternion(case: &Value) -> Vec<f64> {
-    let [w, x, y, z] = numbers(&case["quat_wxyz"])[..] else {
-        panic!("four numbers")
-    };
+    let [w, x, y, z] = numbers(&case["quat_wxyz"])[..] else { panic!("four numbers") };
     let length = norm(&[w, x, y, z]);
     [x, y, z, w].map(|v| v / length).to_vec()
 }

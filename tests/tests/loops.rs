@@ -18,11 +18,7 @@ use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
 use zonal_tests::{band_error, golden, norm, numbers};
 
 type Loop = fn(usize) -> LoopKernel;
-const LOOPS: [(&str, Loop); 3] = [
-    ("taylor15", taylor15_loop),
-    ("basis", basis_loop),
-    ("rotate", rotate_loop),
-];
+const LOOPS: [(&str, Loop); 3] = [("taylor15", taylor15_loop), ("basis", basis_loop), ("rotate", rotate_loop)];
 
 /// How far f32 may be off, relative to a band's norm.
 const F32: f64 = 3e-6;
@@ -36,9 +32,7 @@ fn unrolled(name: &str, order: usize) -> Kernel {
 }
 
 fn noise(random: &mut Random, count: usize) -> Vec<f64> {
-    (0..count)
-        .map(|_| f64::from(random.signed() as f32))
-        .collect()
+    (0..count).map(|_| f64::from(random.signed() as f32)).collect()
 }
 
 fn unit(x: Vec<f64>) -> Vec<f64> {
@@ -63,10 +57,7 @@ fn arguments(kernel: &LoopKernel, random: &mut Random) -> Vec<Vec<f64>> {
 }
 
 fn rounded<T: Number>(inputs: &[Vec<f64>]) -> Vec<Vec<T>> {
-    inputs
-        .iter()
-        .map(|input| input.iter().map(|&x| T::from_f64(x)).collect())
-        .collect()
+    inputs.iter().map(|input| input.iter().map(|&x| T::from_f64(x)).collect()).collect()
 }
 
 fn slices<T>(inputs: &[Vec<T>]) -> Vec<&[T]> {
@@ -86,10 +77,7 @@ fn assert_bands(got: &[f64], expected: &[f64], tolerance: f64, what: &str) {
 }
 
 fn cases(name: &str) -> Vec<Json> {
-    golden(name)["cases"]
-        .as_array()
-        .expect("a golden file has cases")
-        .clone()
+    golden(name)["cases"].as_array().expect("a golden file has cases").clone()
 }
 
 #[test]
@@ -99,14 +87,8 @@ fn loops_equal_the_unrolled_kernels() {
             let kernel = make(order);
             let listing = Listing::new(&unrolled(name, order));
             assert_eq!(kernel.params, listing.params, "{name} {order}");
-            assert_eq!(
-                (kernel.result, kernel.result_kind),
-                (listing.result, listing.result_kind)
-            );
-            let (narrow, wide) = (
-                LoopProgram::<f32>::new(&kernel),
-                LoopProgram::<f64>::new(&kernel),
-            );
+            assert_eq!((kernel.result, kernel.result_kind), (listing.result, listing.result_kind));
+            let (narrow, wide) = (LoopProgram::<f32>::new(&kernel), LoopProgram::<f64>::new(&kernel));
             let straight = Program::<f64>::new(&listing);
             let mut random = Random::new(order as u64);
             for _ in 0..20 {
@@ -126,10 +108,7 @@ fn loops_equal_the_unrolled_kernels() {
 fn the_basis_is_the_golden_one() {
     for order in [2, 5, 20] {
         let kernel = basis_loop(order);
-        let (narrow, wide) = (
-            LoopProgram::<f32>::new(&kernel),
-            LoopProgram::<f64>::new(&kernel),
-        );
+        let (narrow, wide) = (LoopProgram::<f32>::new(&kernel), LoopProgram::<f64>::new(&kernel));
         for case in cases("basis") {
             let expected = &numbers(&case["y"])[..order * order];
             let inputs = [numbers(&case["unit"])];
@@ -144,23 +123,12 @@ fn the_basis_is_the_golden_one() {
 fn rotations_are_the_golden_ones() {
     for order in [2, 6, 12] {
         let kernel = rotate_loop(order);
-        let (narrow, wide) = (
-            LoopProgram::<f32>::new(&kernel),
-            LoopProgram::<f64>::new(&kernel),
-        );
+        let (narrow, wide) = (LoopProgram::<f32>::new(&kernel), LoopProgram::<f64>::new(&kernel));
         let c = noise(&mut Random::new(3), order * order);
         for case in cases("rotations") {
-            let [w, x, y, z] = unit(numbers(&case["quat_wxyz"]))
-                .try_into()
-                .expect("four numbers");
+            let [w, x, y, z] = unit(numbers(&case["quat_wxyz"])).try_into().expect("four numbers");
             let mut expected = Vec::new();
-            for (l, matrix) in case["D"]
-                .as_array()
-                .expect("matrices")
-                .iter()
-                .take(order)
-                .enumerate()
-            {
+            for (l, matrix) in case["D"].as_array().expect("matrices").iter().take(order).enumerate() {
                 for row in matrix.as_array().expect("rows") {
                     let row = numbers(row);
                     expected.push(row.iter().zip(&c[l * l..]).map(|(d, c)| d * c).sum::<f64>());
@@ -192,66 +160,37 @@ fn assert_norms(values: &[f64], tolerance: f64, what: &str) {
     for l in 0..values.len().isqrt() {
         let sum: f64 = values[l * l..(l + 1) * (l + 1)].iter().map(|y| y * y).sum();
         let expected = (2 * l + 1) as f64 / (4.0 * std::f64::consts::PI);
-        assert!(
-            (sum / expected - 1.0).abs() <= tolerance,
-            "{what}, band {l}: {:e}",
-            sum / expected - 1.0
-        );
+        assert!((sum / expected - 1.0).abs() <= tolerance, "{what}, band {l}: {:e}", sum / expected - 1.0);
     }
 }
 
 #[test]
 fn the_basis_is_stable_at_high_orders() {
     let kernel = basis_loop(64);
-    let (narrow, wide) = (
-        LoopProgram::<f32>::new(&kernel),
-        LoopProgram::<f64>::new(&kernel),
-    );
+    let (narrow, wide) = (LoopProgram::<f32>::new(&kernel), LoopProgram::<f64>::new(&kernel));
     for dir in directions().into_iter().map(narrowed) {
         let reference = run(&wide, std::slice::from_ref(&dir));
-        assert_bands(
-            &run(&narrow, std::slice::from_ref(&dir)),
-            &reference,
-            3e-5,
-            &format!("{dir:?}"),
-        );
+        assert_bands(&run(&narrow, std::slice::from_ref(&dir)), &reference, 3e-5, &format!("{dir:?}"));
     }
     let wide = LoopProgram::<f64>::new(&basis_loop(128));
     for dir in directions() {
-        assert_norms(
-            &run(&wide, std::slice::from_ref(&dir)),
-            1e-11,
-            &format!("{dir:?}"),
-        );
+        assert_norms(&run(&wide, std::slice::from_ref(&dir)), 1e-11, &format!("{dir:?}"));
     }
 }
 
 #[test]
 fn the_rotation_is_stable_at_order_64() {
     let kernel = rotate_loop(64);
-    let (narrow, wide) = (
-        LoopProgram::<f32>::new(&kernel),
-        LoopProgram::<f64>::new(&kernel),
-    );
+    let (narrow, wide) = (LoopProgram::<f32>::new(&kernel), LoopProgram::<f64>::new(&kernel));
     let c = noise(&mut Random::new(5), 64 * 64);
     // The identity's middle rotation is none: J J = 1.
     let identity = vec![0.0, 0.0, 0.0, 1.0];
-    assert_bands(
-        &run(&wide, &[identity.clone(), c.clone()]),
-        &c,
-        1e-13,
-        "identity",
-    );
+    assert_bands(&run(&wide, &[identity.clone(), c.clone()]), &c, 1e-13, "identity");
     assert_bands(&run(&narrow, &[identity, c.clone()]), &c, F32, "identity");
     let q = unit(vec![0.3, -0.5, 0.2, 0.8]);
     let back = vec![-q[0], -q[1], -q[2], q[3]];
     let turned = run(&wide, &[q.clone(), c.clone()]);
-    assert_bands(
-        &run(&wide, &[back, turned.clone()]),
-        &c,
-        1e-13,
-        "there and back",
-    );
+    assert_bands(&run(&wide, &[back, turned.clone()]), &c, 1e-13, "there and back");
     // An angle that f32 rounds by u is off by 63 u at the last degree.
     assert_bands(&run(&narrow, &[q, c]), &turned, 64.0 * 6e-8 * 4.0, "f32");
 }
@@ -261,19 +200,10 @@ fn a_rotated_direction_has_the_rotated_basis() {
     let order = 40;
     let basis = LoopProgram::<f64>::new(&basis_loop(order));
     let rotation = LoopProgram::<f64>::new(&rotate_loop(order));
-    let [x, y, z, w]: [f64; 4] = unit(vec![0.1, 0.7, -0.4, 0.3])
-        .try_into()
-        .expect("four numbers");
-    let d: [f64; 3] = unit(vec![0.2, -0.5, 0.6])
-        .try_into()
-        .expect("three numbers");
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
+    let [x, y, z, w]: [f64; 4] = unit(vec![0.1, 0.7, -0.4, 0.3]).try_into().expect("four numbers");
+    let d: [f64; 3] = unit(vec![0.2, -0.5, 0.6]).try_into().expect("three numbers");
+    let cross =
+        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let t = cross([x, y, z], d).map(|t| 2.0 * t);
     let u = cross([x, y, z], t);
     let turned = (0..3).map(|i| d[i] + w * t[i] + u[i]).collect();
@@ -285,20 +215,14 @@ fn a_rotated_direction_has_the_rotated_basis() {
 #[test]
 fn tables_have_the_size_they_promise() {
     for order in [2, 3, 10, 36, 37] {
-        let lengths = |kernel: &LoopKernel| -> Vec<usize> {
-            kernel.tables.iter().map(|t| t.values.len()).collect()
-        };
+        let lengths = |kernel: &LoopKernel| -> Vec<usize> { kernel.tables.iter().map(|t| t.values.len()).collect() };
         assert_eq!(lengths(&taylor15_loop(order)), [order * order; 2]);
         let pairs = order * (order - 1) / 2;
         assert_eq!(lengths(&basis_loop(order)), [pairs, pairs, order - 1]);
         let kernel = rotate_loop(order);
         assert_eq!(lengths(&kernel), [order * (order * order + 2) / 3 - 1]);
         let refused = too_long(&kernel).map(|table| table.name);
-        assert_eq!(
-            refused,
-            (order > 36).then_some("J"),
-            "up to {MAX_TABLE} entries"
-        );
+        assert_eq!(refused, (order > 36).then_some("J"), "up to {MAX_TABLE} entries");
     }
 }
 
@@ -315,43 +239,24 @@ fn no_table_is_rounded_twice() {
 #[test]
 fn costs_are_the_written_ones() {
     let cost = |kernel: &LoopKernel, channels| {
-        let Cost {
-            mul,
-            add,
-            fma,
-            special,
-            ..
-        } = kernel.cost(channels);
+        let Cost { mul, add, fma, special, .. } = kernel.cost(channels);
         [mul, add, fma, special]
     };
     // A middle element: 2 mul and 3 fma (one of them on scalars); the first is free, the last has one fma less.
-    assert_eq!(
-        cost(&taylor15_loop(5), 1),
-        [2 + 2 * 23 + 2, 0, 3 * 23 + 2, 0]
-    );
-    assert_eq!(
-        cost(&taylor15_loop(5), 3),
-        [2 + 3 * (2 * 23 + 2), 0, 24 + 3 * (2 * 23 + 1), 0]
-    );
+    assert_eq!(cost(&taylor15_loop(5), 1), [2 + 2 * 23 + 2, 0, 3 * 23 + 2, 0]);
+    assert_eq!(cost(&taylor15_loop(5), 3), [2 + 3 * (2 * 23 + 2), 0, 24 + 3 * (2 * 23 + 1), 0]);
     for order in 2..=10 {
         let straight = Listing::new(&unrolled("rotate", order)).cost(1).total;
         let looped = rotate_loop(order).cost(1);
         assert_eq!(looped.special, 1);
-        assert!(
-            looped.total >= straight,
-            "order {order}: {looped:?} against {straight}"
-        );
+        assert!(looped.total >= straight, "order {order}: {looped:?} against {straight}");
     }
 }
 
 /// A kernel's text as a whole file.
 fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
     let body = print(kernel, dialect, &name.to_uppercase());
-    let params: Vec<String> = kernel
-        .params
-        .iter()
-        .map(|param| dialect.parameter(param))
-        .collect();
+    let params: Vec<String> = kernel.params.iter().map(|param| dialect.parameter(param)).collect();
     let params = params.join(", ");
     let result = dialect.type_of(kernel.result, kernel.result_kind);
     let head = match dialect.target {
@@ -359,20 +264,12 @@ fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
         Target::Glsl => format!("{result} {name}({params}) {{"),
         Target::Rust => format!("pub fn {name}<T: Real, V: Signal<T>>({params}) -> {result} {{"),
     };
-    let lines: Vec<String> = body
-        .lines
-        .iter()
-        .map(|line| format!("    {line}"))
-        .collect();
+    let lines: Vec<String> = body.lines.iter().map(|line| format!("    {line}")).collect();
     let tail = match dialect.target {
         Target::Rust => body.result,
         _ => format!("return {};", body.result),
     };
-    format!(
-        "{}\n{head}\n{}\n    {tail}\n}}\n",
-        body.tables.join("\n"),
-        lines.join("\n")
-    )
+    format!("{}\n{head}\n{}\n    {tail}\n}}\n", body.tables.join("\n"), lines.join("\n"))
 }
 
 fn argument(shape: Shape, kind: Kind, channels: &[Vec<f32>]) -> Value {
@@ -395,8 +292,7 @@ fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
         Target::Wgsl => Language::Wgsl,
         _ => Language::Glsl,
     };
-    let shader =
-        Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+    let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
     let program = LoopProgram::<f32>::new(kernel);
     let channels = if rgb { 3 } else { 1 };
     let mut random = Random::new(1);
@@ -412,24 +308,17 @@ fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
         }
         let arguments: Vec<Value> = (0..kernel.params.len())
             .map(|i| {
-                let channels: Vec<Vec<f32>> =
-                    inputs.iter().map(|inputs| inputs[i].clone()).collect();
+                let channels: Vec<Vec<f32>> = inputs.iter().map(|inputs| inputs[i].clone()).collect();
                 argument(kernel.params[i].shape, kernel.params[i].kind, &channels)
             })
             .collect();
-        let results: Vec<Vec<f32>> = inputs
-            .iter()
-            .map(|inputs| program.run(&slices(inputs), Contraction::Separate))
-            .collect();
+        let results: Vec<Vec<f32>> =
+            inputs.iter().map(|inputs| program.run(&slices(inputs), Contraction::Separate)).collect();
         let mut counts = Counts::default();
         let got = shader
             .call("kernel", &arguments, &mut counts, Fma::Separate)
             .unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
-        assert_eq!(
-            got,
-            argument(kernel.result, kernel.result_kind, &results),
-            "{name} {dialect:?}"
-        );
+        assert_eq!(got, argument(kernel.result, kernel.result_kind, &results), "{name} {dialect:?}");
         let cost = kernel.cost(channels);
         let expected = Counts {
             mul: (cost.mul + cost.fma) as u64,
@@ -464,10 +353,7 @@ fn every_operation_is_printed_as_it_is_run() {
     let index = (&i * 7 + 3 - &i / (&i + 1)) % 4;
     let body = vec![
         Stmt::Array("r", 4, Kind::Scalar),
-        Stmt::Let(
-            "x",
-            Num::item("v", 0) - Num::item("T", 1) * Num::item("v", 1),
-        ),
+        Stmt::Let("x", Num::item("v", 0) - Num::item("T", 1) * Num::item("v", 1)),
         Stmt::Var("y", Num::item("T", 0) * (x() - Num::item("v", 2)) - x()),
         Stmt::Counter("k", Int::Literal(5) - 3 - 2),
         Stmt::For {
@@ -477,23 +363,10 @@ fn every_operation_is_printed_as_it_is_run() {
             step: 2,
             body: vec![
                 Stmt::Int("at", index),
-                Stmt::Set(
-                    "y",
-                    -(y() - (x() - (y() + Num::Tiny))) * (-(x() * x()) + y()),
-                ),
-                Stmt::Set(
-                    "y",
-                    y() + Num::Op(NumOp::Recip, vec![y() * y() + Exact::one()]),
-                ),
-                Stmt::store(
-                    "r",
-                    "k",
-                    -(x() * Exact::int(-2)) * (y() * y() + Exact::one()).rsqrt(),
-                ),
-                Stmt::Set(
-                    "y",
-                    y() * (Num::item("r", "k") * Num::item("T", "at")) + Exact::int(-1),
-                ),
+                Stmt::Set("y", -(y() - (x() - (y() + Num::Tiny))) * (-(x() * x()) + y())),
+                Stmt::Set("y", y() + Num::Op(NumOp::Recip, vec![y() * y() + Exact::one()])),
+                Stmt::store("r", "k", -(x() * Exact::int(-2)) * (y() * y() + Exact::one()).rsqrt()),
+                Stmt::Set("y", y() * (Num::item("r", "k") * Num::item("T", "at")) + Exact::int(-1)),
                 Stmt::Advance("k"),
             ],
         },
@@ -501,11 +374,7 @@ fn every_operation_is_printed_as_it_is_run() {
     let values = [1, -3, 5, 7].map(|p| Exact::ratio(p, 3)).to_vec();
     let mut kernel = basis_loop(2);
     kernel.params[0].name = "v";
-    kernel.tables = vec![Table {
-        name: "T",
-        values,
-        doc: "one line\nand another".to_owned(),
-    }];
+    kernel.tables = vec![Table { name: "T", values, doc: "one line\nand another".to_owned() }];
     kernel.body = body;
     for target in [Target::Wgsl, Target::Glsl] {
         compare("everything", &kernel, target, false);

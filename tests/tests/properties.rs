@@ -75,10 +75,9 @@ fn the_identity_changes_nothing_or_a_few_roundings() {
             for q in [vec![0.0, 0.0, 0.0, 1.0], vec![0.0, 0.0, 0.0, -1.0]] {
                 let (_, _, c) = trials(&spec, 1).remove(0);
                 let narrow = Runner::<f32>::new(&spec).run(&[q.clone(), c.clone()]);
-                let ulps = narrow
-                    .iter()
-                    .zip(&c)
-                    .map(|(got, want)| (got - want).abs() / (f64::from(f32::EPSILON) * want.abs().max(f64::MIN_POSITIVE)));
+                let ulps = narrow.iter().zip(&c).map(|(got, want)| {
+                    (got - want).abs() / (f64::from(f32::EPSILON) * want.abs().max(f64::MIN_POSITIVE))
+                });
                 let worst = ulps.fold(0.0, f64::max);
                 let error = band_error(&narrow, &c);
                 println!("{spec} at w = {}: {error:.1e} of a band's norm, {worst:.0} ulps at worst", q[3]);
@@ -211,7 +210,9 @@ fn the_basis_is_orthonormal() {
 /// A bad number in one band stays in that band: infinite, NaN, huge or denormal.
 #[test]
 fn bands_do_not_mix() {
-    for text in ["rotate:6", "rotate:6:zxzxz", "tilt:6", "lf3:6", "taylor15:6", "rotate_z:6", "swap_yz:6", "rotate:3", "zhf:6"] {
+    for text in
+        ["rotate:6", "rotate:6:zxzxz", "tilt:6", "lf3:6", "taylor15:6", "rotate_z:6", "swap_yz:6", "rotate:3", "zhf:6"]
+    {
         let spec = spec(text);
         let params = zonal_codegen::built::kernel(&spec).params;
         let clean = inputs(&spec, &params, 47, 20, 0.2).pop().expect("twenty inputs");

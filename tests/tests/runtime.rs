@@ -1,70 +1,286 @@
-use glam::*;
-macro_rules! orders { ($count:ident, $body:block) => { {const $count: usize = 4; $body} {const $count: usize = 9; $body} {const $count: usize = 25; $body}  {const $count: usize = 100; $body} } }
+//! What the crate `zonal` promises: golden values through glam's types, one meaning whatever the order, the precision
+//! and the channels, agreement between the ways to do one thing, and what bad input can do.
+
+use glam::{DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
+use serde_json::Value;
+use zonal::Rotation;
+use zonal_codegen::samples::Random;
+use zonal_tests::{band_error, golden, norm, numbers};
+
+/// Repeats a block for every order, whose coefficients it counts.
+macro_rules! every_order {
+    ($count:ident, $body:block) => {
+        every_order!(@ $count $body 4 9 16 25 36 49 64 81 100)
+    };
+    (@ $count:ident $body:block) => {};
+    (@ $count:ident $body:block $first:literal $($more:literal)*) => {
+        {
+            const $count: usize = $first;
+            $body
+        }
+        every_order!(@ $count $body $($more)*)
+    };
+}
+
+const TRIALS: usize = 40;
+
+fn wide<T: Copy + Into<f64>>(values: &[T]) -> Vec<f64> {
+    values.iter().map(|&x| x.into()).collect()
+}
+
+/// A signal each band of which has the norm one.
+fn signal<const N: usize>(random: &mut Random) -> [f64; N] {
+    let mut c = [0.0; N];
+    for l in 0..N.isqrt() {
+        let band = &mut c[l * l..(l + 1) * (l + 1)];
+        band.iter_mut().for_each(|x| *x = random.signed());
+        let length = norm(band);
+        band.iter_mut().for_each(|x| *x /= length);
+    }
+    c
+}
+
+fn direction(random: &mut Random) -> DVec3 {
+    DVec3::from_array(random.unit())
+}
+
+fn quaternion(random: &mut Random) -> DQuat {
+    DQuat::from_array(random.unit())
+}
+
+fn narrow<const N: usize>(c: &[f64; N]) -> [f32; N] {
+    c.map(|x| x as f32)
+}
+
+/// The golden rotations: the quaternion and the matrices of the bands.
+fn rotations() -> Vec<(DQuat, Vec<Vec<Vec<f64>>>)> {
+    let rows = |band: &Value| band.as_array().expect("rows").iter().map(numbers).collect();
+    let file = golden("rotations");
+    let cases = file["cases"].as_array().expect("cases");
+    cases
+        .iter()
+        .map(|case| {
+            let q = numbers(&case["quat_wxyz"]);
+            let bands = case["D"].as_array().expect("bands").iter().map(rows).collect();
+            (DQuat::from_xyzw(q[1], q[2], q[3], q[0]).normalize(), bands)
+        })
+        .collect()
+}
+
+fn turned(bands: &[Vec<Vec<f64>>], c: &[f64]) -> Vec<f64> {
+    let rows = (0..c.len().isqrt()).flat_map(|l| bands[l].iter().map(move |row| (l, row)));
+    rows.map(|(l, row)| row.iter().zip(&c[l * l..]).map(|(a, b)| a * b).sum()).collect()
+}
 
 #[test]
-fn explore() {
-    use zonal_codegen::samples::Random;
-    orders!(N, {
-        let mut r = Random::new(1);
-        let order = N.isqrt();
-        for i in 0..4 {
-            let mut q = [0.1f32, 0.2, 0.3, 0.9];
-            q[i] = f32::NAN;
-            let y = zonal::rotate(Quat::from_array(q), &[1.0f32; N]);
-            let finite: Vec<usize> = (0..N).filter(|&i| !y[i].is_nan()).collect();
-            println!("{N} q{i} {finite:?}");
-            let y = zonal::Rotation::<[f32; N]>::new(Quat::from_array(q)).apply(&[1.0f32; N]);
-            let finite: Vec<usize> = (0..N).filter(|&i| !y[i].is_nan()).collect();
-            println!("{N} q{i} angles {finite:?}");
-            if i < 3 {
-                let mut d = [0.1f32, 0.2, 0.9];
-                d[i] = f32::NAN;
-                let d = Vec3::from_array(d);
-                for (name, y) in [("basis", zonal::evaluate_basis::<[f32; N]>(d)), ("tilt", zonal::tilt(d, &[1.0f32; N])), ("align", zonal::align(d, &[1.0; N]))] {
-                    let finite: Vec<usize> = (0..N).filter(|&i| !y[i].is_nan()).collect();
-                    println!("{N} d{i} {name} {finite:?}");
-                }
+fn the_basis_is_the_golden_one() {
+    let file = golden("basis");
+    for case in file["cases"].as_array().expect("cases") {
+        let (dir, want) = (DVec3::from_slice(&numbers(&case["unit"])), numbers(&case["y"]));
+        every_order!(N, {
+            let y: [f64; N] = zonal::evaluate_basis(dir);
+            assert!(band_error(&y, &want[..N]) <= 1e-14, "order {} at {dir}", N.isqrt());
+            let y: [f32; N] = zonal::evaluate_basis(dir.as_vec3());
+            assert!(band_error(&wide(&y), &want[..N]) <= 2e-6, "order {} at {dir} in f32", N.isqrt());
+            let c = signal::<N>(&mut Random::new(2));
+            let sum: f64 = c.iter().zip(&want).map(|(c, y)| c * y).sum();
+            assert!((zonal::evaluate(dir, &c) - sum).abs() <= 1e-13, "order {} at {dir}", N.isqrt());
+        });
+    }
+}
+
+#[test]
+fn rotations_are_the_golden_ones_by_every_way_in() {
+    let mut random = Random::new(3);
+    for (q, bands) in rotations() {
+        every_order!(N, {
+            let (order, c) = (N.isqrt(), signal::<N>(&mut random));
+            let want = turned(&bands, &c);
+            let m = DMat3::from_quat(q);
+            let ways = [zonal::rotate(q, &c), zonal::rotate_matrix(m, &c), Rotation::<[f64; N]>::new(q).apply(&c)];
+            for got in ways {
+                assert!(band_error(&got, &want) <= 2e-14, "order {order} by {q}");
             }
-        }
-        for name in ["rotate", "rotation", "tilt", "align", "matrix", "basis", "eval", "zonal"] {
-            for e in [1e-6, 1e-3, 1e-2, -1e-2, 0.1, -0.1] {
-                let mut worst = vec![0f64; order];
-                let scale = 1.0 + e;
-                for _ in 0..2000 {
-                    let mut c = [0f64; N];
-                    for l in 0..order {
-                        let v: Vec<f64> = (0..2 * l + 1).map(|_| r.signed()).collect();
-                        let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-                        for (i, x) in v.iter().enumerate() { c[l * l + i] = x / norm; }
-                    }
-                    let q = DQuat::from_array(r.unit());
-                    let d = DVec3::from_array(r.unit());
-                    let t = dvec3(d.x, d.y, d.z.abs());
-                    let mut g = [0f64; 2]; g[0] = 0.0;
-                    let (a, b): ([f64; N], [f64; N]) = match name {
-                        "rotate" => (zonal::rotate(q, &c), zonal::rotate(q * scale, &c)),
-                        "matrix" => (zonal::rotate_matrix(DMat3::from_quat(q), &c), zonal::rotate_matrix(DMat3::from_quat(q) * scale, &c)),
-                        "rotation" => (zonal::rotate(q, &c), zonal::Rotation::<[f64; N]>::new(q * scale).apply(&c)),
-                        "tilt" => (zonal::tilt(t, &c), zonal::tilt(t * scale, &c)),
-                        "align" => (zonal::align(d, &c), zonal::align(d * scale, &c)),
-                        "basis" => (zonal::evaluate_basis(d), zonal::evaluate_basis(d * scale)),
-                        "eval" => {
-                            let mut a = [0f64; N]; let mut b = [0f64; N];
-                            for l in 0..order {
-                                let mut cc = [0f64; N]; cc[l * l..(l+1)*(l+1)].copy_from_slice(&c[l * l..(l+1)*(l+1)]);
-                                a[l * l] = zonal::evaluate(d, &cc); b[l * l] = zonal::evaluate(d * scale, &cc);
-                            }
-                            (a, b)
-                        }
-                        _ => (c, c),
-                    };
-                    for l in 0..order {
-                        let e = (l * l..(l + 1) * (l + 1)).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
-                        worst[l] = worst[l].max(e);
-                    }
+            let (q, m, c) = (q.as_quat(), Mat3::from_quat(q.as_quat()), narrow(&c));
+            let bound = if order <= 8 { 2e-6 } else { 3e-6 };
+            assert!(band_error(&wide(&zonal::rotate(q, &c)), &want) <= bound, "order {order} by {q} in f32");
+            let ready = Rotation::<[f32; N]>::new(q).apply(&c);
+            assert!(band_error(&wide(&ready), &want) <= bound, "order {order} by {q} in f32, made ready");
+            // glam's matrix and its quaternion are rounded once more.
+            let by_matrix = zonal::rotate_matrix(m, &c);
+            assert!(band_error(&wide(&by_matrix), &want) <= 2.0 * bound, "order {order} by {m} in f32");
+        });
+    }
+}
+
+#[test]
+fn a_rotated_signal_has_its_values_where_they_were_taken() {
+    let mut random = Random::new(5);
+    for _ in 0..TRIALS {
+        let (q, dir) = (quaternion(&mut random), direction(&mut random));
+        every_order!(N, {
+            let c = signal::<N>(&mut random);
+            let (before, after) = (zonal::evaluate(dir, &c), zonal::evaluate(q * dir, &zonal::rotate(q, &c)));
+            assert!((before - after).abs() <= 1e-12, "order {} by {q}", N.isqrt());
+        });
+    }
+}
+
+#[test]
+fn fixed_rotations_are_the_general_one() {
+    let mut random = Random::new(7);
+    for _ in 0..TRIALS {
+        let (angle, dir) = (4.0 * random.signed(), direction(&mut random));
+        let quarter = std::f64::consts::FRAC_PI_2;
+        every_order!(N, {
+            let c = signal::<N>(&mut random);
+            let about_x = |angle| zonal::rotate(DQuat::from_rotation_x(angle), &c);
+            let about_z = zonal::rotate(DQuat::from_rotation_z(angle), &c);
+            assert!(band_error(&zonal::rotate_z(angle, &c), &about_z) <= 2e-14);
+            assert!(band_error(&zonal::rotate_x_plus_90(&c), &about_x(quarter)) <= 2e-14);
+            assert!(band_error(&zonal::rotate_x_minus_90(&c), &about_x(-quarter)) <= 2e-14);
+            let swapped = zonal::swap_yz(&c);
+            let there = zonal::evaluate(DVec3::new(dir.x, dir.z, dir.y), &swapped);
+            assert!((there - zonal::evaluate(dir, &c)).abs() <= 1e-12);
+            assert!(band_error(&zonal::swap_yz(&swapped), &c) <= 2e-15);
+        });
+    }
+}
+
+#[test]
+fn normals_take_z_with_them() {
+    let mut random = Random::new(11);
+    for _ in 0..TRIALS {
+        let n = direction(&mut random);
+        let small = DVec3::new(0.05 * n.x, 0.05 * n.y, 1.0).normalize();
+        every_order!(N, {
+            let c = signal::<N>(&mut random);
+            let z = zonal::evaluate(DVec3::Z, &c);
+            assert!((zonal::evaluate(n, &zonal::align(n, &c)) - z).abs() <= 1e-12, "order {} to {n}", N.isqrt());
+            let want = zonal::rotate(DQuat::from_rotation_arc(DVec3::Z, small), &c);
+            let tilted = zonal::tilt(small, &c);
+            assert!(band_error(&tilted[..9.min(N)], &want[..9.min(N)]) <= 2e-14, "bands 1 and 2 to {small}");
+            // (l b)³ / 24 is the error law of the shears, MATH section 9.1.
+            let law = (N.isqrt() as f64 * 0.05).powi(3) / 24.0;
+            assert!(band_error(&tilted, &want) <= law, "order {} to {small}", N.isqrt());
+        });
+    }
+}
+
+#[test]
+fn a_zonal_signal_is_a_signal() {
+    let mut random = Random::new(13);
+    for _ in 0..TRIALS {
+        let dir = direction(&mut random);
+        every_order!(N, {
+            const ORDER: usize = N.isqrt();
+            let g: [f64; ORDER] = std::array::from_fn(|_| random.signed());
+            let mut c = [0.0; N];
+            (0..ORDER).for_each(|l| c[l * (l + 1)] = g[l]);
+            let got: [f64; N] = zonal::rotate_zonal(dir, &g);
+            assert!(band_error(&got, &zonal::align(dir, &c)) <= 2e-14, "order {ORDER} to {dir}");
+        });
+    }
+}
+
+#[test]
+fn channels_share_one_rotation() {
+    let mut random = Random::new(17);
+    for _ in 0..TRIALS {
+        let (q, n) = (quaternion(&mut random).as_quat(), direction(&mut random).as_vec3());
+        every_order!(N, {
+            let channels: [[f32; N]; 3] = std::array::from_fn(|_| narrow(&signal::<N>(&mut random)));
+            let rgb: [Vec3; N] = std::array::from_fn(|i| Vec3::from_array(channels.map(|channel| channel[i])));
+            let rgba: [[f32; 4]; N] = rgb.map(|v| [v.x, v.y, v.z, 1.0]);
+            let (turned, tilted, value) = (zonal::rotate(q, &rgb), zonal::tilt(n, &rgb), zonal::evaluate(n, &rgb));
+            assert_eq!(zonal::rotate(q, &rgba).map(|v| [v[0], v[1], v[2]]), turned.map(|v| v.to_array()));
+            let ready = Rotation::<[f32; N]>::new(q);
+            for (i, c) in channels.iter().enumerate() {
+                // Order 3 has a way for one channel and another for three.
+                let (one, three) = (wide(&zonal::rotate(q, c)), wide(&turned.map(|v| v[i])));
+                assert!(if N == 9 { band_error(&three, &one) <= 2e-6 } else { three == one }, "{three:?} by {q}");
+                assert_eq!(zonal::tilt(n, c), tilted.map(|v| v[i]));
+                assert_eq!(zonal::evaluate(n, c), value[i]);
+                assert_eq!(ready.apply(c), ready.apply(&rgb).map(|v| v[i]));
+            }
+        });
+    }
+}
+
+#[test]
+fn what_is_not_unit_errs_as_documented() {
+    let mut random = Random::new(19);
+    for _ in 0..10 * TRIALS {
+        let (q, dir, e) = (quaternion(&mut random), direction(&mut random), 0.1 * random.signed());
+        every_order!(N, {
+            let c = signal::<N>(&mut random);
+            let within = |got: &[f64], want: &[f64], bound: &dyn Fn(f64) -> f64, what: &str| {
+                for l in 0..N.isqrt() {
+                    let range = l * l..(l + 1) * (l + 1);
+                    let difference: Vec<f64> = range.map(|i| got[i] - want[i]).collect();
+                    assert!(norm(&difference) <= bound(l as f64) + 1e-13, "{what} of order {}, band {l}", N.isqrt());
                 }
-                println!("{N} {name} {e:e}: {:.2?}", worst.iter().map(|x| x / e.abs()).collect::<Vec<_>>());
+            };
+            let turned = zonal::rotate(q, &c);
+            let slope = if N <= 9 { 15.0 } else { 5.0 };
+            within(&zonal::rotate(q * (1.0 + e), &c), &turned, &|l| slope * l * e.abs(), "rotate");
+            let ready = Rotation::<[f64; N]>::new(q * (1.0 + e)).apply(&c);
+            within(&ready, &turned, &|l| 5.0 * l * e.abs(), "Rotation");
+            let (e, basis) = (0.1 * e, zonal::evaluate_basis::<[f64; N]>(dir));
+            let longer = zonal::evaluate_basis::<[f64; N]>(dir * (1.0 + e));
+            within(&longer, &basis, &|l| l * l * e.abs(), "evaluate_basis");
+            let sum = (0..N.isqrt()).map(|l| (l * l) as f64 * e.abs()).sum::<f64>();
+            let moved = zonal::evaluate(dir * (1.0 + e), &c) - zonal::evaluate(dir, &c);
+            assert!(moved.abs() <= sum + 1e-13, "evaluate of order {}", N.isqrt());
+        });
+    }
+}
+
+#[test]
+fn nan_goes_where_documented() {
+    every_order!(N, {
+        let c = [1.0_f32; N];
+        let only_band_zero = |got: [f32; N]| got[0] == 1.0 && got[1..].iter().all(|x| x.is_nan());
+        for place in 0..4 {
+            let mut q = [0.1, 0.2, 0.3, 0.9];
+            q[place] = f32::NAN;
+            let q = Quat::from_array(q);
+            assert!(only_band_zero(zonal::rotate(q, &c)), "order {}", N.isqrt());
+            assert!(only_band_zero(Rotation::<[f32; N]>::new(q).apply(&c)), "order {}", N.isqrt());
+        }
+        for place in 0..3 {
+            let mut n = [0.1, 0.2, 0.9];
+            n[place] = f32::NAN;
+            let n = Vec3::from_array(n);
+            assert!(only_band_zero(zonal::align(n, &c)), "order {}", N.isqrt());
+            assert!(zonal::evaluate(n, &c).is_nan(), "order {}", N.isqrt());
+        }
+    });
+}
+
+#[test]
+fn bands_do_not_mix() {
+    let q = Quat::from_xyzw(0.1, 0.5, -0.3, 0.8).normalize();
+    let n = Vec3::new(0.1, -0.2, 0.9).normalize();
+    every_order!(N, {
+        for (band, bad) in (0..N.isqrt()).zip([f32::NAN, f32::INFINITY].into_iter().cycle()) {
+            let mut c = [1.0_f32; N];
+            c[band * (band + 1)] = bad;
+            let ready = Rotation::<[f32; N]>::new(q);
+            let ways = [zonal::rotate(q, &c), ready.apply(&c), zonal::tilt(n, &c), zonal::align(n, &c)];
+            for got in ways.into_iter().chain([zonal::swap_yz(&c), zonal::rotate_z(0.3, &c)]) {
+                for (i, x) in got.iter().enumerate() {
+                    assert!(x.is_finite() || i.isqrt() == band, "order {}: band {band} is in {i}", N.isqrt());
+                }
             }
         }
     });
+}
+
+#[test]
+fn shader_texts_are_the_files() {
+    for shader in zonal::shaders::ALL {
+        assert!(shader.wgsl.contains(&format!("fn {}(", shader.name)), "{}", shader.spec);
+        assert!(shader.glsl.contains(&format!(" {}(", shader.name)), "{}", shader.spec);
+    }
 }

@@ -210,8 +210,7 @@ float[3] twice(float x, float c[3]) {
 }
 ";
 
-static SHADERS: LazyLock<[Shader; 2]> =
-    LazyLock::new(|| [parse(Language::Wgsl, WGSL), parse(Language::Glsl, GLSL)]);
+static SHADERS: LazyLock<[Shader; 2]> = LazyLock::new(|| [parse(Language::Wgsl, WGSL), parse(Language::Glsl, GLSL)]);
 
 fn parse(language: Language, text: &str) -> Shader {
     Shader::parse(language, text).unwrap_or_else(|error| panic!("{error}"))
@@ -227,11 +226,7 @@ fn run(shader: &Shader, function: &str, args: &[Value], fma: Fma) -> (Value, Cou
 fn call(function: &str, args: &[Value], fma: Fma) -> (Value, Counts) {
     let [wgsl, glsl] = &*SHADERS;
     let result = run(wgsl, function, args, fma);
-    assert_eq!(
-        result,
-        run(glsl, function, args, fma),
-        "WGSL and GLSL differ in {function}"
-    );
+    assert_eq!(result, run(glsl, function, args, fma), "WGSL and GLSL differ in {function}");
     result
 }
 
@@ -254,10 +249,7 @@ const C: [f32; 5] = [0.3, -1.7, 2.9, 0.013, -5.1];
 fn both_languages_list_the_same_functions() {
     let [wgsl, glsl] = &*SHADERS;
     assert_eq!(wgsl.functions(), glsl.functions());
-    assert_eq!(
-        wgsl.functions().first().map(String::as_str),
-        Some("straight")
-    );
+    assert_eq!(wgsl.functions().first().map(String::as_str), Some("straight"));
     assert_eq!(wgsl.functions().len(), 18);
 }
 
@@ -270,15 +262,7 @@ fn straight_lines_round_as_rust_does() {
     let expected = [c[0], t1 * c[1] - t2 * c[2], -(c[2] / q[3]) + q[0].sqrt()];
     let (result, counts) = call("straight", &[Vec(q.to_vec()), floats(&c)], Fma::Separate);
     assert_eq!(result, floats(&expected));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 3,
-            add: 3,
-            fma: 0,
-            special: 3
-        }
-    );
+    assert_eq!(counts, Counts { mul: 3, add: 3, fma: 0, special: 3 });
 }
 
 #[test]
@@ -289,24 +273,12 @@ fn a_vector_counts_once_a_component() {
     let expected = [t.map(|x| -x), [c[1][0] / b, t[1] / b, t[2] / b]];
     let (result, counts) = call("colours", &[F32(b), vectors(&c)], Fma::Separate);
     assert_eq!(result, vectors(&expected));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 6,
-            add: 3,
-            fma: 0,
-            special: 3
-        }
-    );
+    assert_eq!(counts, Counts { mul: 6, add: 3, fma: 0, special: 3 });
 }
 
 #[test]
 fn arrays_of_pairs_are_arguments_too() {
-    let c = Array(
-        [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0_f32]]
-            .map(|x| Vec(x.to_vec()))
-            .to_vec(),
-    );
+    let c = Array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0_f32]].map(|x| Vec(x.to_vec())).to_vec());
     assert_eq!(value("planes", &[c]), Vec(vec![1.0, 4.0, 11.0]));
 }
 
@@ -319,15 +291,7 @@ fn loops_index_locals_parameters_and_tables() {
     }
     let (result, counts) = call("looped", &[F32(b), floats(&C)], Fma::Separate);
     assert_eq!(result, floats(&expected));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 6,
-            add: 6,
-            fma: 0,
-            special: 0
-        }
-    );
+    assert_eq!(counts, Counts { mul: 6, add: 6, fma: 0, special: 0 });
 }
 
 #[test]
@@ -370,38 +334,14 @@ fn loops_store_vectors_and_their_components() {
     }
     let (result, counts) = call("triple", &[F32(b), vectors(&c)], Fma::Separate);
     assert_eq!(result, Vec((0..3).map(|k| r[0][k] + r[1][k]).collect()));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 6,
-            add: 9,
-            fma: 0,
-            special: 0
-        }
-    );
+    assert_eq!(counts, Counts { mul: 6, add: 9, fma: 0, special: 0 });
 }
 
 #[test]
 fn branches_run_and_count_one_side() {
-    for (x, expected, mul, add) in [
-        (1.5, 3.0, 1, 0),
-        (3.0, -3.0, 0, 0),
-        (-2.5, 2.5, 0, 0),
-        (0.25, 1.25, 0, 1),
-    ] {
+    for (x, expected, mul, add) in [(1.5, 3.0, 1, 0), (3.0, -3.0, 0, 0), (-2.5, 2.5, 0, 0), (0.25, 1.25, 0, 1)] {
         let result = call("branch", &[F32(x)], Fma::Separate);
-        assert_eq!(
-            result,
-            (
-                F32(expected),
-                Counts {
-                    mul,
-                    add,
-                    fma: 0,
-                    special: 0
-                }
-            )
-        );
+        assert_eq!(result, (F32(expected), Counts { mul, add, fma: 0, special: 0 }));
     }
 }
 
@@ -414,33 +354,17 @@ fn matrices_are_columns() {
     let columns = Mat(m.map(|column| column.to_vec()).to_vec());
     let (result, counts) = call("matrix", &[columns.clone(), Vec(v.to_vec())], Fma::Separate);
     assert_eq!(result, Vec(expected.collect()));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 9,
-            add: 9,
-            fma: 0,
-            special: 0
-        }
-    );
+    assert_eq!(counts, Counts { mul: 9, add: 9, fma: 0, special: 0 });
 
-    let transposed = (0..3)
-        .map(|r| m.iter().map(|column| column[r]).collect())
-        .collect();
+    let transposed = (0..3).map(|r| m.iter().map(|column| column[r]).collect()).collect();
     assert_eq!(value("transposed", &[columns]), Mat(transposed));
 }
 
 #[test]
 fn minima_maxima_and_selections_are_free() {
     for (x, y) in [(-2.5_f32, 8.9_f32), (0.3, -3.7), (1.0, 1.0)] {
-        let expected = [
-            x.min(y),
-            x.max(y),
-            x.abs(),
-            x.clamp(-1.0, 1.0),
-            if x < y { y } else { x },
-            (y as i32).min(7) as f32,
-        ];
+        let expected =
+            [x.min(y), x.max(y), x.abs(), x.clamp(-1.0, 1.0), if x < y { y } else { x }, (y as i32).min(7) as f32];
         let result = call("limits", &[F32(x), F32(y)], Fma::Separate);
         assert_eq!(result, (floats(&expected), Counts::default()));
     }
@@ -457,17 +381,8 @@ fn integers_and_casts_are_free() {
         let expected = i % 3 - i / 2 + (bits >> 1) as i32 + (-i >> 1) + i.abs();
         let (result, counts) = call("integers", &[I32(i), U32(u)], Fma::Separate);
         assert_eq!(result, I32(expected + (u as f32 * 1.5) as i32));
-        assert_eq!(
-            counts,
-            Counts {
-                mul: 1,
-                ..Counts::default()
-            }
-        );
-        assert_eq!(
-            value("naturals", &[U32(u + 2)]),
-            U32((u + 2) / 2 * 3 - u % 2 + 2)
-        );
+        assert_eq!(counts, Counts { mul: 1, ..Counts::default() });
+        assert_eq!(value("naturals", &[U32(u + 2)]), U32((u + 2) / 2 * 3 - u % 2 + 2));
     }
 }
 
@@ -484,28 +399,13 @@ fn fma_rounds_once_or_twice() {
     let c = -(a * a);
     let (fused, counts) = call("cancel", &[F32(a), F32(c)], Fma::Fused);
     assert_eq!(fused, F32(2.0_f32.powi(-24)));
-    assert_eq!(
-        counts,
-        Counts {
-            fma: 1,
-            ..Counts::default()
-        }
-    );
-    assert_eq!(
-        call("cancel", &[F32(a), F32(c)], Fma::Separate),
-        (F32(0.0), counts)
-    );
+    assert_eq!(counts, Counts { fma: 1, ..Counts::default() });
+    assert_eq!(call("cancel", &[F32(a), F32(c)], Fma::Separate), (F32(0.0), counts));
 
     let colours = [Vec(vec![a; 3]), Vec(vec![c; 3])];
     let (fused, counts) = call("cancel_colour", &colours, Fma::Fused);
     assert_eq!(fused, Vec(vec![2.0_f32.powi(-24); 3]));
-    assert_eq!(
-        counts,
-        Counts {
-            fma: 3,
-            ..Counts::default()
-        }
-    );
+    assert_eq!(counts, Counts { fma: 3, ..Counts::default() });
 }
 
 #[test]
@@ -514,15 +414,7 @@ fn functions_call_functions() {
     let c = [C[0], C[1], C[2]];
     let (result, counts) = call("twice", &[F32(x), floats(&c)], Fma::Separate);
     assert_eq!(result, floats(&c.map(|c| (x + 1.0) * (x * c))));
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 6,
-            add: 1,
-            fma: 0,
-            special: 0
-        }
-    );
+    assert_eq!(counts, Counts { mul: 6, add: 1, fma: 0, special: 0 });
 }
 
 #[test]
@@ -530,31 +422,15 @@ fn counts_add_up_over_calls() {
     let mut counts = Counts::default();
     for _ in 0..3 {
         let args = [F32(0.5), floats(&C)];
-        SHADERS[0]
-            .call("looped", &args, &mut counts, Fma::Separate)
-            .unwrap();
+        SHADERS[0].call("looped", &args, &mut counts, Fma::Separate).unwrap();
     }
-    assert_eq!(
-        counts,
-        Counts {
-            mul: 18,
-            add: 18,
-            fma: 0,
-            special: 0
-        }
-    );
+    assert_eq!(counts, Counts { mul: 18, add: 18, fma: 0, special: 0 });
 }
 
 #[test]
 fn glsl_overloads_are_chosen_by_their_arguments() {
-    let shader = parse(
-        Language::Glsl,
-        "float twice(float x) { return x + x; } vec3 twice(vec3 x) { return x + x; }",
-    );
-    assert_eq!(
-        run(&shader, "twice", &[F32(1.5)], Fma::Separate).0,
-        F32(3.0)
-    );
+    let shader = parse(Language::Glsl, "float twice(float x) { return x + x; } vec3 twice(vec3 x) { return x + x; }");
+    assert_eq!(run(&shader, "twice", &[F32(1.5)], Fma::Separate).0, F32(3.0));
     let (result, counts) = run(&shader, "twice", &[Vec(vec![1.0, 2.0, 3.0])], Fma::Separate);
     assert_eq!(result, Vec(vec![2.0, 4.0, 6.0]));
     assert_eq!(counts.add, 3);
@@ -573,22 +449,9 @@ fn parameters_can_be_written() {
          fn scaled(c: array<f32, 2>, k: f32) -> array<f32, 2> { var r = c; scale(&r, k); r[0] += 1.0; return r; }",
     );
     for shader in [wgsl, glsl] {
-        let (result, counts) = run(
-            &shader,
-            "scaled",
-            &[floats(&[2.0, 3.0]), F32(4.0)],
-            Fma::Fused,
-        );
+        let (result, counts) = run(&shader, "scaled", &[floats(&[2.0, 3.0]), F32(4.0)], Fma::Fused);
         assert_eq!(result, floats(&[9.0, 12.0]));
-        assert_eq!(
-            counts,
-            Counts {
-                mul: 2,
-                add: 1,
-                fma: 0,
-                special: 0
-            }
-        );
+        assert_eq!(counts, Counts { mul: 2, add: 1, fma: 0, special: 0 });
     }
 }
 
@@ -597,16 +460,8 @@ fn parameters_can_be_written() {
 fn long_functions_run() {
     let mut lines = String::new();
     for i in 0..1000 {
-        let last = if i == 0 {
-            "c[0]".to_owned()
-        } else {
-            format!("t{}_", i - 1)
-        };
-        lines += &format!(
-            "let t{i}_ = {last} * 0.75 + c[{}] * c[{}];\n",
-            i % 100,
-            i * 7 % 100
-        );
+        let last = if i == 0 { "c[0]".to_owned() } else { format!("t{}_", i - 1) };
+        lines += &format!("let t{i}_ = {last} * 0.75 + c[{}] * c[{}];\n", i % 100, i * 7 % 100);
     }
     let text = format!("fn long(c: array<f32, 100>) -> f32 {{\n{lines}return t999_;\n}}");
     let shader = parse(Language::Wgsl, &text);
@@ -615,44 +470,23 @@ fn long_functions_run() {
     for _ in 0..100 {
         let (result, counts) = run(&shader, "long", &[floats(&c)], Fma::Separate);
         assert_eq!(result, F32(expected));
-        assert_eq!(
-            counts,
-            Counts {
-                mul: 2000,
-                add: 1000,
-                fma: 0,
-                special: 0
-            }
-        );
+        assert_eq!(counts, Counts { mul: 2000, add: 1000, fma: 0, special: 0 });
     }
 }
 
 fn error(language: Language, text: &str, function: &str, args: &[Value]) -> String {
-    parse(language, text)
-        .call(function, args, &mut Counts::default(), Fma::Fused)
-        .unwrap_err()
+    parse(language, text).call(function, args, &mut Counts::default(), Fma::Fused).unwrap_err()
 }
 
 #[test]
 fn wrong_calls_are_errors() {
     for shader in &*SHADERS {
-        let call = |function, args: &[Value]| {
-            shader
-                .call(function, args, &mut Counts::default(), Fma::Fused)
-                .unwrap_err()
-        };
+        let call =
+            |function, args: &[Value]| shader.call(function, args, &mut Counts::default(), Fma::Fused).unwrap_err();
         assert!(call("absent", &[]).contains("no function `absent`"));
-        let wrong: [&[Value]; 4] = [
-            &[],
-            &[F32(1.0), F32(2.0)],
-            &[F32(1.0), floats(&[1.0; 4])],
-            &[I32(1), floats(&C)],
-        ];
+        let wrong: [&[Value]; 4] = [&[], &[F32(1.0), F32(2.0)], &[F32(1.0), floats(&[1.0; 4])], &[I32(1), floats(&C)]];
         for args in wrong {
-            assert_eq!(
-                call("looped", args),
-                "no `looped` takes arguments of these types"
-            );
+            assert_eq!(call("looped", args), "no `looped` takes arguments of these types");
         }
         let index = call("nested", &[I32(6), floats(&C)]);
         assert!(index.contains("is outside 5 elements"), "{index}");
@@ -663,9 +497,7 @@ fn wrong_calls_are_errors() {
 }
 
 fn parse_error(language: Language, text: &str) -> String {
-    Shader::parse(language, text)
-        .err()
-        .expect("the text is wrong")
+    Shader::parse(language, text).err().expect("the text is wrong")
 }
 
 #[test]
@@ -699,11 +531,7 @@ fn what_is_not_supported_is_an_error_of_its_call_alone() {
         ("stateful", &[F32(1.0)], "GlobalVariable"),
         ("paired", &[F32(1.0)], "Struct"),
         ("sine", &[F32(1.0)], "Sin"),
-        (
-            "product",
-            &[matrix.clone(), Vec(vec![1.0; 3])],
-            "Multiply of [Matrix, Float]",
-        ),
+        ("product", &[matrix.clone(), Vec(vec![1.0; 3])], "Multiply of [Matrix, Float]"),
         ("half", &[matrix], "Multiply of [Matrix, Float]"),
         ("nothing", &[F32(1.0)], "returns nothing"),
         ("indices", &[I32(1)], "a result of type"),
@@ -713,10 +541,7 @@ fn what_is_not_supported_is_an_error_of_its_call_alone() {
     ];
     for (function, args, expected) in cases {
         let error = error(Language::Wgsl, text, function, args);
-        assert!(
-            error.contains(expected) && error.contains(function),
-            "{function}: {error}"
-        );
+        assert!(error.contains(expected) && error.contains(function), "{function}: {error}");
     }
     let shader = parse(Language::Wgsl, text);
     assert_eq!(run(&shader, "good", &[F32(1.0)], Fma::Fused).0, F32(2.0));

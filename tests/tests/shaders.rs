@@ -90,12 +90,15 @@ fn check(function: &Function, target: Target, language: Language) {
             })
             .collect();
         let mut counts = Counts::default();
-        let result = shader.call(&name, &arguments, &mut counts, Fma::Separate).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let result =
+            shader.call(&name, &arguments, &mut counts, Fma::Separate).unwrap_or_else(|e| panic!("{name}: {e}"));
         let got = channels_of(&result, shape, kind, channels);
         for (channel, got) in got.iter().enumerate() {
             let slices: Vec<&[f32]> = all[channel].iter().map(Vec::as_slice).collect();
             let want = runner.run(&slices, Contraction::Separate);
-            let bits = |values: &[f32]| -> Vec<u32> { values.iter().map(|x| if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }).collect() };
+            let bits = |values: &[f32]| -> Vec<u32> {
+                values.iter().map(|x| if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }).collect()
+            };
             assert_eq!(bits(got), bits(&want), "{name} in {target}, case {case}, channel {channel}");
         }
         let found = [counts.mul + counts.fma, counts.add + counts.fma, counts.special];

@@ -15,9 +15,7 @@ fn golden<T: DeserializeOwned>(name: &str) -> T {
 /// A rational written p or p/q, of any length.
 fn rational(text: &str) -> Exact {
     let natural = |digits: &str| {
-        digits.bytes().fold(Exact::zero(), |n, digit| {
-            n * Exact::int(10) + Exact::int((digit - b'0').into())
-        })
+        digits.bytes().fold(Exact::zero(), |n, digit| n * Exact::int(10) + Exact::int((digit - b'0').into()))
     };
     let (p, q) = text.split_once('/').unwrap_or((text, "1"));
     let size = natural(p.trim_start_matches('-')) / natural(q);
@@ -32,10 +30,7 @@ fn signed_square(e: &Exact) -> Exact {
 fn assert_bits(e: &Exact, expected: f64, what: &str) {
     assert_eq!(e.to_f64() + 0.0, expected + 0.0, "{what}");
     let single = e.to_f32();
-    assert!(
-        single == expected as f32 || is_midpoint(expected),
-        "{what}: {single} for {expected}"
-    );
+    assert!(single == expected as f32 || is_midpoint(expected), "{what}: {single} for {expected}");
 }
 
 /// Whether a rounding to `f32` by way of this `f64` may differ from the one from the exact value.
@@ -74,11 +69,7 @@ fn the_norms_are_the_golden_ones() {
     for (l, (squares, values)) in golden.sq.iter().zip(&golden.k).enumerate() {
         for (m, (square, value)) in squares.iter().zip(values).enumerate() {
             let k = tables::k(l, m);
-            assert_eq!(
-                &k * &k * Exact::int(4) * Exact::pi_sqrt_power(2),
-                rational(square),
-                "K {l} {m}"
-            );
+            assert_eq!(&k * &k * Exact::int(4) * Exact::pi_sqrt_power(2), rational(square), "K {l} {m}");
             assert_bits(&k, *value, &format!("K {l} {m}"));
         }
     }
@@ -95,16 +86,8 @@ fn the_derivatives_about_y_are_the_golden_ones() {
     }
     let golden: Golden = golden("dy");
     for (i, (l, m)) in coefficients(golden.n).enumerate() {
-        assert_bits(
-            &tables::dy_sub_diag(l, m),
-            golden.dy_sub_diag[i],
-            &format!("dySubDiag {l} {m}"),
-        );
-        assert_bits(
-            &tables::ddy_diag(l, m),
-            golden.ddy_diag[i],
-            &format!("ddyDiag {l} {m}"),
-        );
+        assert_bits(&tables::dy_sub_diag(l, m), golden.dy_sub_diag[i], &format!("dySubDiag {l} {m}"));
+        assert_bits(&tables::ddy_diag(l, m), golden.ddy_diag[i], &format!("ddyDiag {l} {m}"));
     }
 }
 
@@ -114,16 +97,8 @@ fn the_second_derivative_is_the_square_of_the_first() {
     for (l, m) in coefficients(10) {
         // Its entries besides those at [m, m-1] are their mirror images; degree -1 is joined to -2 only.
         let below = tables::dy_sub_diag(l, m);
-        let above = if m == l as isize {
-            Exact::zero()
-        } else {
-            tables::dy_sub_diag(l, m + 1)
-        };
-        assert_eq!(
-            -(&below * &below + &above * &above),
-            tables::ddy_diag(l, m),
-            "{l} {m}"
-        );
+        let above = if m == l as isize { Exact::zero() } else { tables::dy_sub_diag(l, m + 1) };
+        assert_eq!(-(&below * &below + &above * &above), tables::ddy_diag(l, m), "{l} {m}");
     }
 }
 
@@ -147,22 +122,12 @@ fn x90_turns_the_basis() {
         for (sign, turned) in [(1, [x, -z, y]), (-1, [x, z, -y])] {
             let expected = basis(golden.n, turned);
             for (l, a) in coefficients(golden.n) {
-                let value: f64 = degrees(l)
-                    .map(|b| tables::x90(l, a, b, sign).to_f64() * case.y[index(l, b)])
-                    .sum();
-                assert!(
-                    (value - expected[index(l, a)]).abs() < 1e-12,
-                    "{} {sign} {l} {a}",
-                    case.name
-                );
+                let value: f64 = degrees(l).map(|b| tables::x90(l, a, b, sign).to_f64() * case.y[index(l, b)]).sum();
+                assert!((value - expected[index(l, a)]).abs() < 1e-12, "{} {sign} {l} {a}", case.name);
             }
         }
         let (own, golden) = (basis(golden.n, case.unit), &case.y);
-        assert!(
-            own.iter().zip(golden).all(|(a, b)| (a - b).abs() < 1e-12),
-            "{}",
-            case.name
-        );
+        assert!(own.iter().zip(golden).all(|(a, b)| (a - b).abs() < 1e-12), "{}", case.name);
     }
 }
 
@@ -174,8 +139,7 @@ fn basis(order: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
         let degree = m as isize;
         let mut last = 0.0;
         // K P^(m) at l = m, with the basis's sign and √2.
-        let mut current = tables::legendre_polynomial(m, m)[0].to_f64()
-            * tables::basis_factor(m, degree).to_f64();
+        let mut current = tables::legendre_polynomial(m, m)[0].to_f64() * tables::basis_factor(m, degree).to_f64();
         for l in m..order {
             if l > m {
                 let (a, b) = tables::legendre_recurrence(l, m);

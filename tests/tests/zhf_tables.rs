@@ -23,10 +23,7 @@ fn non_zeros_by_band(set: &LobeSet) -> Vec<usize> {
 }
 
 fn values(matrix: &[Vec<Exact>]) -> Vec<Vec<f64>> {
-    matrix
-        .iter()
-        .map(|row| row.iter().map(Exact::to_f64).collect())
-        .collect()
+    matrix.iter().map(|row| row.iter().map(Exact::to_f64).collect()).collect()
 }
 
 #[track_caller]
@@ -79,37 +76,21 @@ struct Band {
 }
 
 fn assert_directions(lobes: &[Lobe], golden: &[[f64; 3]]) {
-    let ours: Vec<_> = lobes
-        .iter()
-        .map(|lobe| lobe.xyz().map(|x| x.to_f64()).to_vec())
-        .collect();
-    assert_close(
-        &ours,
-        &golden.iter().map(|d| d.to_vec()).collect::<Vec<_>>(),
-        1e-11,
-    );
+    let ours: Vec<_> = lobes.iter().map(|lobe| lobe.xyz().map(|x| x.to_f64()).to_vec()).collect();
+    assert_close(&ours, &golden.iter().map(|d| d.to_vec()).collect::<Vec<_>>(), 1e-11);
 }
 
 #[test]
 fn the_shared_sets_are_the_golden_ones() {
     for golden in golden::<Vec<Shared>>("zhf_best_shared") {
-        let set = if golden.free {
-            zhf::shared_free(golden.order)
-        } else {
-            zhf::shared(golden.order)
-        }
-        .unwrap();
+        let set = if golden.free { zhf::shared_free(golden.order) } else { zhf::shared(golden.order) }.unwrap();
         assert_eq!(set.order, golden.order);
         assert_directions(&set.directions, &golden.xyz);
         assert_eq!(set.subsets, golden.subs);
         assert_eq!(non_zeros_by_band(set), golden.per_band);
         for (l, cond) in golden.cond.iter().enumerate() {
             let own = condition(&values(&zhf::lobe_values(l, &set.lobes(l))));
-            assert!(
-                (own / cond - 1.0).abs() < 1e-6,
-                "order {} band {l}: {own}, golden {cond}",
-                golden.order
-            );
+            assert!((own / cond - 1.0).abs() < 1e-6, "order {} band {l}: {own}, golden {cond}", golden.order);
         }
     }
 }
@@ -117,15 +98,10 @@ fn the_shared_sets_are_the_golden_ones() {
 #[test]
 fn the_sets_have_the_known_counts_of_non_zeros() {
     let totals = |find: fn(usize) -> Option<&'static LobeSet>| -> Vec<usize> {
-        (2..=10)
-            .map(|order| non_zeros_by_band(find(order).unwrap()).iter().skip(2).sum())
-            .collect()
+        (2..=10).map(|order| non_zeros_by_band(find(order).unwrap()).iter().skip(2).sum()).collect()
     };
     assert_eq!(totals(zhf::shared), [0, 9, 28, 67, 135, 231, 352, 512, 730]);
-    assert_eq!(
-        totals(zhf::shared_free),
-        [0, 9, 28, 67, 124, 218, 347, 499, 721]
-    );
+    assert_eq!(totals(zhf::shared_free), [0, 9, 28, 67, 124, 218, 347, 499, 721]);
     for order in [0, 1, 11] {
         assert!(zhf::shared(order).is_none() && zhf::shared_free(order).is_none());
     }
@@ -138,21 +114,10 @@ fn the_bands_sets_are_the_golden_ones() {
         let (golden, lobes) = (&golden[&l.to_string()], zhf::single_band(l).unwrap());
         assert_directions(lobes, &golden.xyz);
         let a_hat = zhf::a_hat(l, lobes).unwrap();
-        let rows: Vec<_> = a_hat
-            .iter()
-            .map(|row| non_zeros(std::slice::from_ref(row)))
-            .collect();
-        assert_eq!(
-            (non_zeros(&a_hat), &rows),
-            (golden.nnz, &golden.rows),
-            "band {l}"
-        );
+        let rows: Vec<_> = a_hat.iter().map(|row| non_zeros(std::slice::from_ref(row))).collect();
+        assert_eq!((non_zeros(&a_hat), &rows), (golden.nnz, &golden.rows), "band {l}");
         let cond = condition(&values(&zhf::lobe_values(l, lobes)));
-        assert!(
-            (cond / golden.cond - 1.0).abs() < 1e-6,
-            "band {l}: {cond}, golden {}",
-            golden.cond
-        );
+        assert!((cond / golden.cond - 1.0).abs() < 1e-6, "band {l}: {cond}, golden {}", golden.cond);
     }
     // A sparser set than the golden one, and a better conditioned one.
     let lobes = zhf::single_band(9).unwrap();
@@ -178,14 +143,8 @@ fn the_matrices_are_the_golden_ones() {
     }
     let golden: Golden = golden("zhf");
     for (name, lobes) in [
-        (
-            "sparse_found_l2",
-            "pole, P2,0#1 7/4, P2,0#1 1/4, P2,0#1 5/4, equator 1/2",
-        ),
-        (
-            "sparse_found_l3",
-            "P3,1#1 11/6, equator 2/3, equator 0, P3,1#1 1/6, P3,1#1 7/6, pole, equator 1/3",
-        ),
+        ("sparse_found_l2", "pole, P2,0#1 7/4, P2,0#1 1/4, P2,0#1 5/4, equator 1/2"),
+        ("sparse_found_l3", "P3,1#1 11/6, equator 2/3, equator 0, P3,1#1 1/6, P3,1#1 7/6, pole, equator 1/3"),
         (
             "sparse_found_l4",
             "equator 7/8, pole, P4,0#2 3/2, equator 1/2, equator 0, P4,1#1 1/2, equator 3/8, P2,0#1 1, P4,1#1 1",
@@ -202,10 +161,7 @@ fn the_matrices_are_the_golden_ones() {
         ),
     ] {
         let case = golden.cases.iter().find(|case| case.name == name).unwrap();
-        let lobes: Vec<Lobe> = lobes
-            .split(", ")
-            .map(|text| text.parse().unwrap())
-            .collect();
+        let lobes: Vec<Lobe> = lobes.split(", ").map(|text| text.parse().unwrap()).collect();
         assert_directions(&lobes, &case.dirs);
         assert_close(&values(&zhf::lobe_values(case.l, &lobes)), &case.Y, 1e-9);
         let a_hat = zhf::a_hat(case.l, &lobes).unwrap();
@@ -218,26 +174,15 @@ fn the_matrices_are_the_golden_ones() {
 #[test]
 fn zeros_are_told_from_small_numbers() {
     for order in 2..=10 {
-        for set in [
-            zhf::shared(order).unwrap(),
-            zhf::shared_free(order).unwrap(),
-        ] {
+        for set in [zhf::shared(order).unwrap(), zhf::shared_free(order).unwrap()] {
             for l in 0..order {
                 let (y, a_hat) = (zhf::lobe_values(l, &set.lobes(l)), set.a_hat(l));
                 for x in y.iter().chain(a_hat).flatten().filter(|x| !x.is_zero()) {
-                    assert!(
-                        x.to_f64().abs() > 2f64.powi(-60),
-                        "order {order} band {l}: {x:?}"
-                    );
+                    assert!(x.to_f64().abs() > 2f64.powi(-60), "order {order} band {l}: {x:?}");
                 }
                 for (i, row) in y.iter().enumerate() {
-                    let product =
-                        |d: usize| row.iter().zip(a_hat).map(|(x, a)| x * &a[d]).sum::<Exact>();
-                    assert!((0..y.len()).all(|d| if d == i {
-                        product(d).is_one()
-                    } else {
-                        product(d).is_zero()
-                    }));
+                    let product = |d: usize| row.iter().zip(a_hat).map(|(x, a)| x * &a[d]).sum::<Exact>();
+                    assert!((0..y.len()).all(|d| if d == i { product(d).is_one() } else { product(d).is_zero() }));
                 }
             }
         }
@@ -259,17 +204,10 @@ fn both_ways_rotate() {
     }
     let golden: Golden = golden("rotations");
     let set = zhf::shared(6).unwrap();
-    for (case, l) in golden
-        .cases
-        .iter()
-        .flat_map(|case| (1..6).map(move |l| (case, l)))
-    {
+    for (case, l) in golden.cases.iter().flat_map(|case| (1..6).map(move |l| (case, l))) {
         let a_hat = values(set.a_hat(l));
         let c: Vec<f64> = degrees(l).map(|m| ((3 * m + 1) as f64).sin()).collect();
-        let expected: Vec<f64> = case.D[l]
-            .iter()
-            .map(|row| row.iter().zip(&c).map(|(d, c)| d * c).sum())
-            .collect();
+        let expected: Vec<f64> = case.D[l].iter().map(|row| row.iter().zip(&c).map(|(d, c)| d * c).sum()).collect();
         let mut tailored = vec![0.0; c.len()];
         let mut standard = vec![0.0; c.len()];
         for (d, lobe) in set.lobes(l).iter().enumerate() {
@@ -295,10 +233,7 @@ fn band(l: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
     let (mut cosine, mut sine) = (1.0, 0.0);
     for m in 0..=l {
         let polynomial = legendre_polynomial(l, m);
-        let value = polynomial
-            .iter()
-            .rev()
-            .fold(0.0, |sum, c| sum * z + c.to_f64());
+        let value = polynomial.iter().rev().fold(0.0, |sum, c| sum * z + c.to_f64());
         let factor = basis_factor(l, m as isize).to_f64() * value;
         values[l - m] = factor * sine;
         values[l + m] = factor * cosine;
@@ -309,31 +244,12 @@ fn band(l: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
 
 #[test]
 fn directions_read_as_they_are_written() {
-    for text in [
-        "pole",
-        "equator 0",
-        "equator 3/4",
-        "P6,1#2 1/3",
-        "P10,8#1 7/4",
-    ] {
+    for text in ["pole", "equator 0", "equator 3/4", "P6,1#2 1/3", "P10,8#1 7/4"] {
         assert_eq!(text.parse::<Lobe>().unwrap().to_string(), text);
     }
-    for text in [
-        "",
-        "equator",
-        "equator 1/0",
-        "P6,1 1/3",
-        "P6,1#0 0",
-        "P6,1#3 0",
-        "P6,7#1 0",
-        "P65,1#1 0",
-        "north",
-    ] {
+    for text in ["", "equator", "equator 1/0", "P6,1 1/3", "P6,1#0 0", "P6,1#3 0", "P6,7#1 0", "P65,1#1 0", "north"] {
         let error = text.parse::<Lobe>().unwrap_err().to_string();
         assert!(error.starts_with(&format!("`{text}`")), "{error}");
     }
-    assert_eq!(
-        "P6,1#2 1/3".parse::<Lobe>().unwrap().describe(),
-        "z = root 2 of P_6^1, azimuth π/3"
-    );
+    assert_eq!("P6,1#2 1/3".parse::<Lobe>().unwrap().describe(), "z = root 2 of P_6^1, azimuth π/3");
 }

@@ -1,10 +1,9 @@
 //! What the commands print. All of it comes from the library; here it is only laid out.
 
-use super::{Failure, out, out_json, spec_of};
-use indicatif::ProgressBar;
+use super::{Failure, out, out_json, progress, spec_of};
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use zonal_codegen::builder;
 use zonal_codegen::catalog::{self, Row};
 use zonal_codegen::diagnostic::Diagnostic;
@@ -20,13 +19,6 @@ const EMBEDDED: &str = include_str!("../../scenes/glossy.toml");
 /// Its map, by the name that it uses.
 const EMBEDDED_MAPS: &[(&str, &[u8])] =
     &[("maps/city_256x128.hdr", include_bytes!("../../scenes/maps/city_256x128.hdr"))];
-
-/// Something that turns while a command works, on terminals only.
-fn progress(message: String) -> ProgressBar {
-    let bar = ProgressBar::new_spinner().with_message(message);
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
-}
 
 fn scene(path: Option<PathBuf>) -> Result<Plan, Failure> {
     let scene = match path {
@@ -48,12 +40,12 @@ fn errors(chosen: &Chosen) -> String {
 
 pub fn generate(path: Option<PathBuf>, folder: Option<PathBuf>) -> Result<(), Failure> {
     let start = Instant::now();
-    let bar = progress("planning, generating and validating".to_owned());
+    let bar = progress("planning, generating and validating");
     let plan = scene(path)?;
     let files = builder::files_of(&plan)?;
     let folder = folder.unwrap_or_else(|| PathBuf::from(&plan.output));
     let changed = files::write(&folder, &files)?;
-    bar.finish_and_clear();
+    drop(bar);
 
     let targets: Vec<&str> = plan.targets.iter().map(|target| target.name()).collect();
     let mut text = format!("{}: for {}\n", plan.scene, targets.join(", "));
@@ -89,7 +81,9 @@ pub fn generate(path: Option<PathBuf>, folder: Option<PathBuf>) -> Result<(), Fa
 }
 
 pub fn plan(path: Option<PathBuf>, json: bool) -> Result<(), Failure> {
+    let bar = progress("planning");
     let plan = scene(path)?;
+    drop(bar);
     match json {
         true => out_json(&plan),
         false => out(&plan.to_string()),
@@ -103,9 +97,9 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
         family.is_none_or(|family| text.split(':').next() == Some(family))
             && order.is_none_or(|order| spec.order as u64 == order)
     });
-    let bar = progress(format!("measuring {} kernels", specs.len()));
+    let bar = progress(&format!("measuring {} kernels", specs.len()));
     let rows: Vec<Row> = catalog::build(&specs).iter().map(Row::of).collect();
-    bar.finish_and_clear();
+    drop(bar);
     if json {
         return out_json(&rows);
     }
@@ -138,9 +132,11 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
 pub fn show(spec: &str, target: &str) -> Result<(), Failure> {
     let spec = spec_of(spec)?;
     let target: Target = target.parse().map_err(|message: String| Diagnostic::nowhere(message, ""))?;
+    let bar = progress("building and measuring");
     let functions = catalog::build(std::slice::from_ref(&spec));
     let module = Module { name: spec.name(), origin: format!("`{spec}`"), functions, constants: vec![] };
     let file = catalog::file(&module, target, format!("{}.{}", spec.name(), target.extension()))?;
+    drop(bar);
     out(&file.text)
 }
 
@@ -191,23 +187,21 @@ pub fn project(path: &Path, order: usize, irradiance: bool, json: bool) -> Resul
     ))
 }
 
-/// Refuses to treat a folder of something else as a catalogue, whose orphans are removed.
-fn check_folder(folder: &Path, orphans: &[String]) -> Result<(), Failure> {
-    let refuse = |what: String| {
-        let help = "name a new folder or one that zonal wrote: what nothing generates is removed from it";
-        Err(Diagnostic::nowhere(format!("`{}` is no catalogue: {what}", folder.display()), help).into())
-    };
-    match orphans.iter().find(|path| !files::is_generated(&folder.join(path))) {
-        Some(path) => refuse(format!("zonal did not write its `{path}`")),
-        None => Ok(()),
-    }
+/// Refuses to treat a folder of something else as a catalogue, from which what nothing generates is removed.
+fn refuse(folder: &Path, what: &str) -> Result<(), Failure> {
+    let message = format!("`{}` is no catalogue: {what}", folder.display());
+    Err(Diagnostic::nowhere(message, "name a new folder, or one that zonal wrote; orphans are removed from it").into())
 }
 
 pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
     let start = Instant::now();
-    let bar = progress("generating and validating the catalogue".to_owned());
+    let is_used = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    if is_used && !check && !folder.join(catalog::COSTS).is_file() {
+        return refuse(folder, &format!("it holds files, but no {}", catalog::COSTS));
+    }
+    let bar = progress("generating and validating the catalogue");
     let all = catalog::files()?;
-    bar.finish_and_clear();
+    drop(bar);
     let found = files::differences(folder, &all)?;
     if check {
         if found.is_empty() {
@@ -219,11 +213,13 @@ pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
         let help = format!("run `zonal catalog --dir {}`", folder.display());
         return Err(Diagnostic::nowhere(message, help).into());
     }
-    let orphans = found.into_iter().filter_map(|difference| match difference {
-        Difference::Orphaned(path) => Some(path),
-        _ => None,
-    });
-    check_folder(folder, &orphans.collect::<Vec<_>>())?;
+    for difference in &found {
+        if let Difference::Orphaned(path) = difference
+            && !files::is_generated(&folder.join(path))
+        {
+            return refuse(folder, &format!("zonal did not write its `{path}`"));
+        }
+    }
     let changed = files::write(folder, &all)?;
     let removed = files::remove_orphans(folder, &all)?;
     out(&format!(

@@ -4,11 +4,13 @@ mod commands;
 mod vectors;
 
 use clap::{Parser, Subcommand};
+use indicatif::{ProgressBar, ProgressFinish};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 use zonal_codegen::builder::Error;
 use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::emit::dialect::Target;
@@ -134,6 +136,13 @@ macro_rules! failure_from {
 
 failure_from!(zonal_codegen::catalog::GenerateError, zonal_codegen::files::FileError);
 
+/// Something that turns while a command works, on terminals only; it vanishes when it is dropped.
+fn progress(message: &str) -> ProgressBar {
+    let bar = ProgressBar::new_spinner().with_message(message.to_owned()).with_finish(ProgressFinish::AndClear);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
 /// Prints to the standard output; a closed pipe ends the command in silence.
 fn out(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
@@ -202,10 +211,11 @@ impl miette::Diagnostic for Drawn<'_> {
 }
 
 fn draw(diagnostic: &Diagnostic) -> String {
-    let theme = match io::stderr().is_terminal() {
+    let mut theme = match io::stderr().is_terminal() {
         true => GraphicalTheme::default(),
         false => GraphicalTheme::none(),
     };
+    (theme.characters.underline, theme.characters.underbar) = ('^', '^');
     let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
     let mut text = String::new();
     match handler.render_report(&mut text, &Drawn::new(diagnostic)) {

@@ -2,7 +2,7 @@
 //! engine's own tests can read. Arrays are nested as the parameters are: pairs by pairs, a matrix by columns, an RGB
 //! signal by triples.
 
-use super::{Failure, out_json, spec_of};
+use super::{Failure, out_json, progress, spec_of};
 use serde_json::{Map, Value, json};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -169,6 +169,7 @@ fn run<T: Number>(runner: &zonal_codegen::code::Runner<T>, case: &[Channels], ch
 
 pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Result<(), Failure> {
     let spec = spec_of(text)?;
+    let bar = progress("building and running");
     let code = built::code(&spec);
     let params = code.params();
     let cases = match file {
@@ -200,6 +201,7 @@ pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Resu
         .iter()
         .map(|param| json!({"name": param.name, "shape": lengths(param.shape, param.kind, spec.rgb), "doc": param.doc}))
         .collect();
+    drop(bar);
     out_json(&json!({
         "spec": spec.to_string(),
         "name": spec.name(),

@@ -67,22 +67,14 @@ struct Printer<'a> {
 
 impl Printer<'_> {
     fn operand(&self, operand: Operand) -> Text {
-        let atom = |text: String| Text {
-            text,
-            binding: Binding::Atom,
-            names: vec![],
-        };
+        let atom = |text: String| Text { text, binding: Binding::Atom, names: vec![] };
         match operand {
             Operand::Step(place) => self.texts[place].clone().expect("steps come before their uses"),
             Operand::Const(place) => {
                 let value = &self.listing.constants[place];
                 let text = self.dialect.literal(value);
                 match value.signum() < 0 && self.dialect.target != Target::Rust {
-                    true => Text {
-                        text,
-                        binding: Binding::Product,
-                        names: vec![],
-                    },
+                    true => Text { text, binding: Binding::Product, names: vec![] },
                     false => atom(text),
                 }
             }
@@ -141,10 +133,7 @@ impl Printer<'_> {
             }
             Op::Mul(a, b) => {
                 let (a, b) = (get(a), get(b));
-                (
-                    format!("{} * {}", a.at_least(Binding::Product), b.at_least(Binding::Atom)),
-                    Binding::Product,
-                )
+                (format!("{} * {}", a.at_least(Binding::Product), b.at_least(Binding::Atom)), Binding::Product)
             }
             Op::Recip(_) => (self.infix(op).0, Binding::Atom),
             _ => self.infix(op),
@@ -170,17 +159,8 @@ impl Printer<'_> {
             Text { text, binding, names }
         } else {
             let number = self.lines.len();
-            self.lines.push(Line {
-                number,
-                kind: step.kind,
-                text,
-                names,
-            });
-            Text {
-                text: format!("t{number}"),
-                binding: Binding::Atom,
-                names: vec![number],
-            }
+            self.lines.push(Line { number, kind: step.kind, text, names });
+            Text { text: format!("t{number}"), binding: Binding::Atom, names: vec![number] }
         });
     }
 }
@@ -188,12 +168,7 @@ impl Printer<'_> {
 impl Body {
     /// The lines of a listing in a dialect.
     pub fn new(listing: &Listing, dialect: Dialect) -> Self {
-        let mut printer = Printer {
-            listing,
-            dialect,
-            texts: vec![None; listing.steps.len()],
-            lines: Vec::new(),
-        };
+        let mut printer = Printer { listing, dialect, texts: vec![None; listing.steps.len()], lines: Vec::new() };
         for place in 0..listing.steps.len() {
             printer.step(place);
         }
@@ -205,9 +180,6 @@ impl Body {
                 (text.text, text.names)
             })
             .collect();
-        Self {
-            lines: printer.lines,
-            results,
-        }
+        Self { lines: printer.lines, results }
     }
 }

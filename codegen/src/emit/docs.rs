@@ -77,32 +77,68 @@ pub fn summary(spec: &Spec) -> String {
     };
     let order = spec.order;
     match &spec.family {
-        Family::Basis => format!("The spherical harmonics {which} at a direction, accurate also near the poles (Sloan 2013's recurrence, rearranged)."),
+        Family::Basis => format!(
+            "The spherical harmonics {which} at a direction, accurate also near the poles (Sloan 2013's recurrence, rearranged)."
+        ),
         Family::Eval => format!("The sum of c_i y_i(dir) over the harmonics {which}, without storing the basis."),
         Family::RotateZ => format!("Rotates order {order} about z by the angle of (cos, sin)."),
-        Family::RotateY => format!("Rotates order {order} about y by the angle of (cos, sin), exactly and at every angle."),
+        Family::RotateY => {
+            format!("Rotates order {order} about y by the angle of (cos, sin), exactly and at every angle.")
+        }
         Family::SwapYz => format!("Exchanges y and z of order {order}: the sparse symmetric matrix J, a reflection."),
         Family::RotateXPlus90 => format!("Rotates order {order} about x by +90 degrees, a sparse matrix."),
         Family::RotateXMinus90 => format!("Rotates order {order} about x by -90 degrees, a sparse matrix."),
-        Family::Angles => format!("The multiples of the three angles of a rotation that `rotate:{order}:angles` takes; done once for many signals."),
+        Family::Angles => format!(
+            "The multiples of the three angles of a rotation that `rotate:{order}:angles` takes; done once for many signals."
+        ),
         Family::Tilt => match order {
-            2 | 3 => format!("Tilts order {order}: the shortest rotation from z to a normal, exactly, with no trigonometry."),
-            _ => format!("Tilts order {order}: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with (-n.x, -n.y, n.z)."),
+            2 | 3 => {
+                format!("Tilts order {order}: the shortest rotation from z to a normal, exactly, with no trigonometry.")
+            }
+            _ => format!(
+                "Tilts order {order}: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with (-n.x, -n.y, n.z)."
+            ),
         },
-        Family::SmallY(methods) => format!("Rotates order {order} about y by a small angle, approximately ({}).", small_source(methods)),
-        Family::Zhf => format!("Rotates order {order} by sparse zonal factorisation over {} shared lobes (Nowrouzezahrai et al. 2012, the standard rotation).", 2 * order - 1),
-        Family::ZhfWeights => format!("The weights of the zonal lobes of order {order}, the sparse product A^^T c (Nowrouzezahrai et al. 2012)."),
-        Family::ZhfTailored => format!("Rotates order {order} from samples at the lobes, the sparse product A^ f (Nowrouzezahrai et al. 2012, the signal-tailored rotation)."),
+        Family::SmallY(methods) => {
+            format!("Rotates order {order} about y by a small angle, approximately ({}).", small_source(methods))
+        }
+        Family::Zhf => format!(
+            "Rotates order {order} by sparse zonal factorisation over {} shared lobes (Nowrouzezahrai et al. 2012, the standard rotation).",
+            2 * order - 1
+        ),
+        Family::ZhfWeights => format!(
+            "The weights of the zonal lobes of order {order}, the sparse product A^^T c (Nowrouzezahrai et al. 2012)."
+        ),
+        Family::ZhfTailored => format!(
+            "Rotates order {order} from samples at the lobes, the sparse product A^ f (Nowrouzezahrai et al. 2012, the signal-tailored rotation)."
+        ),
         Family::Rotate(method) => match method {
-            Method::Zyz => format!("Rotates order {order} exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle."),
-            Method::Tensor => format!("Rotates order {order} exactly, as vector and tensor from a quaternion: products and sums only."),
-            Method::Matrix => format!("Rotates order {order} exactly, as vector and tensor from a 3x3 matrix: products and sums only."),
+            Method::Zyz => format!(
+                "Rotates order {order} exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle."
+            ),
+            Method::Tensor => format!(
+                "Rotates order {order} exactly, as vector and tensor from a quaternion: products and sums only."
+            ),
+            Method::Matrix => format!(
+                "Rotates order {order} exactly, as vector and tensor from a 3x3 matrix: products and sums only."
+            ),
             Method::Euler => format!("Rotates order {order} exactly, by z, y, z from three (cos, sin) pairs."),
-            Method::Angles => format!("Rotates order {order} exactly, by z, y, z from the multiples that `angles:{order}` makes."),
-            Method::Zxzxz => format!("Rotates order {order} exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al. 2005): the baseline."),
-            Method::Align => format!("Rotates order {order} exactly so that z goes to a normal, the spin about it left open."),
-            Method::Zonal => format!("Rotates a zonal signal of order {order} exactly so that its axis goes from z to a direction."),
-            Method::Small(methods) => format!("Rotates order {order} by z, y, z with a small y angle, approximately ({}).", small_source(methods)),
+            Method::Angles => {
+                format!("Rotates order {order} exactly, by z, y, z from the multiples that `angles:{order}` makes.")
+            }
+            Method::Zxzxz => format!(
+                "Rotates order {order} exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al. 2005): the baseline."
+            ),
+            Method::Align => {
+                format!("Rotates order {order} exactly so that z goes to a normal, the spin about it left open.")
+            }
+            Method::Zonal => {
+                format!("Rotates a zonal signal of order {order} exactly so that its axis goes from z to a direction.")
+            }
+            Method::Small(methods) => format!(
+                "Rotates order {order} by z, y, z with a small y angle, approximately ({}).",
+                small_source(methods)
+            ),
         },
     }
 }
@@ -151,10 +187,11 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
         accuracy.rounding_f32,
         accuracy.relative_to,
         crate::accuracy::MARGIN,
-        crate::accuracy::SAMPLES
+        accuracy.samples
     );
     if !accuracy.method.is_empty() {
-        let at: Vec<String> = accuracy.method.iter().map(|(degrees, error)| format!("{error:e} at {degrees}")).collect();
+        let at: Vec<String> =
+            accuracy.method.iter().map(|(degrees, error)| format!("{error:e} at {degrees}")).collect();
         text += &format!(
             " Method error, the worst band's in spectral norm: {} degrees; it grows without bound beyond.",
             at.join(", ")

@@ -28,31 +28,18 @@ pub struct LoopText {
 
 /// The first table that is too long for a shader, if there is one.
 pub fn too_long(kernel: &LoopKernel) -> Option<&Table> {
-    kernel
-        .tables
-        .iter()
-        .find(|table| table.values.len() > MAX_TABLE)
+    kernel.tables.iter().find(|table| table.values.len() > MAX_TABLE)
 }
 
 /// Prints a kernel; `prefix` and an underscore stand before the name of each of its tables.
 pub fn print(kernel: &LoopKernel, dialect: Dialect, prefix: &str) -> LoopText {
     let params = kernel.params.iter().map(|param| (param.name, param.kind));
     let tables = kernel.tables.iter().map(|table| (table.name, Kind::Scalar));
-    let mut printer = Printer {
-        kernel,
-        dialect,
-        prefix,
-        kinds: params.chain(tables).collect(),
-        lines: Vec::new(),
-        indent: 0,
-    };
+    let mut printer =
+        Printer { kernel, dialect, prefix, kinds: params.chain(tables).collect(), lines: Vec::new(), indent: 0 };
     printer.block(&kernel.body);
     LoopText {
-        tables: kernel
-            .tables
-            .iter()
-            .map(|table| printer.table(table))
-            .collect(),
+        tables: kernel.tables.iter().map(|table| printer.table(table)).collect(),
         lines: printer.lines,
         result: kernel.output.to_owned(),
     }
@@ -106,17 +93,11 @@ struct Printer<'a> {
 
 impl Printer<'_> {
     fn table(&self, table: &Table) -> String {
-        let (name, len) = (
-            format!("{}_{}", self.prefix, table.name),
-            table.values.len(),
-        );
+        let (name, len) = (format!("{}_{}", self.prefix, table.name), table.values.len());
         let rust = self.dialect.target == Target::Rust;
         let (open, close) = match rust {
             // A constant would be copied wherever it is indexed.
-            true => (
-                format!("#[allow(clippy::approx_constant)]\nstatic {name}: [f64; {len}] = ["),
-                "];",
-            ),
+            true => (format!("#[allow(clippy::approx_constant)]\nstatic {name}: [f64; {len}] = ["), "];"),
             false => self.dialect.table(&name, Shape::Array(len)),
         };
         let mut lines: Vec<String> = table.doc.lines().map(|line| format!("// {line}")).collect();
@@ -140,8 +121,7 @@ impl Printer<'_> {
     }
 
     fn line(&mut self, text: &str) {
-        self.lines
-            .push(format!("{:indent$}{text}", "", indent = 4 * self.indent));
+        self.lines.push(format!("{:indent$}{text}", "", indent = 4 * self.indent));
     }
 
     fn block(&mut self, body: &[Stmt]) {
@@ -172,31 +152,15 @@ impl Printer<'_> {
                 });
             }
             Stmt::Store(name, index, value) => {
-                self.line(&format!(
-                    "{name}[{}] = {};",
-                    self.int(index).text,
-                    self.num(value).text
-                ));
+                self.line(&format!("{name}[{}] = {};", self.int(index).text, self.num(value).text));
             }
-            Stmt::For {
-                name,
-                from,
-                to,
-                step,
-                body,
-            } => {
+            Stmt::For { name, from, to, step, body } => {
                 let (from, to) = (self.int(from).text, self.int(to).text);
-                let variable = if self.dialect.target == Target::Wgsl {
-                    "var"
-                } else {
-                    "int"
-                };
+                let variable = if self.dialect.target == Target::Wgsl { "var" } else { "int" };
                 self.line(&match (self.dialect.target, step) {
                     (Target::Rust, 1) => format!("for {name} in {from}..{to} {{"),
                     (Target::Rust, _) => format!("for {name} in ({from}..{to}).step_by({step}) {{"),
-                    _ => format!(
-                        "for ({variable} {name} = {from}; {name} < {to}; {name} += {step}) {{"
-                    ),
+                    _ => format!("for ({variable} {name} = {from}; {name} < {to}; {name} += {step}) {{"),
                 });
                 self.indent += 1;
                 self.block(body);
@@ -220,11 +184,7 @@ impl Printer<'_> {
         match value {
             Num::Const(_) | Num::Tiny => Kind::Scalar,
             Num::Name(name) | Num::Item(name, _) => self.kinds[name],
-            Num::Op(_, args) => args
-                .iter()
-                .map(|arg| self.kind(arg))
-                .max()
-                .unwrap_or(Kind::Scalar),
+            Num::Op(_, args) => args.iter().map(|arg| self.kind(arg)).max().unwrap_or(Kind::Scalar),
         }
     }
 
@@ -250,11 +210,7 @@ impl Printer<'_> {
         let place = format!("[{}]", self.int(index).text);
         if self.kernel.tables.iter().any(|table| table.name == name) {
             let item = format!("{}_{name}{place}", self.prefix);
-            return if rust {
-                format!("T::lit({item})")
-            } else {
-                item
-            };
+            return if rust { format!("T::lit({item})") } else { item };
         }
         let param = self.kernel.params.iter().find(|param| param.name == name);
         match (param, index) {
@@ -267,11 +223,7 @@ impl Printer<'_> {
         let (op, args) = match value {
             Num::Const(value) => {
                 let text = self.dialect.literal(value);
-                let binding = if text.starts_with('-') {
-                    Binding::Product
-                } else {
-                    Binding::Atom
-                };
+                let binding = if text.starts_with('-') { Binding::Product } else { Binding::Atom };
                 return Text { text, binding };
             }
             Num::Tiny => return Text::atom(self.dialect.tiny().to_owned()),
@@ -282,10 +234,7 @@ impl Printer<'_> {
         let args: Vec<Text> = args.iter().map(|arg| self.num(arg)).collect();
         let rust = self.dialect.target == Target::Rust;
         match (op, &args[..]) {
-            (NumOp::Neg, [a]) => Text {
-                text: format!("-{}", a.at_least(Binding::Atom)),
-                binding: Binding::Product,
-            },
+            (NumOp::Neg, [a]) => Text { text: format!("-{}", a.at_least(Binding::Atom)), binding: Binding::Product },
             (NumOp::Add, [a, b]) => Text::infix(a, "+", b),
             (NumOp::Sub, [a, b]) => Text::infix(a, "-", b),
             (NumOp::Mul, [a, b]) => Text::infix(a, "*", b),
@@ -295,12 +244,7 @@ impl Printer<'_> {
                     Sign::MinusAddend => "fms",
                     Sign::MinusProduct => "fnma",
                 };
-                Text::atom(format!(
-                    "{}.{method}({}, {})",
-                    a.at_least(Binding::Atom),
-                    b.text,
-                    c.text
-                ))
+                Text::atom(format!("{}.{method}({}, {})", a.at_least(Binding::Atom), b.text, c.text))
             }
             (NumOp::Fma(sign), [a, b, c]) => {
                 let product = Text::infix(a, "*", b);
@@ -310,14 +254,9 @@ impl Printer<'_> {
                     Sign::MinusProduct => Text::infix(c, "-", &product),
                 }
             }
-            (NumOp::Recip, [a]) => Text {
-                text: self.dialect.recip(&a.text),
-                binding: if rust {
-                    Binding::Atom
-                } else {
-                    Binding::Product
-                },
-            },
+            (NumOp::Recip, [a]) => {
+                Text { text: self.dialect.recip(&a.text), binding: if rust { Binding::Atom } else { Binding::Product } }
+            }
             (NumOp::Rsqrt, [a]) => Text::atom(self.dialect.rsqrt(&a.text)),
             _ => unreachable!("{op:?} has other arguments than {}", args.len()),
         }

@@ -167,10 +167,7 @@ impl Function {
     }
 
     fn shader(&self, target: Target) -> Result<FunctionText, Limit> {
-        let dialect = Dialect {
-            target,
-            rgb: self.spec.rgb,
-        };
+        let dialect = Dialect { target, rgb: self.spec.rgb };
         let name = self.shader_name();
         let mut text = self.frame(dialect, name, &self.spec);
         match &self.built.code {
@@ -242,10 +239,7 @@ impl Function {
     }
 
     fn rust(&self, name: String) -> FunctionText {
-        let dialect = Dialect {
-            target: Target::Rust,
-            rgb: false,
-        };
+        let dialect = Dialect { target: Target::Rust, rgb: false };
         let mut text = self.frame(dialect, name, &Built::base(&self.spec));
         match &self.built.code {
             Code::Straight(listing) => {
@@ -279,7 +273,8 @@ impl Function {
                 chunk.iter().flat_map(|line| &line.names).copied().filter(|&name| name < first).collect();
             let later = body.lines[end..].iter().flat_map(|line| &line.names);
             let results = body.results.iter().flat_map(|(_, names)| names);
-            let handed: BTreeSet<usize> = later.chain(results).copied().filter(|name| (first..end).contains(name)).collect();
+            let handed: BTreeSet<usize> =
+                later.chain(results).copied().filter(|name| (first..end).contains(name)).collect();
             let split = |names: &BTreeSet<usize>, kind: Kind| -> Vec<String> {
                 names.iter().filter(|&&name| kinds[name] == kind).map(|name| format!("t{name}")).collect()
             };
@@ -318,10 +313,7 @@ impl Function {
     }
 
     fn wrapper(&self, generic: &str, name: String) -> WrapperText {
-        let plain = Dialect {
-            target: Target::Rust,
-            rgb: false,
-        };
+        let plain = Dialect { target: Target::Rust, rgb: false };
         let rgb = |text: String| text.replace('V', "[T; 3]");
         let params = self.built.code.params();
         let arguments: Vec<String> = params
@@ -430,7 +422,7 @@ impl Module {
     /// A Rust file that stands alone: `real`, then a module for each order, then the constants.
     pub fn rust_alone(&self) -> String {
         let mut text = format!(
-            "{}\n/// What the kernels are generic over.\npub mod real {{\n{}}}\n",
+            "{}\n/// What the kernels are generic over.\n#[allow(dead_code)]\npub mod real {{\n{}}}\n",
             self.rust_head(),
             support::real(support::Std::Always)
         );
@@ -441,7 +433,7 @@ impl Module {
                 ..Self::default()
             };
             text += &format!(
-                "\n/// Kernels of order {order}.\npub mod sh{order} {{\n{}}}\n",
+                "\n/// Kernels of order {order}.\n#[allow(dead_code)]\npub mod sh{order} {{\n{}}}\n",
                 module.with_uses("super::real")
             );
         }

@@ -55,7 +55,8 @@ pub fn real(std: Std) -> String {
             }
         }
     };
-    let narrow = float(quote! { f32 }, quote! { 1e-15 }, root32, quote! { value as f32 }, quote! { value: f32, _: f64 });
+    let narrow =
+        float(quote! { f32 }, quote! { 1e-15 }, root32, quote! { value as f32 }, quote! { value: f32, _: f64 });
     let wide = float(quote! { f64 }, quote! { 1e-30 }, root64, quote! { value }, quote! { _: f32, value: f64 });
     // A tuple of numbers that is worked on number by number; a factor is one number or one for each.
     let tuple = |name: TokenStream, factor: TokenStream, of_factor: TokenStream| {

@@ -76,28 +76,19 @@ impl Columns {
         for m in 1..order {
             let k = factor(m);
             let pair = match (m, sectoral) {
-                (1, _) => Phase {
-                    cos: g.scale(&k, x),
-                    sin: g.scale(&k, y),
-                },
+                (1, _) => Phase { cos: g.scale(&k, x), sin: g.scale(&k, y) },
                 (2, Sectoral::UnitLength) => {
                     let ky = g.scale(&(&k * &Exact::int(2)), y);
                     let rim = g.affine(&-&k, z2, &k);
                     let yy = g.mul(ky, y);
-                    Phase {
-                        cos: g.sub(rim, yy),
-                        sin: g.mul(ky, x),
-                    }
+                    Phase { cos: g.sub(rim, yy), sin: g.mul(ky, x) }
                 }
                 (3, Sectoral::UnitLength) => {
                     let ratio = &(&k * &Exact::int(2)) / &factor(2);
                     let rim = g.affine(&-&k, z2, &k);
                     let c2 = g.scale(&ratio, pairs[2].cos);
                     let (plus, minus) = (g.add(c2, rim), g.sub(c2, rim));
-                    Phase {
-                        cos: g.mul(minus, x),
-                        sin: g.mul(plus, y),
-                    }
+                    Phase { cos: g.mul(minus, x), sin: g.mul(plus, y) }
                 }
                 _ if m % 2 == 0 => {
                     let half = pairs[m / 2];
@@ -105,10 +96,7 @@ impl Columns {
                     let twice = g.scale(&(&ratio * &Exact::int(2)), half.cos);
                     let (cc, ss) = (g.mul(half.cos, half.cos), g.mul(half.sin, half.sin));
                     let difference = g.sub(cc, ss);
-                    Phase {
-                        cos: g.scale(&ratio, difference),
-                        sin: g.mul(twice, half.sin),
-                    }
+                    Phase { cos: g.scale(&ratio, difference), sin: g.mul(twice, half.sin) }
                 }
                 _ => {
                     let ratio = &k / &factor(m - 1);
@@ -174,10 +162,7 @@ pub fn values(g: &mut Graph, dir: &[Id], order: usize, scale: BandScale) -> Vec<
         let even = columns.pairs[m];
         let odd = (m + 1 < order).then(|| {
             let step = columns.step(g, m);
-            Phase {
-                cos: g.mul(step, even.cos),
-                sin: g.mul(step, even.sin),
-            }
+            Phase { cos: g.mul(step, even.cos), sin: g.mul(step, even.sin) }
         });
         for (d, &polynomial) in polynomials.iter().enumerate() {
             let l = m + d;

@@ -10,39 +10,19 @@ use crate::sh::tables;
 use std::collections::HashMap;
 
 fn param(name: Name, shape: Shape, kind: Kind, doc: &str) -> Param {
-    Param {
-        name,
-        shape,
-        kind,
-        doc: doc.to_owned(),
-    }
+    Param { name, shape, kind, doc: doc.to_owned() }
 }
 
 fn signal(order: usize) -> Param {
-    param(
-        "c",
-        Shape::Array(order * order),
-        Kind::Signal,
-        "the coefficients, index l(l+1)+m",
-    )
+    param("c", Shape::Array(order * order), Kind::Signal, "the coefficients, index l(l+1)+m")
 }
 
 fn table(name: Name, values: Vec<Exact>, doc: &str) -> Table {
-    Table {
-        name,
-        values,
-        doc: doc.to_owned(),
-    }
+    Table { name, values, doc: doc.to_owned() }
 }
 
 /// A kernel whose result is the array `r` of n² numbers.
-fn kernel(
-    order: usize,
-    params: Vec<Param>,
-    tables: Vec<Table>,
-    mut body: Vec<Stmt>,
-    result_doc: &str,
-) -> LoopKernel {
+fn kernel(order: usize, params: Vec<Param>, tables: Vec<Table>, mut body: Vec<Stmt>, result_doc: &str) -> LoopKernel {
     let result_kind = params.iter().map(|param| param.kind).max();
     let result_kind = result_kind.unwrap_or(Kind::Scalar);
     let count = order * order;
@@ -71,42 +51,19 @@ pub fn taylor15_loop(order: usize) -> LoopKernel {
     let above = |at: &Int| c(&(at + 1)) * Num::item("DY_SUB_DIAG", at + 1);
     let (i, end) = (Int::Name("i"), Int::Literal(last));
     let body = vec![
-        Stmt::Let(
-            "half_square",
-            Num::from(Exact::ratio(1, 2)) * "beta" * "beta",
-        ),
+        Stmt::Let("half_square", Num::from(Exact::ratio(1, 2)) * "beta" * "beta"),
         Stmt::store("r", 0, c(&Int::Literal(0))),
-        Stmt::each(
-            "i",
-            1,
-            last,
-            vec![Stmt::store(
-                "r",
-                &i,
-                scaled(&i) + (below(&i) - above(&i)) * "beta",
-            )],
-        ),
+        Stmt::each("i", 1, last, vec![Stmt::store("r", &i, scaled(&i) + (below(&i) - above(&i)) * "beta")]),
         Stmt::store("r", &end, scaled(&end) + below(&end) * "beta"),
     ];
     let sub_diag = coefficients(order).map(|(l, m)| tables::dy_sub_diag(l, m));
     let diag = coefficients(order).map(|(l, m)| tables::ddy_diag(l, m));
     let tables = vec![
-        table(
-            "DY_SUB_DIAG",
-            sub_diag.collect(),
-            "dD/dbeta at 0, from m - 1 to m",
-        ),
-        table(
-            "DDY_DIAG",
-            diag.collect(),
-            "the diagonal of the second derivative of D at 0",
-        ),
+        table("DY_SUB_DIAG", sub_diag.collect(), "dD/dbeta at 0, from m - 1 to m"),
+        table("DDY_DIAG", diag.collect(), "the diagonal of the second derivative of D at 0"),
     ];
     let angle = "the angle about y in radians, small";
-    let params = vec![
-        param("beta", Shape::Scalar, Kind::Scalar, angle),
-        signal(order),
-    ];
+    let params = vec![param("beta", Shape::Scalar, Kind::Scalar, angle), signal(order)];
     kernel(order, params, tables, body, "the rotated coefficients")
 }
 
@@ -114,10 +71,8 @@ pub fn taylor15_loop(order: usize) -> LoopKernel {
 /// for a value and the two below it, and a place in the result.
 fn column(order: usize, m: &Int, parts: &[([Name; 3], Int)]) -> Stmt {
     let (l, at) = (Int::Name("l"), Int::Name("at"));
-    let mut body = vec![
-        Stmt::Int("at", &l * (&l - 1) / 2 + m),
-        Stmt::Let("az", Num::item("A", &at) * Num::item("dir", 2)),
-    ];
+    let mut body =
+        vec![Stmt::Int("at", &l * (&l - 1) / 2 + m), Stmt::Let("az", Num::item("A", &at) * Num::item("dir", 2))];
     for ([next, last, before], place) in parts {
         let value = Num::from(*last) * "az" - Num::from(*before) * Num::item("B", &at);
         body.extend([
@@ -162,43 +117,23 @@ pub fn basis_loop(order: usize) -> LoopKernel {
                 Stmt::Set("cos_before", zero()),
                 Stmt::Var("sin_last", "im".into()),
                 Stmt::Var("sin_before", zero()),
-                column(
-                    order,
-                    &m,
-                    &[(cosines, &l * &l + &l + &m), (sines, &l * &l + &l - &m)],
-                ),
+                column(order, &m, &[(cosines, &l * &l + &l + &m), (sines, &l * &l + &l - &m)]),
             ],
         ),
     ];
-    let (a, b) = (1..order)
-        .flat_map(|l| (0..l).map(move |m| tables::legendre_recurrence(l, m)))
-        .unzip();
+    let (a, b) = (1..order).flat_map(|l| (0..l).map(move |m| tables::legendre_recurrence(l, m))).unzip();
     let sectoral = |m: usize| match m {
         1 => -Exact::sqrt_ratio(3, 1),
         _ => -Exact::sqrt_ratio(2 * m + 1, 2 * m),
     };
     let tables = vec![
-        table(
-            "A",
-            a,
-            "y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|",
-        ),
+        table("A", a, "y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|"),
         table("B", b, "b, at the same places"),
-        table(
-            "SECTORAL",
-            (1..order).map(sectoral).collect(),
-            "y_mm by y_(m-1)(m-1) and x + iy, from m = 1",
-        ),
+        table("SECTORAL", (1..order).map(sectoral).collect(), "y_mm by y_(m-1)(m-1) and x + iy, from m = 1"),
     ];
     let direction = "the direction, of unit length";
     let params = vec![param("dir", Shape::Vec3, Kind::Scalar, direction)];
-    kernel(
-        order,
-        params,
-        tables,
-        body,
-        "y_lm(dir), bands ascending, m from −l to l",
-    )
+    kernel(order, params, tables, body, "y_lm(dir), bands ascending, m from −l to l")
 }
 
 /// The entries of J, the exchange of y and z, that are not zero by their place: n(n² + 2)/3 − 1 of them, from band 1, by
@@ -212,9 +147,8 @@ fn exchange(order: usize) -> Vec<Exact> {
         for r in 0..=2 * l {
             let columns = if r % 2 == 0 { l..2 * l + 1 } else { 0..l };
             for i in columns.filter(|i| (i % 2 == 0) == (r >= l)) {
-                let entry = known
-                    .entry([r.min(i), r.max(i)])
-                    .or_insert_with(|| tables::swap_yz(l, degree(r), degree(i)));
+                let entry =
+                    known.entry([r.min(i), r.max(i)]).or_insert_with(|| tables::swap_yz(l, degree(r), degree(i)));
                 all.push(entry.clone());
             }
         }
@@ -239,17 +173,11 @@ fn swap(l: &Int) -> [Stmt; 2] {
             from: &first + 2,
             to: &start + l + &even,
             step: 2,
-            body: vec![
-                Stmt::Set("sum", Num::from("sum") + term(&Int::Name("i"))),
-                Stmt::Advance("k"),
-            ],
+            body: vec![Stmt::Set("sum", Num::from("sum") + term(&Int::Name("i"))), Stmt::Advance("k")],
         },
         Stmt::store("swapped", &row, "sum"),
     ];
-    [
-        Stmt::Counter("k", l * (l * l + 2) / 3 - 1),
-        Stmt::each("row", 0, l * 2 + 1, rows),
-    ]
+    [Stmt::Counter("k", l * (l * l + 2) / 3 - 1), Stmt::each("row", 0, l * 2 + 1, rows)]
 }
 
 /// One band about z by a row of the phases: from an array, in which the band's middle has this place, to `r`.
@@ -265,10 +193,7 @@ fn about_z(order: usize, angle: Int, l: &Int, from: Name, place: &Int) -> [Stmt;
         Stmt::store("r", &middle + &m, &plus * "co" - &minus * "si"),
         Stmt::store("r", &middle - &m, &minus * "co" + &plus * "si"),
     ];
-    [
-        Stmt::store("r", &middle, Num::item(from, place)),
-        Stmt::each("m", 1, l + 1, turn),
-    ]
+    [Stmt::store("r", &middle, Num::item(from, place)), Stmt::each("m", 1, l + 1, turn)]
 }
 
 /// A row of multiples each for −β, α and γ: the phases of a quaternion as [`crate::kernels::rotate`] has them, without
@@ -282,10 +207,7 @@ fn phases(order: usize) -> Vec<Stmt> {
     let product = |a: Name, b: Name| Num::item(a, &at - 1) * Num::item(b, Int::Name("base") + 1);
     let cos = product("phase_cos", "phase_cos") - product("phase_sin", "phase_sin");
     let sin = product("phase_sin", "phase_cos") + product("phase_cos", "phase_sin");
-    let multiples = vec![
-        Stmt::store("phase_cos", &at, cos),
-        Stmt::store("phase_sin", &at, sin),
-    ];
+    let multiples = vec![Stmt::store("phase_cos", &at, cos), Stmt::store("phase_sin", &at, sin)];
     vec![
         Stmt::Array("phase_cos", 3 * order, Kind::Scalar),
         Stmt::Array("phase_sin", 3 * order, Kind::Scalar),
@@ -304,11 +226,7 @@ fn phases(order: usize) -> Vec<Stmt> {
         Stmt::Let("zy", Num::from("z_unit") * &y),
         Stmt::Let("wx", Num::from("w_unit") * &x),
         Stmt::store("phase_cos", beta, Num::from("ww_zz") - "xx_yy"),
-        Stmt::store(
-            "phase_sin",
-            beta,
-            -(Num::from(Exact::int(2)) * "product" * "scale"),
-        ),
+        Stmt::store("phase_sin", beta, -(Num::from(Exact::int(2)) * "product" * "scale")),
         Stmt::store("phase_cos", alpha, &wy + &zx),
         Stmt::store("phase_sin", alpha, &zy - &wx),
         Stmt::store("phase_cos", gamma, &wy - &zx),
@@ -317,10 +235,7 @@ fn phases(order: usize) -> Vec<Stmt> {
             "angle",
             0,
             3,
-            vec![
-                Stmt::Int("base", Int::Name("angle") * order),
-                Stmt::each("m", 2, order, multiples),
-            ],
+            vec![Stmt::Int("base", Int::Name("angle") * order), Stmt::each("m", 2, order, multiples)],
         ),
     ]
 }
@@ -341,10 +256,7 @@ pub fn rotate_loop(order: usize) -> LoopKernel {
         Stmt::each("l", 1, order, band),
     ]);
     let rotation = "the rotation, a unit quaternion (x, y, z, w)";
-    let params = vec![
-        param("q", Shape::Vec4, Kind::Scalar, rotation),
-        signal(order),
-    ];
+    let params = vec![param("q", Shape::Vec4, Kind::Scalar, rotation), signal(order)];
     let doc = "J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those\n\
                below l; of these the even columns in the rows from l, the odd columns in those below l";
     let tables = vec![table("J", exchange(order), doc)];

@@ -26,10 +26,7 @@ fn turn(g: &mut Graph, a: Phase, b: Phase) -> Phase {
     let cc = g.mul(a.cos, b.cos);
     let sc = g.mul(a.sin, b.cos);
     let cs = g.mul(a.cos, b.sin);
-    Phase {
-        cos: g.sub(cc, ss),
-        sin: g.add(sc, cs),
-    }
+    Phase { cos: g.sub(cc, ss), sin: g.add(sc, cs) }
 }
 
 /// The multiples e^{ia}, e^{2ia}, …, e^{i·count·a} by complex products, which keep f32's accuracy where Chebyshev's
@@ -46,13 +43,7 @@ pub fn multiples(g: &mut Graph, phase: Phase, count: usize) -> Vec<Phase> {
 
 /// Reads a slice of inputs as (cosine, sine) pairs.
 pub fn phases(inputs: &[Id]) -> Vec<Phase> {
-    inputs
-        .chunks_exact(2)
-        .map(|pair| Phase {
-            cos: pair[0],
-            sin: pair[1],
-        })
-        .collect()
+    inputs.chunks_exact(2).map(|pair| Phase { cos: pair[0], sin: pair[1] }).collect()
 }
 
 /// The x, y, z products of two triples: a × b, six operations.

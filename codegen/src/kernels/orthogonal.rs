@@ -68,11 +68,8 @@ fn plane(matrix: &Matrix, at: usize) -> Option<Vec<Stage>> {
     }
     let (cos, sin) = (&m[0][0], &m[1][0]);
     let lift = &(cos - &Exact::one()) / sin;
-    let shear = |to: usize, from: usize, factor: &Exact| Stage::Shear {
-        to: at + to,
-        from: at + from,
-        factor: factor.clone(),
-    };
+    let shear =
+        |to: usize, from: usize, factor: &Exact| Stage::Shear { to: at + to, from: at + from, factor: factor.clone() };
     steps.extend([shear(0, 1, &lift), shear(1, 0, sin), shear(0, 1, &lift)]);
     Some(steps)
 }
@@ -105,10 +102,7 @@ fn reflections(matrix: &Matrix) -> Option<Plan> {
     }
     let mut steps = plane(&rest, r - 2)?;
     steps.extend(reversed.into_iter().rev().flatten());
-    Some(Plan {
-        steps,
-        cost: r * r - 1,
-    })
+    Some(Plan { steps, cost: r * r - 1 })
 }
 
 fn inverse(matrix: &Matrix) -> Option<Matrix> {
@@ -211,11 +205,8 @@ fn block_shears(matrix: &Matrix, second: &[usize]) -> Option<(Plan, f64)> {
         })
         .collect();
     let x = product(&product(&less_one, &transposed), &gram);
-    let z: Matrix = product(&x, &d)
-        .iter()
-        .zip(&b)
-        .map(|(p, q)| p.iter().zip(q).map(|(p, q)| p - q).collect())
-        .collect();
+    let z: Matrix =
+        product(&x, &d).iter().zip(&b).map(|(p, q)| p.iter().zip(q).map(|(p, q)| p - q).collect()).collect();
     let mut steps: Vec<Stage> = second.iter().map(|&i| Stage::Flip(i)).collect();
     let (mut cost, mut largest) = (0, 0f64);
     for (rows, columns, factors) in [(&first[..], second, &z), (second, &first[..], &c), (&first[..], second, &x)] {
@@ -226,11 +217,7 @@ fn block_shears(matrix: &Matrix, second: &[usize]) -> Option<(Plan, f64)> {
                 }
                 cost += 1;
                 largest = largest.max(factor.abs().to_f64());
-                steps.push(Stage::Shear {
-                    to,
-                    from,
-                    factor: factor.clone(),
-                });
+                steps.push(Stage::Shear { to, from, factor: factor.clone() });
             }
         }
     }
@@ -239,14 +226,8 @@ fn block_shears(matrix: &Matrix, second: &[usize]) -> Option<(Plan, f64)> {
 }
 
 fn plan(matrix: &Matrix) -> Plan {
-    let dense = Plan {
-        steps: vec![Stage::Dense(matrix.clone())],
-        cost: dense_cost(matrix),
-    };
-    let others = [
-        (matrix.len() >= 2).then(|| reflections(matrix)).flatten(),
-        involution(matrix),
-    ];
+    let dense = Plan { steps: vec![Stage::Dense(matrix.clone())], cost: dense_cost(matrix) };
+    let others = [(matrix.len() >= 2).then(|| reflections(matrix)).flatten(), involution(matrix)];
     others.into_iter().flatten().fold(dense, |best, other| if other.cost < best.cost { other } else { best })
 }
 
@@ -282,7 +263,5 @@ pub fn apply(g: &mut Graph, matrix: &[Vec<Exact>], x: &[Id]) -> Vec<Id> {
 
 /// The transposed matrix.
 pub fn transpose(matrix: &[Vec<Exact>]) -> Matrix {
-    (0..matrix.first().map_or(0, Vec::len))
-        .map(|j| matrix.iter().map(|row| row[j].clone()).collect())
-        .collect()
+    (0..matrix.first().map_or(0, Vec::len)).map(|j| matrix.iter().map(|row| row[j].clone()).collect()).collect()
 }

@@ -38,21 +38,14 @@ fn y_phases(g: &mut Graph, beta: Phase, count: usize) -> YPhases {
     let mut all = vec![beta];
     if count >= 2 {
         let cc = g.mul(beta.cos, beta.cos);
-        let double = Phase {
-            cos: g.sub(cc, square),
-            sin: g.scale(&Exact::int(2), product),
-        };
+        let double = Phase { cos: g.sub(cc, square), sin: g.scale(&Exact::int(2), product) };
         all.push(double);
     }
     for _ in 2..count {
         let last = *all.last().expect("holds two");
         all.push(super::turn(g, last, beta));
     }
-    YPhases {
-        multiples: all,
-        half_square,
-        product,
-    }
+    YPhases { multiples: all, half_square, product }
 }
 
 /// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch (MATH section 10): adding a tiny
@@ -67,19 +60,10 @@ fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
     let r = g.rsqrt(ab);
     let (wr, zr) = (g.mul(w, r), g.mul(z, r));
     let (wy, zx, zy, wx) = (g.mul(wr, y), g.mul(zr, x), g.mul(zr, y), g.mul(wr, x));
-    let alpha = Phase {
-        cos: g.add(wy, zx),
-        sin: g.sub(zy, wx),
-    };
-    let gamma = Phase {
-        cos: g.sub(wy, zx),
-        sin: g.add(zy, wx),
-    };
+    let alpha = Phase { cos: g.add(wy, zx), sin: g.sub(zy, wx) };
+    let gamma = Phase { cos: g.sub(wy, zx), sin: g.add(zy, wx) };
     let root = g.mul(ab, r);
-    let beta = Phase {
-        cos: g.sub(a, b),
-        sin: g.scale(&Exact::int(2), root),
-    };
+    let beta = Phase { cos: g.sub(a, b), sin: g.scale(&Exact::int(2), root) };
     [alpha, beta, gamma]
 }
 
@@ -103,6 +87,7 @@ pub fn z_band(g: &mut Graph, band: &[Id], alpha: &[Phase]) -> Vec<Id> {
         out[l + m] = g.sub(cp, sm);
         out[l - m] = g.add(cm, sp);
     }
+    g.stage(&out);
     out
 }
 
@@ -173,6 +158,9 @@ pub fn y_band(g: &mut Graph, band: &[Id], beta: &YPhases) -> Vec<Id> {
         } else {
             orthogonal::apply(g, &whole, &even)
         };
+        if !differences {
+            g.stage(&[&p[..], &q].concat());
+        }
         let mut q_out = Vec::new();
         for (i, &k) in moving.iter().enumerate() {
             let Phase { cos, sin } = phase(k);
@@ -185,6 +173,9 @@ pub fn y_band(g: &mut Graph, band: &[Id], beta: &YPhases) -> Vec<Id> {
             } else {
                 g.add(cp, sq)
             };
+        }
+        if !differences {
+            g.stage(&[&p[..], &q_out].concat());
         }
         let odd_out = orthogonal::apply(g, &orthogonal::transpose(&to_q), &q_out);
         for (&m, value) in chain.odd.iter().zip(odd_out) {
@@ -203,11 +194,17 @@ pub fn y_band(g: &mut Graph, band: &[Id], beta: &YPhases) -> Vec<Id> {
             }
         }
     }
+    g.stage(&out);
     out
 }
 
 /// Applies `f` to every band of a signal.
-pub fn each_band(g: &mut Graph, c: &[Id], order: usize, mut f: impl FnMut(&mut Graph, usize, &[Id]) -> Vec<Id>) -> Vec<Id> {
+pub fn each_band(
+    g: &mut Graph,
+    c: &[Id],
+    order: usize,
+    mut f: impl FnMut(&mut Graph, usize, &[Id]) -> Vec<Id>,
+) -> Vec<Id> {
     (0..order).flat_map(|l| f(g, l, &c[l * l..(l + 1) * (l + 1)])).collect()
 }
 
@@ -259,12 +256,7 @@ pub fn zyz(order: usize) -> Kernel {
 /// `rotate` by z, y, z from the three angles' cosine and sine.
 pub fn euler_angles(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let cs = builder.param(
-        "cs",
-        Shape::Pairs(3),
-        Kind::Scalar,
-        "(cos, sin) of α, β and γ in Rz(α) Ry(β) Rz(γ)",
-    );
+    let cs = builder.param("cs", Shape::Pairs(3), Kind::Scalar, "(cos, sin) of α, β and γ in Rz(α) Ry(β) Rz(γ)");
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;
     let angles = phases(&cs);
@@ -290,11 +282,7 @@ pub fn zyz_from_angles(order: usize) -> Kernel {
     let last = all[3 * count];
     let angles = Euler {
         alpha: all[..count].to_vec(),
-        beta: YPhases {
-            multiples: all[count..2 * count].to_vec(),
-            half_square: last.cos,
-            product: last.sin,
-        },
+        beta: YPhases { multiples: all[count..2 * count].to_vec(), half_square: last.cos, product: last.sin },
         gamma: all[2 * count..3 * count].to_vec(),
     };
     let out = zyz_apply(&mut builder.graph, &c, order, &angles);
@@ -309,11 +297,8 @@ pub fn angles(order: usize) -> Kernel {
     let angles = phases_of_quaternion(g, &q);
     let angles = euler(g, angles, order);
     let pair = |phase: &Phase| [phase.cos, phase.sin];
-    let mut out: Vec<Id> = [&angles.alpha, &angles.beta.multiples, &angles.gamma]
-        .into_iter()
-        .flatten()
-        .flat_map(pair)
-        .collect();
+    let mut out: Vec<Id> =
+        [&angles.alpha, &angles.beta.multiples, &angles.gamma].into_iter().flatten().flat_map(pair).collect();
     out.extend([angles.beta.half_square, angles.beta.product]);
     builder.finish(out, Shape::Pairs(angle_pairs(order)), ANGLES)
 }
@@ -353,7 +338,9 @@ fn constant_band(g: &mut Graph, band: &[Id], entry: impl Fn(usize, isize, isize)
 }
 
 fn x90_band(g: &mut Graph, band: &[Id], sign: i32) -> Vec<Id> {
-    constant_band(g, band, |l, a, b| tables::x90(l, a, b, sign))
+    let out = constant_band(g, band, |l, a, b| tables::x90(l, a, b, sign));
+    g.stage(&out);
+    out
 }
 
 fn constant_rotation(order: usize, entry: impl Fn(usize, isize, isize) -> Exact) -> Kernel {
@@ -402,14 +389,8 @@ pub fn align(order: usize) -> Kernel {
     let x = g.add(n[0], tiny);
     let squares = inner(g, &[x, n[1]], &[x, n[1]]);
     let r = g.rsqrt(squares);
-    let phi = Phase {
-        cos: g.mul(x, r),
-        sin: g.mul(n[1], r),
-    };
-    let theta = Phase {
-        cos: n[2],
-        sin: g.mul(squares, r),
-    };
+    let phi = Phase { cos: g.mul(x, r), sin: g.mul(n[1], r) };
+    let theta = Phase { cos: n[2], sin: g.mul(squares, r) };
     let (phi, theta) = (multiples(g, phi, order - 1), y_phases(g, theta, order - 1));
     let out = each_band(g, &c, order, |g, _, band| {
         let band = y_band(g, band, &theta);
@@ -447,11 +428,7 @@ fn matrix_band_2(g: &mut Graph, band: &[Id], rows: &[[Id; 3]; 3]) -> Vec<Id> {
     });
     let (s13, s23) = (g.neg(zx), g.neg(yz));
     let image = |g: &mut Graph, r: [Id; 3]| {
-        [
-            inner(g, &[s11, xy, s13], &r),
-            inner(g, &[xy, s22, s23], &r),
-            inner(g, &[s13, s23], &r[..2]),
-        ]
+        [inner(g, &[s11, xy, s13], &r), inner(g, &[xy, s22, s23], &r), inner(g, &[s13, s23], &r[..2])]
     };
     let (u1, u2) = (image(g, rows[0]), image(g, rows[1]));
     let (r1u1, r2u2) = (inner(g, &u1, &rows[0]), inner(g, &u2, &rows[1]));

@@ -155,13 +155,7 @@ pub fn tilt(order: usize) -> Kernel {
     let g = &mut builder.graph;
     let one = g.constant(Exact::one());
     let above = g.add(n[2], one);
-    let n = Normal {
-        x: n[0],
-        y: n[1],
-        z: n[2],
-        u: inner(g, &n[..2], &n[..2]),
-        k: g.recip(above),
-    };
+    let n = Normal { x: n[0], y: n[1], z: n[2], u: inner(g, &n[..2], &n[..2]), k: g.recip(above) };
     let out = each_band(g, &c, order, |g, l, band| match l {
         0 => band.to_vec(),
         1 => band_1(g, band, &n),

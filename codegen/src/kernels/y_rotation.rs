@@ -23,12 +23,8 @@ pub enum Small {
 
 impl Small {
     /// All of them, with the names that specs use.
-    pub const ALL: [(Self, &'static str); 4] = [
-        (Self::Taylor1, "taylor1"),
-        (Self::Taylor15, "taylor15"),
-        (Self::Taylor2, "taylor2"),
-        (Self::Lf3, "lf3"),
-    ];
+    pub const ALL: [(Self, &'static str); 4] =
+        [(Self::Taylor1, "taylor1"), (Self::Taylor15, "taylor15"), (Self::Taylor2, "taylor2"), (Self::Lf3, "lf3")];
 
     /// Its name in a spec.
     pub fn name(self) -> &'static str {
@@ -57,9 +53,7 @@ impl<'a> Band<'a> {
     /// Couplings `factor` · a_m for every m that `wanted` names.
     fn new(g: &mut Graph, values: &'a [Id], factor: Id, wanted: impl Fn(usize) -> bool) -> Self {
         let l = values.len() / 2;
-        let edge = (0..=l)
-            .map(|m| (m > 0 && wanted(m)).then(|| g.scale(&tables::ladder(l, m), factor)))
-            .collect();
+        let edge = (0..=l).map(|m| (m > 0 && wanted(m)).then(|| g.scale(&tables::ladder(l, m), factor))).collect();
         Self { values, l, edge }
     }
 
@@ -151,7 +145,11 @@ fn small_rotation(g: &mut Graph, c: &[Id], order: usize, beta: Id, methods: &[Sm
     let powers = Powers { beta, square };
     each_band(g, c, order, |g, l, band| match l {
         0 => band.to_vec(),
-        _ => small_band(g, band, &powers, methods[l - 1]),
+        _ => {
+            let out = small_band(g, band, &powers, methods[l - 1]);
+            g.stage(&out);
+            out
+        }
     })
 }
 
@@ -171,12 +169,7 @@ pub fn about_y(order: usize, methods: &[Small]) -> Kernel {
 /// Rz(α) Ry(β) Rz(γ) with a small β, `methods[l − 1]` for band l.
 pub fn small_zyz(order: usize, methods: &[Small]) -> Kernel {
     let mut builder = Builder::new();
-    let cs = builder.param(
-        "cs",
-        Shape::Pairs(2),
-        Kind::Scalar,
-        "(cos, sin) of α and γ in Rz(α) Ry(β) Rz(γ)",
-    );
+    let cs = builder.param("cs", Shape::Pairs(2), Kind::Scalar, "(cos, sin) of α and γ in Rz(α) Ry(β) Rz(γ)");
     let beta = angle(&mut builder);
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;

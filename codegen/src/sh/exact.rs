@@ -91,45 +91,24 @@ impl Exact {
     /// If `q` is zero or p/q is negative.
     pub fn sqrt_ratio(p: impl Into<BigInt>, q: impl Into<BigInt>) -> Self {
         let ratio = BigRational::new(p.into(), q.into());
-        assert!(
-            !ratio.is_negative(),
-            "the root of the negative number {ratio}"
-        );
+        assert!(!ratio.is_negative(), "the root of the negative number {ratio}");
         if ratio.is_zero() {
             return Self::zero();
         }
         let (p_root, p_rest) = square_free(ratio.numer().magnitude().clone());
         let (q_root, q_rest) = square_free(ratio.denom().magnitude().clone());
         let coefficient = BigRational::new(p_root.into(), (q_root * &q_rest).into());
-        Self::term(
-            coefficient,
-            Surd {
-                root: p_rest * q_rest,
-                ..Surd::one()
-            },
-        )
+        Self::term(coefficient, Surd { root: p_rest * q_rest, ..Surd::one() })
     }
 
     /// The power π^(k/2).
     pub fn pi_sqrt_power(k: i32) -> Self {
-        Self::term(
-            BigRational::one(),
-            Surd {
-                pi: k,
-                ..Surd::one()
-            },
-        )
+        Self::term(BigRational::one(), Surd { pi: k, ..Surd::one() })
     }
 
     /// The number ln(1+√2).
     pub fn ln_one_plus_sqrt2() -> Self {
-        Self::term(
-            BigRational::one(),
-            Surd {
-                ln: 1,
-                ..Surd::one()
-            },
-        )
+        Self::term(BigRational::one(), Surd { ln: 1, ..Surd::one() })
     }
 
     /// The number `r`; exact again if `r` is an integer but for a negligible rest.
@@ -186,10 +165,9 @@ impl Exact {
         match &self.0 {
             Form::Sum(terms) => match &terms[..] {
                 [] => Self::zero(),
-                [term] if term.surd.is_one() => Self::sqrt_ratio(
-                    term.coefficient.numer().clone(),
-                    term.coefficient.denom().clone(),
-                ),
+                [term] if term.surd.is_one() => {
+                    Self::sqrt_ratio(term.coefficient.numer().clone(), term.coefficient.denom().clone())
+                }
                 _ => Self::real(self.to_real().sqrt()),
             },
             Form::Real(r) => Self::real(r.sqrt()),
@@ -201,11 +179,7 @@ impl Exact {
     }
 
     fn term(coefficient: BigRational, surd: Surd) -> Self {
-        if coefficient.is_zero() {
-            Self::zero()
-        } else {
-            Self(Form::Sum(vec![Term { surd, coefficient }]))
-        }
+        if coefficient.is_zero() { Self::zero() } else { Self(Form::Sum(vec![Term { surd, coefficient }])) }
     }
 
     /// Whether this is 0: for a sum decided on integers; a `Real` below 2^-400 has become the sum 0 already. (A
@@ -234,11 +208,7 @@ impl Exact {
 
     /// The absolute value.
     pub fn abs(&self) -> Self {
-        if self.signum() < 0 {
-            -self
-        } else {
-            self.clone()
-        }
+        if self.signum() < 0 { -self } else { self.clone() }
     }
 
     /// The value to 512 fractional bits.
@@ -251,10 +221,7 @@ impl Exact {
                     return Real(round_shift(&(low + high), excess.unsigned_abs() + 1));
                 }
                 let (low, high, exponent) = enclose(terms, Real::BITS + 64 + excess as u64);
-                Real(round_shift(
-                    &(low + high),
-                    (-exponent) as u64 - Real::BITS + 1,
-                ))
+                Real(round_shift(&(low + high), (-exponent) as u64 - Real::BITS + 1))
             }
             Form::Real(r) => r.clone(),
         }
@@ -311,11 +278,9 @@ impl Exact {
 
     fn mul_exact(&self, other: &Self) -> Self {
         match (&self.0, &other.0) {
-            (Form::Sum(a), Form::Sum(b)) => Self::sum(
-                a.iter()
-                    .flat_map(|x| b.iter().map(move |y| x.times(y)))
-                    .collect(),
-            ),
+            (Form::Sum(a), Form::Sum(b)) => {
+                Self::sum(a.iter().flat_map(|x| b.iter().map(move |y| x.times(y))).collect())
+            }
             _ if self.is_zero() || other.is_zero() => Self::zero(),
             _ if self.is_one() => other.clone(),
             _ if other.is_one() => self.clone(),
@@ -346,36 +311,20 @@ impl Exact {
             return None;
         };
         let first = &terms[0].surd;
-        if terms
-            .iter()
-            .any(|t| (t.surd.pi, t.surd.ln) != (first.pi, first.ln))
-        {
+        if terms.iter().any(|t| (t.surd.pi, t.surd.ln) != (first.pi, first.ln)) {
             return None;
         }
-        let mut numerator = Self::term(
-            BigRational::one(),
-            Surd {
-                pi: -first.pi,
-                ln: -first.ln,
-                root: BigUint::one(),
-            },
-        );
+        let mut numerator = Self::term(BigRational::one(), Surd { pi: -first.pi, ln: -first.ln, root: BigUint::one() });
         let mut denominator = self * &numerator;
         for _ in 0..=4 {
             let Form::Sum(terms) = &denominator.0 else {
                 return None;
             };
-            let Some(root) = terms
-                .iter()
-                .map(|t| &t.surd.root)
-                .find(|root| !root.is_one())
-            else {
+            let Some(root) = terms.iter().map(|t| &t.surd.root).find(|root| !root.is_one()) else {
                 return Some(numerator.mul_exact(&Self::sum(vec![terms[0].inverse()])));
             };
             let prime = smallest_prime(root)?;
-            let conjugate = Self(Form::Sum(
-                terms.iter().map(|t| t.conjugate(prime)).collect(),
-            ));
+            let conjugate = Self(Form::Sum(terms.iter().map(|t| t.conjugate(prime)).collect()));
             numerator = &numerator * &conjugate;
             denominator = &denominator * &conjugate;
         }
@@ -403,23 +352,12 @@ impl Term {
         if !factor.is_one() {
             coefficient *= BigInt::from(factor);
         }
-        Self {
-            surd: Surd {
-                pi: self.surd.pi + other.surd.pi,
-                ln: self.surd.ln + other.surd.ln,
-                root,
-            },
-            coefficient,
-        }
+        Self { surd: Surd { pi: self.surd.pi + other.surd.pi, ln: self.surd.ln + other.surd.ln, root }, coefficient }
     }
 
     fn inverse(&self) -> Self {
         Self {
-            surd: Surd {
-                pi: -self.surd.pi,
-                ln: -self.surd.ln,
-                root: self.surd.root.clone(),
-            },
+            surd: Surd { pi: -self.surd.pi, ln: -self.surd.ln, root: self.surd.root.clone() },
             coefficient: (&self.coefficient * BigInt::from(self.surd.root.clone())).recip(),
         }
     }
@@ -427,15 +365,8 @@ impl Term {
     /// The term under √prime → -√prime.
     fn conjugate(&self, prime: u32) -> Self {
         let flip = (&self.surd.root % prime).is_zero();
-        let coefficient = if flip {
-            -&self.coefficient
-        } else {
-            self.coefficient.clone()
-        };
-        Self {
-            surd: self.surd.clone(),
-            coefficient,
-        }
+        let coefficient = if flip { -&self.coefficient } else { self.coefficient.clone() };
+        Self { surd: self.surd.clone(), coefficient }
     }
 
     /// The absolute value as `m·2^e`, its relative error below 2^-bits: the root of the square's rational and π
@@ -451,8 +382,7 @@ impl Term {
             Ordering::Less => denominator *= pi_bits(work).pow(pi.unsigned_abs()),
             Ordering::Equal => {}
         }
-        let mut shift =
-            (2 * (bits + 8) + denominator.bits()).saturating_sub(numerator.bits()) as i64;
+        let mut shift = (2 * (bits + 8) + denominator.bits()).saturating_sub(numerator.bits()) as i64;
         shift += (exponent - shift).rem_euclid(2);
         let mut m = ((numerator << shift) / denominator).sqrt();
         exponent = (exponent - shift) / 2;
@@ -475,11 +405,7 @@ impl Term {
 
 impl Surd {
     fn one() -> Self {
-        Self {
-            pi: 0,
-            ln: 0,
-            root: BigUint::one(),
-        }
+        Self { pi: 0, ln: 0, root: BigUint::one() }
     }
 
     fn is_one(&self) -> bool {
@@ -489,23 +415,12 @@ impl Surd {
 
 /// Bounds of the sum in units of 2^exponent, about `bits` bits below the largest term: `(low, high, exponent)`.
 fn enclose(terms: &[Term], bits: u64) -> (BigInt, BigInt, i64) {
-    let parts: Vec<_> = terms
-        .iter()
-        .map(|t| (t.magnitude(bits), t.coefficient.is_negative()))
-        .collect();
-    let top = parts
-        .iter()
-        .map(|((m, e), _)| m.bits() as i64 + e)
-        .max()
-        .unwrap_or(0);
+    let parts: Vec<_> = terms.iter().map(|t| (t.magnitude(bits), t.coefficient.is_negative())).collect();
+    let top = parts.iter().map(|((m, e), _)| m.bits() as i64 + e).max().unwrap_or(0);
     let exponent = top - bits as i64 - 4;
     let mut sum = BigInt::zero();
     for ((m, e), negative) in parts {
-        let part = BigInt::from(if e >= exponent {
-            m << (e - exponent)
-        } else {
-            m >> (exponent - e)
-        });
+        let part = BigInt::from(if e >= exponent { m << (e - exponent) } else { m >> (exponent - e) });
         sum += if negative { -part } else { part };
     }
     // A part is below 2^(bits + 4) and known to 2^-bits of itself, and loses less than 1 by its shift.
@@ -541,16 +456,8 @@ struct Format {
     largest_exponent: i64,
 }
 
-const BINARY32: Format = Format {
-    digits: 24,
-    least_exponent: -149,
-    largest_exponent: 104,
-};
-const BINARY64: Format = Format {
-    digits: 53,
-    least_exponent: -1074,
-    largest_exponent: 971,
-};
+const BINARY32: Format = Format { digits: 24, least_exponent: -149, largest_exponent: 104 };
+const BINARY64: Format = Format { digits: 53, least_exponent: -1074, largest_exponent: 971 };
 
 impl Format {
     /// n·2^exponent rounded to nearest, ties to even.
@@ -564,11 +471,7 @@ impl Format {
                 let floor = m >> shift;
                 let half = m.bit(shift as u64 - 1);
                 let tie = m.trailing_zeros() == Some(shift as u64 - 1);
-                if half && (!tie || floor.bit(0)) {
-                    floor + 1u32
-                } else {
-                    floor
-                }
+                if half && (!tie || floor.bit(0)) { floor + 1u32 } else { floor }
             }
         };
         if m.is_zero() {
@@ -579,11 +482,7 @@ impl Format {
         } else {
             rounded.to_u64().unwrap_or(u64::MAX) as f64 * power_of_two(unit)
         };
-        if n.is_negative() {
-            -magnitude
-        } else {
-            magnitude
-        }
+        if n.is_negative() { -magnitude } else { magnitude }
     }
 
     /// A rational, rounded likewise: enough digits of its quotient, and a last one that says whether more follow.
@@ -597,20 +496,12 @@ impl Format {
 }
 
 fn power_of_two(e: i64) -> f64 {
-    f64::from_bits(if e >= -1022 {
-        ((e + 1023) as u64) << 52
-    } else {
-        1 << (e + 1074)
-    })
+    f64::from_bits(if e >= -1022 { ((e + 1023) as u64) << 52 } else { 1 << (e + 1074) })
 }
 
 /// n/2^shift rounded to the nearest integer.
 fn round_shift(n: &BigInt, shift: u64) -> BigInt {
-    if shift == 0 {
-        n.clone()
-    } else {
-        ((n >> (shift - 1)) + 1) >> 1u32
-    }
+    if shift == 0 { n.clone() } else { ((n >> (shift - 1)) + 1) >> 1u32 }
 }
 
 fn primes() -> &'static [u32] {
@@ -618,11 +509,7 @@ fn primes() -> &'static [u32] {
     PRIMES.get_or_init(|| {
         let mut primes: Vec<u32> = Vec::new();
         for n in 2..LARGEST_PRIME {
-            if primes
-                .iter()
-                .take_while(|&p| p * p <= n)
-                .all(|p| n % p != 0)
-            {
+            if primes.iter().take_while(|&p| p * p <= n).all(|p| n % p != 0) {
                 primes.push(n);
             }
         }
@@ -661,11 +548,7 @@ fn square_free(mut n: BigUint) -> (BigUint, BigUint) {
         }
     }
     let root = n.sqrt();
-    if &root * &root == n {
-        (square * root, free)
-    } else {
-        (square, free * n)
-    }
+    if &root * &root == n { (square * root, free) } else { (square, free * n) }
 }
 
 /// The smallest prime factor, if it is below [`LARGEST_PRIME`].
@@ -713,11 +596,7 @@ fn ln_bits(bits: u64) -> BigUint {
 /// A constant to `bits` bits, from the cache if that holds as many.
 fn cached(cache: &OnceLock<BigUint>, bits: u64, compute: impl Fn(u64) -> BigInt) -> BigUint {
     let guarded = |bits: u64| (compute(bits + 32) >> 32u32).magnitude().clone();
-    if bits > CACHED_BITS {
-        guarded(bits)
-    } else {
-        cache.get_or_init(|| guarded(CACHED_BITS)) >> (CACHED_BITS - bits)
-    }
+    if bits > CACHED_BITS { guarded(bits) } else { cache.get_or_init(|| guarded(CACHED_BITS)) >> (CACHED_BITS - bits) }
 }
 
 /// A real number held to 512 bits after the point.
@@ -755,10 +634,7 @@ impl Real {
 
     /// π.
     pub fn pi() -> Self {
-        Self(round_shift(
-            &pi_bits(Self::SERIES_BITS).into(),
-            Self::SERIES_BITS - Self::BITS,
-        ))
+        Self(round_shift(&pi_bits(Self::SERIES_BITS).into(), Self::SERIES_BITS - Self::BITS))
     }
 
     /// cos(π·p/q).
@@ -770,11 +646,7 @@ impl Real {
         let (p, q) = (i128::from(p).abs(), i128::from(q).abs());
         let turned = p % (2 * q);
         let folded = turned.min(2 * q - turned);
-        if 2 * folded > q {
-            -&Self::cos_series(q - folded, q)
-        } else {
-            Self::cos_series(folded, q)
-        }
+        if 2 * folded > q { -&Self::cos_series(q - folded, q) } else { Self::cos_series(folded, q) }
     }
 
     /// sin(π·p/q).
@@ -786,16 +658,8 @@ impl Real {
         // sin(πp/q) = cos(π(q-2p)/(2q)), with p reduced so that nothing overflows.
         let p = (i128::from(p) * i128::from(q.signum())).rem_euclid(2 * i128::from(q).abs());
         let q = i128::from(q).abs();
-        let folded = if 2 * p > 3 * q {
-            5 * q - 2 * p
-        } else {
-            (q - 2 * p).abs()
-        };
-        if folded > q {
-            -&Self::cos_series(2 * q - folded, 2 * q)
-        } else {
-            Self::cos_series(folded, 2 * q)
-        }
+        let folded = if 2 * p > 3 * q { 5 * q - 2 * p } else { (q - 2 * p).abs() };
+        if folded > q { -&Self::cos_series(2 * q - folded, 2 * q) } else { Self::cos_series(folded, 2 * q) }
     }
 
     /// cos(π·p/q) for 0 ≤ p/q ≤ 1/2 by its Taylor series.
@@ -915,10 +779,7 @@ operator!(Exact, Mul, mul, |a, b| a.mul_exact(b));
 operator!(Exact, Div, div, |a, b| a.div_exact(b));
 operator!(Real, Add, add, |a, b| Real(&a.0 + &b.0));
 operator!(Real, Sub, sub, |a, b| Real(&a.0 - &b.0));
-operator!(Real, Mul, mul, |a, b| Real(round_shift(
-    &(&a.0 * &b.0),
-    Real::BITS
-)));
+operator!(Real, Mul, mul, |a, b| Real(round_shift(&(&a.0 * &b.0), Real::BITS)));
 operator!(Real, Div, div, |a, b| a.quotient(b));
 
 impl Neg for &Exact {
@@ -991,10 +852,7 @@ mod tests {
         assert_eq!(root(0), Exact::zero());
         let large = 1_000_003_i64;
         assert_eq!(root(large * large), Exact::int(large));
-        assert_eq!(
-            root(6 * large) * root(15 * large),
-            Exact::int(3 * large) * root(10)
-        );
+        assert_eq!(root(6 * large) * root(15 * large), Exact::int(3 * large) * root(10));
     }
 
     #[test]
@@ -1005,10 +863,7 @@ mod tests {
         assert!((&a - &b).is_zero());
         assert_eq!((root(2) + root(3)) * (root(3) - root(2)), Exact::one());
         assert!((root(2) * root(8) / Exact::int(4)).is_one());
-        assert_eq!(
-            Exact::pi_sqrt_power(1) * Exact::pi_sqrt_power(-1),
-            Exact::one()
-        );
+        assert_eq!(Exact::pi_sqrt_power(1) * Exact::pi_sqrt_power(-1), Exact::one());
         assert_eq!((0..4).map(Exact::int).sum::<Exact>(), Exact::int(6));
     }
 
@@ -1024,10 +879,7 @@ mod tests {
             assert_eq!(Exact::one() / &divisor * &divisor, Exact::one());
             assert!(matches!((Exact::one() / &divisor).0, Form::Sum(_)));
         }
-        assert_eq!(
-            Exact::one() / (root(2) - Exact::one()),
-            root(2) + Exact::one()
-        );
+        assert_eq!(Exact::one() / (root(2) - Exact::one()), root(2) + Exact::one());
         let five = root(2) + root(3) + root(5) + root(7) + root(11) + Exact::one();
         assert!(matches!((Exact::one() / &five).0, Form::Real(_)));
         assert!((Exact::one() / &five * five).is_one());
@@ -1058,30 +910,13 @@ mod tests {
         assert_eq!(root(2).to_f64(), std::f64::consts::SQRT_2);
         assert_eq!(root(2).to_f32(), std::f32::consts::SQRT_2);
         assert_eq!(Exact::pi_sqrt_power(2).to_f64(), std::f64::consts::PI);
-        assert_eq!(
-            Exact::pi_sqrt_power(-2).to_f64(),
-            std::f64::consts::FRAC_1_PI
-        );
-        assert_eq!(
-            (Exact::int(2) * Exact::pi_sqrt_power(-1)).to_f64(),
-            std::f64::consts::FRAC_2_SQRT_PI
-        );
+        assert_eq!(Exact::pi_sqrt_power(-2).to_f64(), std::f64::consts::FRAC_1_PI);
+        assert_eq!((Exact::int(2) * Exact::pi_sqrt_power(-1)).to_f64(), std::f64::consts::FRAC_2_SQRT_PI);
         assert_eq!(Exact::ln_one_plus_sqrt2().to_f64(), 0.881_373_587_019_543);
-        assert_eq!(
-            (Exact::one() / Exact::ln_one_plus_sqrt2()).to_f64(),
-            1.134_592_657_106_511
-        );
-        assert_eq!(
-            (Exact::one() / Exact::ln_one_plus_sqrt2())
-                .to_real()
-                .to_f64(),
-            1.134_592_657_106_511
-        );
+        assert_eq!((Exact::one() / Exact::ln_one_plus_sqrt2()).to_f64(), 1.134_592_657_106_511);
+        assert_eq!((Exact::one() / Exact::ln_one_plus_sqrt2()).to_real().to_f64(), 1.134_592_657_106_511);
         // √3/(2√π), the band-1 constant.
-        assert_eq!(
-            (Exact::sqrt_ratio(3, 4) * Exact::pi_sqrt_power(-1)).to_f64(),
-            0.488_602_511_902_919_9
-        );
+        assert_eq!((Exact::sqrt_ratio(3, 4) * Exact::pi_sqrt_power(-1)).to_f64(), 0.488_602_511_902_919_9);
     }
 
     #[test]
@@ -1090,34 +925,16 @@ mod tests {
         assert_eq!(Exact::ratio(1, power(149)).to_f32(), f32::from_bits(1));
         assert_eq!(Exact::ratio(1, power(150)).to_f32(), 0.0);
         assert_eq!(Exact::ratio(3, power(150)).to_f32(), f32::from_bits(2));
-        assert_eq!(
-            Exact::ratio(power(200) + 1, power(350)).to_f32(),
-            f32::from_bits(1)
-        );
+        assert_eq!(Exact::ratio(power(200) + 1, power(350)).to_f32(), f32::from_bits(1));
         assert_eq!(Exact::ratio(1, power(400)).to_f32(), 0.0);
         assert_eq!(Exact::ratio(1, power(1074)).to_f64(), f64::from_bits(1));
         assert_eq!(Exact::ratio(power(128), 1).to_f32(), f32::INFINITY);
         assert_eq!(Exact::ratio(-power(1024), 1).to_f64(), f64::NEG_INFINITY);
-        assert_eq!(
-            Exact::ratio(power(128) - power(103), 1).to_f32(),
-            f32::INFINITY
-        );
-        assert_eq!(
-            Exact::ratio(power(128) - power(103) - 1, 1).to_f32(),
-            f32::MAX
-        );
-        assert_eq!(
-            Exact::ratio(power(1024) - power(970) - 1, 1).to_f64(),
-            f64::MAX
-        );
-        assert_eq!(
-            (Exact::ratio(power(300), 1) * root(2)).to_f32(),
-            f32::INFINITY
-        );
-        assert_eq!(
-            (Exact::ratio(power(300), 1) * root(2)).to_real().to_f64(),
-            2f64.powi(300) * 2f64.sqrt()
-        );
+        assert_eq!(Exact::ratio(power(128) - power(103), 1).to_f32(), f32::INFINITY);
+        assert_eq!(Exact::ratio(power(128) - power(103) - 1, 1).to_f32(), f32::MAX);
+        assert_eq!(Exact::ratio(power(1024) - power(970) - 1, 1).to_f64(), f64::MAX);
+        assert_eq!((Exact::ratio(power(300), 1) * root(2)).to_f32(), f32::INFINITY);
+        assert_eq!((Exact::ratio(power(300), 1) * root(2)).to_real().to_f64(), 2f64.powi(300) * 2f64.sqrt());
     }
 
     #[test]
@@ -1133,10 +950,7 @@ mod tests {
         let real = Exact::real(rational.to_real());
         assert_eq!(real.to_f32(), 1.0 + f32::EPSILON);
         assert_eq!(Exact::ratio((1 << 24) + 1, 1 << 24).to_f32(), 1.0);
-        assert_eq!(
-            Exact::ratio((1 << 24) + 3, 1 << 24).to_f32(),
-            1.0 + 2.0 * f32::EPSILON
-        );
+        assert_eq!(Exact::ratio((1 << 24) + 3, 1 << 24).to_f32(), 1.0 + 2.0 * f32::EPSILON);
     }
 
     #[test]
@@ -1175,10 +989,9 @@ mod tests {
     fn exact_cosines_are_the_series() {
         for q in [1, 2, 3, 4, 5, 6, 7, 8, 12] {
             for p in -30..30 {
-                for (exact, real) in [
-                    (Exact::cos_pi(p, q), Real::cos_pi(p, q)),
-                    (Exact::sin_pi(p, q), Real::sin_pi(p, q)),
-                ] {
+                for (exact, real) in
+                    [(Exact::cos_pi(p, q), Real::cos_pi(p, q)), (Exact::sin_pi(p, q), Real::sin_pi(p, q))]
+                {
                     assert_eq!(exact.to_real(), real);
                 }
             }

@@ -36,13 +36,9 @@ pub fn legendre_polynomial(l: usize, m: usize) -> Vec<Exact> {
         let Some(power) = (l - 2 * j).checked_sub(m) else {
             break;
         };
-        let choices =
-            binomial(BigInt::from(l), j.into()) * binomial(BigInt::from(2 * l - 2 * j), l.into());
+        let choices = binomial(BigInt::from(l), j.into()) * binomial(BigInt::from(2 * l - 2 * j), l.into());
         let numerator = choices * product(power + 1, l - 2 * j);
-        coefficients[power] = Exact::ratio(
-            if j % 2 == 0 { numerator } else { -numerator },
-            BigInt::one() << l,
-        );
+        coefficients[power] = Exact::ratio(if j % 2 == 0 { numerator } else { -numerator }, BigInt::one() << l);
     }
     coefficients
 }
@@ -55,10 +51,7 @@ pub fn legendre_recurrence(l: usize, m: usize) -> (Exact, Exact) {
     let b = if l == m + 1 {
         Exact::zero()
     } else {
-        Exact::sqrt_ratio(
-            ((l - 1) * (l - 1) - m * m) * (2 * l + 1),
-            (2 * l - 3) * width,
-        )
+        Exact::sqrt_ratio(((l - 1) * (l - 1) - m * m) * (2 * l + 1), (2 * l - 3) * width)
     };
     (a, b)
 }
@@ -125,11 +118,7 @@ fn swap_entry(l: usize, a: isize, b: isize) -> Exact {
     };
     let flips = l + (p + q).div_ceil(2) + usize::from(a >= 0 && b < 0);
     let size = Exact::sqrt_ratio((&w * mirrored).abs() * scale, BigInt::one() << (2 * l));
-    if flips.is_odd() != w.is_negative() {
-        -size
-    } else {
-        size
-    }
+    if flips.is_odd() != w.is_negative() { -size } else { size }
 }
 
 /// The entry [a, b] of the rotation of band `l` about x by +90° (y to z; `sign` positive) or -90° (`sign` negative).
@@ -137,18 +126,13 @@ fn swap_entry(l: usize, a: isize, b: isize) -> Exact {
 /// its transpose, J with the columns m < 0 negated.
 pub fn x90(l: usize, a: isize, b: isize, sign: i32) -> Exact {
     let entry = swap_yz(l, a, b);
-    if (if sign < 0 { b } else { a }) < 0 {
-        -entry
-    } else {
-        entry
-    }
+    if (if sign < 0 { b } else { a }) < 0 { -entry } else { entry }
 }
 
 /// `Σ_k (-1)^(k+a-b) C(l+b, k) C(l-b, l-a-k)`.
 fn alternating_sum(l: usize, a: usize, b: usize) -> BigInt {
     let first = b.saturating_sub(a);
-    let mut term = binomial(BigInt::from(l + b), first.into())
-        * binomial(BigInt::from(l - b), (l - a - first).into());
+    let mut term = binomial(BigInt::from(l + b), first.into()) * binomial(BigInt::from(l - b), (l - a - first).into());
     let mut sum = BigInt::zero();
     for k in first..=l - a {
         if (k + a + b).is_even() {
@@ -177,17 +161,13 @@ mod tests {
             for a in degrees(l) {
                 for b in degrees(l) {
                     let unit = if a == b { Exact::one() } else { Exact::zero() };
-                    let times =
-                        |f: &dyn Fn(isize, isize) -> Exact, g: &dyn Fn(isize, isize) -> Exact| {
-                            degrees(l).map(|i| f(a, i) * g(i, b)).sum::<Exact>()
-                        };
+                    let times = |f: &dyn Fn(isize, isize) -> Exact, g: &dyn Fn(isize, isize) -> Exact| {
+                        degrees(l).map(|i| f(a, i) * g(i, b)).sum::<Exact>()
+                    };
                     let j = |a, b| swap_yz(l, a, b);
                     assert_eq!(j(a, b), j(b, a));
                     assert_eq!(times(&j, &j), unit);
-                    assert_eq!(
-                        times(&|a, b| x90(l, a, b, 1), &|a, b| x90(l, a, b, -1)),
-                        unit
-                    );
+                    assert_eq!(times(&|a, b| x90(l, a, b, 1), &|a, b| x90(l, a, b, -1)), unit);
                 }
             }
         }
@@ -195,10 +175,7 @@ mod tests {
 
     #[test]
     fn the_swap_has_a_unit_row_at_l_64() {
-        let row = degrees(64)
-            .map(|b| swap_yz(64, 3, b))
-            .map(|e| &e * &e)
-            .sum::<Exact>();
+        let row = degrees(64).map(|b| swap_yz(64, 3, b)).map(|e| &e * &e).sum::<Exact>();
         assert_eq!(row, Exact::one());
     }
 
@@ -207,19 +184,10 @@ mod tests {
         for m in 0..6 {
             for l in m + 1..9 {
                 let (a, b) = legendre_recurrence(l, m);
-                let row = |l: usize| -> Vec<Exact> {
-                    legendre_polynomial(l, m)
-                        .iter()
-                        .map(|c| c * k(l, m))
-                        .collect()
-                };
+                let row = |l: usize| -> Vec<Exact> { legendre_polynomial(l, m).iter().map(|c| c * k(l, m)).collect() };
                 let (two, one) = (if l >= m + 2 { row(l - 2) } else { Vec::new() }, row(l - 1));
                 for (i, c) in row(l).iter().enumerate() {
-                    let up = if i > 0 {
-                        one[i - 1].clone()
-                    } else {
-                        Exact::zero()
-                    };
+                    let up = if i > 0 { one[i - 1].clone() } else { Exact::zero() };
                     let back = two.get(i).cloned().unwrap_or_else(Exact::zero);
                     assert_eq!(*c, &a * up - &b * back);
                 }

@@ -60,9 +60,7 @@ pub enum LobeError {
     #[error("`{0}` is no lobe direction: expected `pole`, `equator 3/4` or `P6,1#2 1/3`")]
     Form(String),
     /// The Legendre function has fewer roots.
-    #[error(
-        "`{0}` names a root that does not exist: P_l^m, l ≤ 64, has (l-m)/2 roots above 0, counted from 1"
-    )]
+    #[error("`{0}` names a root that does not exist: P_l^m, l ≤ 64, has (l-m)/2 roots above 0, counted from 1")]
     Root(String),
 }
 
@@ -74,12 +72,7 @@ impl Lobe {
             Height::Root { l, m, rank } => squared_root(l, m, rank).sqrt(),
         };
         let sine = (Exact::one() - &z * &z).sqrt();
-        Self {
-            height,
-            azimuth,
-            z,
-            sine,
-        }
+        Self { height, azimuth, z, sine }
     }
 
     /// The unit vector: exact if the squared z is rational and the azimuth a multiple of 15°.
@@ -110,10 +103,7 @@ impl Lobe {
         let (n, d) = self.azimuth;
         let turns = n * m as i64;
         let size = power(&self.sine, m);
-        [
-            &size * Exact::cos_pi(turns, d),
-            size * Exact::sin_pi(turns, d),
-        ]
+        [&size * Exact::cos_pi(turns, d), size * Exact::sin_pi(turns, d)]
     }
 }
 
@@ -121,16 +111,12 @@ impl FromStr for Lobe {
     type Err = LobeError;
 
     fn from_str(text: &str) -> Result<Self, LobeError> {
-        parse(text)
-            .ok_or_else(|| LobeError::Form(text.into()))
-            .and_then(|(height, azimuth)| match height {
-                Height::Root { l, m, rank }
-                    if l > HIGHEST_BAND || rank == 0 || m + 2 * rank > l =>
-                {
-                    Err(LobeError::Root(text.into()))
-                }
-                _ => Ok(Self::new(height, azimuth)),
-            })
+        parse(text).ok_or_else(|| LobeError::Form(text.into())).and_then(|(height, azimuth)| match height {
+            Height::Root { l, m, rank } if l > HIGHEST_BAND || rank == 0 || m + 2 * rank > l => {
+                Err(LobeError::Root(text.into()))
+            }
+            _ => Ok(Self::new(height, azimuth)),
+        })
     }
 }
 
@@ -140,24 +126,14 @@ fn parse(text: &str) -> Option<(Height, (i64, i64))> {
     }
     let (height, azimuth) = text.split_once(' ')?;
     let (n, d) = azimuth.split_once('/').unwrap_or((azimuth, "1"));
-    let azimuth = (
-        n.parse::<i32>().ok()?.into(),
-        d.parse::<u16>().ok().filter(|&d| d > 0)?.into(),
-    );
+    let azimuth = (n.parse::<i32>().ok()?.into(), d.parse::<u16>().ok().filter(|&d| d > 0)?.into());
     if height == "equator" {
         return Some((Height::Equator, azimuth));
     }
     let (l, rest) = height.strip_prefix('P')?.split_once(',')?;
     let (m, rank) = rest.split_once('#')?;
     let [l, m, rank] = [l, m, rank].map(|n| n.parse::<u8>().ok().map(usize::from));
-    Some((
-        Height::Root {
-            l: l?,
-            m: m?,
-            rank: rank?,
-        },
-        azimuth,
-    ))
+    Some((Height::Root { l: l?, m: m?, rank: rank? }, azimuth))
 }
 
 impl fmt::Display for Lobe {
@@ -189,28 +165,19 @@ pub struct LobeSet {
 impl LobeSet {
     fn new(order: usize, directions: Vec<Lobe>, subsets: Vec<Vec<usize>>) -> Self {
         let change = subsets.iter().map(|_| OnceLock::new()).collect();
-        Self {
-            order,
-            directions,
-            subsets,
-            change,
-        }
+        Self { order, directions, subsets, change }
     }
 
     /// The directions of band `l`, in the order of its subset.
     pub fn lobes(&self, l: usize) -> Vec<Lobe> {
-        self.subsets[l]
-            .iter()
-            .map(|&d| self.directions[d].clone())
-            .collect()
+        self.subsets[l].iter().map(|&d| self.directions[d].clone()).collect()
     }
 
     /// Â of band `l`, as [`a_hat`] makes it; computed once.
     pub fn a_hat(&self, l: usize) -> &[Vec<Exact>] {
         self.change[l].get_or_init(|| {
-            a_hat(l, &self.lobes(l)).unwrap_or_else(|| {
-                panic!("the lobes of order {}, band {l} are dependent", self.order)
-            })
+            a_hat(l, &self.lobes(l))
+                .unwrap_or_else(|| panic!("the lobes of order {}, band {l} are dependent", self.order))
         })
     }
 }
@@ -256,11 +223,8 @@ pub fn a_hat(l: usize, lobes: &[Lobe]) -> Option<Vec<Vec<Exact>>> {
     }
     let unit = |i: usize| (0..n).map(move |j| Real::from_ratio(i64::from(i == j), 1));
     let values = lobe_values(l, lobes);
-    let mut rows: Vec<Vec<Real>> = values
-        .iter()
-        .enumerate()
-        .map(|(i, row)| row.iter().map(Exact::to_real).chain(unit(i)).collect())
-        .collect();
+    let mut rows: Vec<Vec<Real>> =
+        values.iter().enumerate().map(|(i, row)| row.iter().map(Exact::to_real).chain(unit(i)).collect()).collect();
     for column in 0..n {
         let pivot = (column..n).max_by_key(|&i| rows[i][column].abs())?;
         if rows[pivot][column].is_negligible() {
@@ -280,11 +244,7 @@ pub fn a_hat(l: usize, lobes: &[Lobe]) -> Option<Vec<Vec<Exact>>> {
             }
         }
     }
-    Some(
-        rows.into_iter()
-            .map(|mut row| row.split_off(n).into_iter().map(Exact::real).collect())
-            .collect(),
-    )
+    Some(rows.into_iter().map(|mut row| row.split_off(n).into_iter().map(Exact::real).collect()).collect())
 }
 
 fn power(x: &Exact, n: usize) -> Exact {
@@ -303,11 +263,7 @@ fn evaluate(coefficients: &[Exact], z: &Exact) -> Exact {
 /// The square of the `rank`-th largest root of P_l^m, 1 ≤ rank ≤ (l-m)/2: rational if it is the only one, otherwise by
 /// Newton's iteration from 1, where the larger roots are divided out (Maehly), so that it falls to the largest one left.
 fn squared_root(l: usize, m: usize, rank: usize) -> Exact {
-    let exact: Vec<Exact> = legendre_polynomial(l, m)
-        .into_iter()
-        .skip((l - m) % 2)
-        .step_by(2)
-        .collect();
+    let exact: Vec<Exact> = legendre_polynomial(l, m).into_iter().skip((l - m) % 2).step_by(2).collect();
     if let [constant, slope] = &exact[..] {
         return -(constant / slope);
     }
@@ -375,30 +331,17 @@ struct Band {
 fn sets() -> &'static Sets {
     static SETS: OnceLock<Sets> = OnceLock::new();
     SETS.get_or_init(|| {
-        let data: Data = toml::from_str(include_str!("../../data/lobes.toml"))
-            .expect("data/lobes.toml is as declared");
+        let data: Data = toml::from_str(include_str!("../../data/lobes.toml")).expect("data/lobes.toml is as declared");
         let read = |lobes: Vec<String>| -> Vec<Lobe> {
-            lobes
-                .iter()
-                .map(|text| text.parse().expect("data/lobes.toml names directions"))
-                .collect()
+            lobes.iter().map(|text| text.parse().expect("data/lobes.toml names directions")).collect()
         };
         let prefixes = |order: usize| (0..order).map(|l| (0..2 * l + 1).collect()).collect();
-        let nested = |s: Nested| {
-            (
-                s.order,
-                LobeSet::new(s.order, read(s.lobes), prefixes(s.order)),
-            )
-        };
+        let nested = |s: Nested| (s.order, LobeSet::new(s.order, read(s.lobes), prefixes(s.order)));
         let free = |s: Free| (s.order, LobeSet::new(s.order, read(s.lobes), s.subsets));
         Sets {
             nested: data.nested.into_iter().map(nested).collect(),
             free: data.free.into_iter().map(free).collect(),
-            band: data
-                .band
-                .into_iter()
-                .map(|b| (b.band, read(b.lobes)))
-                .collect(),
+            band: data.band.into_iter().map(|b| (b.band, read(b.lobes))).collect(),
         }
     })
 }

@@ -112,9 +112,14 @@ fn functions(mode: Mode) -> Vec<Function> {
         specs.retain(|spec| spec.order == MUTATED_ORDER && !spec.rgb);
         specs.dedup_by_key(|spec| report::family(spec));
     }
+    if let Ok(only) = std::env::var("ONLY") {
+        specs.retain(|spec| only.split(',').any(|o| o == spec.to_string()));
+    }
     let mut functions = build(&specs);
     // The longest first, so that the threads end together.
-    functions.sort_by_key(|function| std::cmp::Reverse((function.built.code.cost(function.spec.channels()).total*7919)%10007));
+    functions.sort_by_key(|function| {
+        std::cmp::Reverse((function.built.code.cost(function.spec.channels()).total * 7919) % 10007)
+    });
     functions
 }
 

@@ -117,7 +117,7 @@ fn scale(block: usize, band: Option<usize>) -> f64 {
 pub struct Cases {
     /// The inputs as the wrapped shader reads them.
     pub inputs: Vec<f32>,
-    /// The results as it should write them, and what each is measured in.
+    /// The results as it should write them, without padding, and what each is measured in.
     wanted: Vec<(f64, f64)>,
     /// How many numbers a result has.
     result: usize,
@@ -160,6 +160,7 @@ impl Cases {
                     inputs.extend(channels.iter().map(|channel| channel[place][i].0 as f32));
                 }
             }
+            inputs.resize(inputs.len().next_multiple_of(4), 0.0);
             let results: Vec<Vec<Wide>> = lists
                 .iter()
                 .map(|lists| {
@@ -178,22 +179,24 @@ impl Cases {
         Self { inputs, wanted, result: shape.len(), channels, by_band }
     }
 
-    /// How many numbers a driver has to return.
+    /// How many numbers a driver has to return, with padding.
     pub fn output_len(&self) -> usize {
-        self.wanted.len()
+        INPUTS * (self.result * self.channels).next_multiple_of(4)
     }
 
     /// The largest error in the kernel's measure: of a band as a whole, or of each number. Not finite if a zero signal
     /// does not give exact zeros or if anything is not a number.
     pub fn error(&self, got: &[f32]) -> f64 {
-        assert_eq!(got.len(), self.wanted.len());
+        assert_eq!(got.len(), self.output_len());
+        let size = self.result * self.channels;
+        let got = got.chunks(size.next_multiple_of(4)).flat_map(|chunk| &chunk[..size]);
         let relative = |(&got, &(want, unit)): (&f32, &(f64, f64))| match (f64::from(got) - want, unit) {
             (0.0, 0.0) => 0.0,
             (difference, unit) => difference / unit,
         };
-        let errors: Vec<f64> = got.iter().zip(&self.wanted).map(relative).collect();
+        let errors: Vec<f64> = got.zip(&self.wanted).map(relative).collect();
         let mut worst = 0.0;
-        for case in errors.chunks(self.result * self.channels) {
+        for case in errors.chunks(size) {
             for channel in 0..self.channels {
                 let mut bands = vec![0.0; self.result];
                 for i in 0..self.result {

@@ -40,7 +40,15 @@ impl Gpu {
     /// # Panics
     ///
     /// If the device fails.
-    pub fn run(&self, label: &str, target: Target, text: &str, inputs: &[f32], outputs: usize, count: usize) -> Vec<f32> {
+    pub fn run(
+        &self,
+        label: &str,
+        target: Target,
+        text: &str,
+        inputs: &[f32],
+        outputs: usize,
+        count: usize,
+    ) -> Vec<f32> {
         let source = match target {
             Target::Glsl => wgpu::ShaderSource::Glsl {
                 shader: Cow::Borrowed(text),
@@ -92,7 +100,7 @@ impl Gpu {
         read.map_async(wgpu::MapMode::Read, .., |result| result.expect("the device gives its memory"));
         device.poll(wgpu::PollType::wait_indefinitely()).expect("the device finishes");
         let t3 = std::time::Instant::now();
-        eprintln!("{label} {target} module {:?} pipeline {:?} dispatch {:?}", t1-t0,t2-t1,t3-t2);
+        eprintln!("{label} {target} module {:?} pipeline {:?} dispatch {:?}", t1 - t0, t2 - t1, t3 - t2);
         let view = read.get_mapped_range(..).expect("the memory is mapped");
         bytemuck::pod_collect_to_vec(&view)
     }

@@ -48,7 +48,10 @@ impl Driver {
         let (folder, start) = self.manifest;
         let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
         let is_it = |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
-        files.into_iter().find(|path| is_it(path)).ok_or_else(|| missing(&format!("The driver {}", self.name), self.package))
+        files
+            .into_iter()
+            .find(|path| is_it(path))
+            .ok_or_else(|| missing(&format!("The driver {}", self.name), self.package))
     }
 }
 

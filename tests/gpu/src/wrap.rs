@@ -67,52 +67,57 @@ fn value(dialect: Dialect, shape: Shape, kind: Kind, next: &mut impl FnMut() -> 
     format!("{}({})", of(shape), parts.join(", "))
 }
 
-/// The function's file and an entry point that calls it for `count` inputs, packed in parameter order, all channels of
-/// a number together; the results lie the same way. `text` is the file, in WGSL or GLSL.
+/// The function's file and an entry point that calls it for `count` inputs. An input is all its parameters' numbers, the
+/// channels of a number together, padded to whole vectors of four; a result likewise. `text` is the file, in WGSL or
+/// GLSL. A software driver writes hundreds of instructions for each access to a buffer, hence the vectors.
 pub fn compute(function: &Function, target: Target, text: &str, count: usize) -> String {
     let dialect = dialect(function, target);
-    let mut place = 0;
+    let glsl = target == Target::Glsl;
+    let (define, four) = if glsl { ("vec4", "vec4") } else { ("let", "vec4<f32>") };
+    let (input, output) = (input_len(function).div_ceil(4), output_len(function).div_ceil(4));
+    let reads: String = (0..input).map(|i| format!("    {define} in{i}_ = inputs[at + {i}u];\n")).collect();
+    let letter = |place: usize| [".x", ".y", ".z", ".w"][place % 4];
+    let mut places = 0..;
     let mut next = || {
-        place += 1;
-        format!("inputs[at + {}u]", place - 1)
+        let place = places.next().expect("there is always a next number");
+        format!("in{}_{}", place / 4, letter(place))
     };
-    let arguments: Vec<String> = function
-        .built
-        .code
-        .params()
-        .iter()
-        .map(|param| value(dialect, param.shape, param.kind, &mut next))
-        .collect();
+    let params = function.built.code.params();
+    let arguments: Vec<String> =
+        params.iter().map(|param| value(dialect, param.shape, param.kind, &mut next)).collect();
     let call = format!("{}({})", function.shader_name(), arguments.join(", "));
     let (shape, kind) = function.built.code.result();
-    let letters: &[&str] = if channels(function, kind) == 3 { &[".x", ".y", ".z"] } else { &[""] };
-    let results: String = (0..shape.len())
-        .flat_map(|index| letters.iter().map(move |letter| (index, letter)))
-        .enumerate()
-        .map(|(place, (index, letter))| {
-            format!("    outputs[to + {place}u] = {}{letter};\n", dialect.component("result", shape, index))
+    let channels = channels(function, kind);
+    let number = |place: usize| match (place / channels < shape.len(), channels) {
+        (false, _) => "0.0".to_owned(),
+        (true, 1) => dialect.component("result", shape, place),
+        (true, _) => format!("{}{}", dialect.component("result", shape, place / channels), letter(place % channels)),
+    };
+    let writes: String = (0..output)
+        .map(|i| {
+            let numbers = [0, 1, 2, 3].map(|j| number(4 * i + j)).join(", ");
+            format!("    outputs[to + {i}u] = {four}({numbers});\n")
         })
         .collect();
-    let (input, output) = (input_len(function), output_len(function));
-    match target {
-        Target::Glsl => format!(
+    match glsl {
+        true => format!(
             "#version 450\n{text}\n\
              layout(local_size_x = {GROUP}) in;\n\
-             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ float inputs[]; }};\n\
-             layout(std430, set = 0, binding = 1) buffer Outputs {{ float outputs[]; }};\n\
+             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[]; }};\n\
+             layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[]; }};\n\
              void main() {{\n    uint thread = gl_GlobalInvocationID.x;\n    if (thread >= {count}u) {{ return; }}\n    \
-             uint at = thread * {input}u;\n    uint to = thread * {output}u;\n    \
-             {} result = {call};\n{results}}}\n",
+             uint at = thread * {input}u;\n    uint to = thread * {output}u;\n{reads}    \
+             {} result = {call};\n{writes}}}\n",
             dialect.type_of(shape, kind)
         ),
-        _ => format!(
+        false => format!(
             "{text}\n\
-             @group(0) @binding(0) var<storage, read> inputs: array<f32>;\n\
-             @group(0) @binding(1) var<storage, read_write> outputs: array<f32>;\n\
+             @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;\n\
+             @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;\n\
              @compute @workgroup_size({GROUP})\n\
              fn main(@builtin(global_invocation_id) id: vec3<u32>) {{\n    let thread = id.x;\n    \
-             if thread >= {count}u {{ return; }}\n    let at = thread * {input}u;\n    let to = thread * {output}u;\n    \
-             let result = {call};\n{results}}}\n"
+             if thread >= {count}u {{ return; }}\n    let at = thread * {input}u;\n    let to = thread * {output}u;\n\
+             {reads}    let result = {call};\n{writes}}}\n"
         ),
     }
 }

@@ -8,10 +8,10 @@ use std::fmt::Debug;
 use zonal::real::{Channels, Lanes};
 use zonal_codegen::built::{self, Built};
 use zonal_codegen::catalog;
-use zonal_codegen::eval::{Contraction, Number, Program};
+use zonal_codegen::code::Runner;
+use zonal_codegen::eval::{Contraction, Number};
 use zonal_codegen::graph::Kind;
 use zonal_codegen::kernel::Param;
-use zonal_codegen::listing::Listing;
 use zonal_codegen::samples::{self, Random};
 use zonal_codegen::spec::Spec;
 
@@ -172,22 +172,22 @@ fn assert_same<T: Same + Debug>(got: &[T], want: &[T], what: impl Fn() -> String
 fn compare<T: Same>(table: &BTreeMap<&'static str, Flattened<T>>) {
     let specs = catalog::standard();
     let names: Vec<String> = specs.iter().map(Spec::name).collect();
-    for (name, _) in table {
+    for name in table.keys() {
         assert!(names.iter().any(|known| known == name), "`{name}` is in the table, but not in the catalogue");
     }
-    let mut programs: BTreeMap<Spec, Program<T>> = BTreeMap::new();
+    let mut kernels: BTreeMap<Spec, (Vec<Param>, Runner<T>)> = BTreeMap::new();
     for spec in &specs {
         let name = spec.name();
         let function = table.get(&name[..]).unwrap_or_else(|| panic!("`{name}` is missing in the table of this test"));
-        let program = programs
-            .entry(Built::base(spec))
-            .or_insert_with(|| Program::new(&Listing::new(&built::kernel(spec))));
-        compare_one(spec, program, function);
+        let (params, runner) = kernels.entry(Built::base(spec)).or_insert_with(|| {
+            let code = built::code(spec);
+            (code.params().to_vec(), code.runner())
+        });
+        compare_one(spec, params, runner, function);
     }
 }
 
-fn compare_one<T: Same>(spec: &Spec, program: &Program<T>, function: &Flattened<T>) {
-    let params = &program.listing().params;
+fn compare_one<T: Same>(spec: &Spec, params: &[Param], runner: &Runner<T>, function: &Flattened<T>) {
     let inputs: Vec<Vec<Vec<T>>> = samples::inputs(spec, params, SEED, SAMPLES, 0.5)
         .iter()
         .map(|input| input.iter().map(|row| row.iter().map(|&x| T::from_f64(x)).collect()).collect())
@@ -199,7 +199,7 @@ fn compare_one<T: Same>(spec: &Spec, program: &Program<T>, function: &Flattened<
             let of = |param: &Param| if param.kind == Kind::Signal { (i + channel) % SAMPLES } else { i };
             params.iter().enumerate().map(|(place, param)| &inputs[of(param)][place][..]).collect()
         };
-        let each: Vec<Vec<T>> = (0..channels).map(|channel| program.run(&one(channel), Contraction::Separate)).collect();
+        let each: Vec<Vec<T>> = (0..channels).map(|channel| runner.run(&one(channel), Contraction::Separate)).collect();
         let rows: Vec<Vec<T>> = (0..params.len())
             .map(|place| match params[place].kind {
                 Kind::Signal => interleaved(&(0..channels).map(|channel| one(channel)[place]).collect::<Vec<_>>()),
@@ -271,7 +271,9 @@ fn channels_of_lanes_equal_single_runs_bit_for_bit() {
     for (channel, signal) in signals.iter().enumerate() {
         for lane in 0..LANES {
             let want = zonal::sh5::rotate(q[lane], &signal[lane]);
-            assert_same(&got.map(|value| value.0[channel].0[lane]), &want, || format!("channel {channel}, lane {lane}"));
+            assert_same(&got.map(|value| value.0[channel].0[lane]), &want, || {
+                format!("channel {channel}, lane {lane}")
+            });
         }
     }
 }

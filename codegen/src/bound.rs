@@ -1,0 +1,559 @@
+//! Proven bounds of the f32 rounding error of a straight-line kernel, in the measure of [`crate::accuracy`] (MATH section
+//! 11). What is bounded is the distance between the kernel's f32 result and the same formula in exact arithmetic on the
+//! same f32 inputs, whatever each operation's rounding does within half a unit in the last place.
+//!
+//! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
+//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation.
+//! Left out are signals so small that products underflow, and quaternions with w or normals with x within 1e-16 of −1e-15
+//! whose neighbour (z, or y) vanishes too, for which the set-up's tiny number does not help.
+//!
+//! The arithmetic is IEEE's: 1/x is rounded once and 1/√x twice; a contraction is one of [`crate::eval::Contraction`]'s.
+//! A shader compiler that flushes, reorders or takes a less exact inverse root is outside of it.
+//!
+//! Method: a band is cut where the kernel notes a stage ([`crate::graph::Graph::stage`]); errors of stages add. A stage
+//! falls into parts that do not mix. A part that is a plane turned by a phase is bounded as a complex product; any other
+//! is run on enclosures with error weights over a grid of its one to three angles ([`domain`] says why a grid proves it).
+
+pub mod domain;
+pub mod norm;
+pub mod phases;
+pub mod section;
+
+use crate::graph::Kind;
+use crate::kernel::Shape;
+use crate::kernels::rotate;
+use crate::listing::{Listing, Op, Operand};
+use crate::spec::{Family, Form, Method, Spec};
+use domain::{Domain, Root};
+use norm::{Matrix, SLACK};
+use phases::{INPUT, Phase, Phases};
+use section::{Both, Run, Section, Start, U, larger};
+use std::collections::{HashMap, HashSet};
+use std::sync::Mutex;
+
+/// A kernel's proven f32 rounding bound, in the measure of [`crate::accuracy`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Bound {
+    /// Where a multiply-add is rounded twice.
+    pub separate: f64,
+    /// Where a multiply-add is rounded once.
+    pub fused: f64,
+    /// For a kernel that is measured band by band, the larger of both for each band.
+    pub bands: Vec<f64>,
+}
+
+impl Bound {
+    /// The larger of both contractions.
+    pub fn value(&self) -> f64 {
+        self.separate.max(self.fused)
+    }
+
+    fn of(bands: &[Both], is_banded: bool) -> Option<Self> {
+        let [separate, fused] = bands.iter().copied().fold([0.0; 2], larger);
+        let bands = if is_banded { bands.iter().map(|both| both[0].max(both[1])).collect() } else { vec![] };
+        (separate.is_finite() && fused.is_finite()).then_some(Self { separate, fused, bands })
+    }
+}
+
+/// What adding the tiny number to a quaternion's w and y changes in band l, divided by l: the quaternion turns by 3e-15.
+const NUDGE: f64 = 1e-13;
+
+/// The bound of a spec's kernel, laid out. None for loops, for `zhf` (whose basis is taken at 2n − 1 turned lobes), and
+/// for a listing whose set-up is not recognised.
+pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
+    if spec.form == Form::Loop || spec.family == Family::Zhf {
+        return None;
+    }
+    let prover = Prover::new(spec, listing)?;
+    match spec.family {
+        Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
+        Family::Eval => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
+        Family::Angles => {
+            let rotation = Listing::new(&rotate::zyz_from_angles(spec.order));
+            Bound::of(&prover.rotating(&rotation)?.bands()?, true)
+        }
+        _ => Bound::of(&prover.bands()?, true),
+    }
+}
+
+/// What a part of a band does: the bound of its fresh error for an input of norm one, and of its exact norm.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    error: Both,
+    norm: f64,
+}
+
+impl Part {
+    const IDENTITY: Self = Self { error: [0.0; 2], norm: 1.0 };
+
+    fn then(self, next: Self) -> Self {
+        let error = |i: usize| {
+            let carried = if self.error[i] == 0.0 { 0.0 } else { next.norm * self.error[i] };
+            let fresh = if next.error[i] == 0.0 { 0.0 } else { next.error[i] * (self.norm + self.error[i]) };
+            carried + fresh
+        };
+        Self { error: [error(0), error(1)], norm: self.norm * next.norm }
+    }
+
+    fn beside(self, other: Self) -> Self {
+        Self { error: larger(self.error, other.error), norm: self.norm.max(other.norm) }
+    }
+}
+
+struct Prover<'a> {
+    spec: &'a Spec,
+    listing: &'a Listing,
+    phases: Phases,
+    /// Inputs that are functions of a circle's angle but no phases.
+    others: HashMap<Operand, (Start, usize)>,
+    /// [`U`], or 0 where only what the inputs come with counts.
+    roundoff: f64,
+}
+
+/// The bounds of parts that were met before: kernels share most of theirs.
+static KNOWN: Mutex<Option<HashMap<String, (Both, f64)>>> = Mutex::new(None);
+
+impl<'a> Prover<'a> {
+    fn new(spec: &'a Spec, listing: &'a Listing) -> Option<Self> {
+        let mut others = HashMap::new();
+        let roots = match &spec.family {
+            Family::Angles | Family::Rotate(Method::Zyz | Method::Zxzxz) => phases::of_quaternion(listing)?,
+            Family::Rotate(Method::Align) => phases::of_normal(listing)?,
+            Family::Rotate(Method::Angles) => {
+                let (pairs, last) = all_angles(spec.order);
+                for (operand, root) in last {
+                    others.insert(operand, (Start { root, spread: INPUT, error: [0.0; 2] }, 1));
+                }
+                pairs
+            }
+            _ => match listing.params.first().map(|param| param.shape) {
+                Some(Shape::Pair) => vec![phases::given(0, 0, 0, 1)],
+                Some(Shape::Pairs(n)) => (0..n).map(|pair| phases::given(0, pair, pair, 1)).collect(),
+                _ => vec![],
+            },
+        };
+        Some(Self { spec, listing, phases: Phases::new(listing, roots), others, roundoff: U })
+    }
+
+    /// What the errors of this listing's results, the kernel `angles`, do to a rotation by them.
+    fn rotating<'b>(&self, rotation: &'b Listing) -> Option<Prover<'b>>
+    where
+        'a: 'b,
+    {
+        let (mut pairs, last) = all_angles(self.spec.order);
+        for (pair, outputs) in pairs.iter_mut().zip(self.listing.outputs.chunks_exact(2)) {
+            let (made, is_sine) = self.phases.of(self.unsigned(outputs[0]))?;
+            if is_sine || made.sin != self.unsigned(outputs[1]) || made.multiple != pair.multiple {
+                return None;
+            }
+            *pair = Phase { defect: made.defect, error: made.error, ..*pair };
+        }
+        let mut others = HashMap::new();
+        for ((operand, root), &output) in last.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
+            others.insert(
+                operand,
+                (Start { root, spread: 5.0 * INPUT, error: self.scalars(&[self.unsigned(output)])? }, 1),
+            );
+        }
+        Some(Prover { spec: self.spec, listing: rotation, phases: Phases::new(rotation, pairs), others, roundoff: 0.0 })
+    }
+
+    /// Without a negation, which changes no norm.
+    fn unsigned(&self, mut operand: Operand) -> Operand {
+        while let Operand::Step(step) = operand {
+            match self.listing.steps[step].op {
+                Op::Neg(inner) => operand = inner,
+                _ => break,
+            }
+        }
+        operand
+    }
+
+    fn is_signal(&self, operand: Operand) -> bool {
+        match operand {
+            Operand::Step(step) => self.listing.steps[step].kind == Kind::Signal,
+            Operand::Input { param, .. } => self.listing.params[param].kind == Kind::Signal,
+            _ => false,
+        }
+    }
+
+    /// The signal values between `inputs` and `outputs`, both among them, and the scalars that they use. None if other
+    /// values of the signal are needed.
+    fn cone(&self, inputs: &[Operand], outputs: &[Operand]) -> Option<(HashSet<Operand>, HashSet<Operand>)> {
+        let (mut signals, mut scalars) = (HashSet::new(), HashSet::new());
+        let mut stack = outputs.to_vec();
+        while let Some(operand) = stack.pop() {
+            if !self.is_signal(operand) {
+                scalars.insert(operand);
+            } else if signals.insert(operand) && !inputs.contains(&operand) {
+                match operand {
+                    Operand::Step(step) => stack.extend(self.listing.steps[step].op.operands()),
+                    _ => return None,
+                }
+            }
+        }
+        Some((signals, scalars))
+    }
+
+    /// The domain of what these scalars depend on, and the circle if they are functions of one angle of a phase.
+    fn domain(&self, scalars: impl IntoIterator<Item = Operand>) -> Option<(Domain, usize)> {
+        let mut found: Option<(Domain, usize)> = None;
+        let mut seen = HashSet::new();
+        let mut stack: Vec<Operand> = scalars.into_iter().collect();
+        while let Some(operand) = stack.pop() {
+            if !seen.insert(operand) {
+                continue;
+            }
+            let circle = self.phases.of(operand).map(|(phase, _)| phase.circle);
+            let circle = circle.or_else(|| self.others.get(&operand).map(|(_, circle)| *circle));
+            let next = match (circle, operand) {
+                (Some(circle), _) => (Domain::Circle, circle),
+                (None, Operand::Input { param, .. }) => (self.parameter(param)?, 0),
+                (None, Operand::Step(step)) => {
+                    stack.extend(self.listing.steps[step].op.operands());
+                    continue;
+                }
+                _ => continue,
+            };
+            match found {
+                Some(found) if found != next => return None,
+                _ => found = Some(next),
+            }
+        }
+        Some(found.unwrap_or((Domain::Nothing, 0)))
+    }
+
+    fn parameter(&self, param: usize) -> Option<Domain> {
+        let max_angle = self.spec.max_angle();
+        let domain = match (&self.spec.family, self.listing.params[param].shape) {
+            (Family::Basis | Family::Eval | Family::Rotate(Method::Zonal), Shape::Vec3) => Domain::Sphere,
+            (Family::Tilt, Shape::Vec3) => {
+                Domain::Cap(max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
+            }
+            (Family::Rotate(Method::Tensor), Shape::Vec4) => Domain::Quaternion,
+            (Family::Rotate(Method::Matrix), Shape::Mat3) => Domain::Rotation,
+            (_, Shape::Scalar) => Domain::Small(max_angle?),
+            _ => return None,
+        };
+        domain.is_valid().then_some(domain)
+    }
+
+    fn start(&self, operand: Operand) -> Option<Start> {
+        if let Some((phase, is_sine)) = self.phases.of(operand) {
+            let k = phase.multiple;
+            let root = if is_sine { Root::Sin(k) } else { Root::Cos(k) };
+            return Some(Start { root, spread: phase.defect, error: phase.error });
+        }
+        if let Some(&(start, _)) = self.others.get(&operand) {
+            return Some(start);
+        }
+        match operand {
+            Operand::Input { index, .. } if !self.is_signal(operand) => {
+                Some(Start { root: Root::Component(index), spread: INPUT, error: [0.0; 2] })
+            }
+            _ => None,
+        }
+    }
+
+    /// Outputs that are scalars: the largest error.
+    fn scalars(&self, outputs: &[Operand]) -> Option<Both> {
+        let (domain, _) = self.domain(outputs.iter().copied())?;
+        let section = Section::new(self.listing, domain, &[], outputs, |operand| self.start(operand))?;
+        let measure =
+            |run: &Run, mode: usize, _: f64| section.errors(run).iter().map(|both| both[mode]).fold(0.0, f64::max);
+        Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
+    }
+
+    /// One value, linear in coefficients of which each band has norm one.
+    fn sum(&self, bands: &[usize]) -> Option<Both> {
+        let inputs = self.coefficients();
+        let (_, scalars) = self.cone(&inputs, &self.listing.outputs)?;
+        let (domain, _) = self.domain(scalars)?;
+        let section =
+            Section::new(self.listing, domain, &inputs, &self.listing.outputs, |operand| self.start(operand))?;
+        let measure = |run: &Run, mode: usize, _: f64| {
+            let weights = section.weights(run, mode);
+            let mut rest = weights.row(0);
+            let mut sum = 0.0;
+            for l in bands {
+                let (band, others) = rest.split_at(2 * l + 1);
+                sum += band.iter().map(|w| w * w).sum::<f64>().sqrt();
+                rest = others;
+            }
+            sum * SLACK
+        };
+        Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
+    }
+
+    fn coefficients(&self) -> Vec<Operand> {
+        let params = self.listing.params.iter().enumerate().filter(|(_, param)| param.kind == Kind::Signal);
+        params.flat_map(|(param, of)| (0..of.shape.len()).map(move |index| Operand::Input { param, index })).collect()
+    }
+
+    fn bands(&self) -> Option<Vec<Both>> {
+        (0..self.spec.order).map(|l| self.band(l)).collect()
+    }
+
+    /// The error of a band relative to its norm.
+    fn band(&self, l: usize) -> Option<Both> {
+        let (all, places) = (self.coefficients(), l * l..(l + 1) * (l + 1));
+        let inputs = if all.len() == self.spec.order { vec![all[l]] } else { all[places.clone()].to_vec() };
+        let outputs: Vec<Operand> = self.listing.outputs[places].iter().map(|&output| self.unsigned(output)).collect();
+        let stages: Vec<&[Operand]> = self.listing.stages.iter().map(Vec::as_slice).collect();
+        let part = self.part(&inputs, &outputs, &stages)?;
+        let nudge = matches!(self.spec.family, Family::Angles | Family::Rotate(Method::Zyz | Method::Zxzxz));
+        Some(part.error.map(|error| error * SLACK + if nudge { l as f64 * NUDGE } else { 0.0 }))
+    }
+
+    /// From values to values, cut at the stages that lie between.
+    fn part(&self, inputs: &[Operand], outputs: &[Operand], stages: &[&[Operand]]) -> Option<Part> {
+        let (signals, scalars) = self.cone(inputs, outputs)?;
+        let same = |a: &[Operand], b: &[Operand]| a.iter().all(|x| b.contains(x));
+        for (at, &stage) in stages.iter().enumerate() {
+            let fits = stage.len() == inputs.len() && stage.iter().all(|value| signals.contains(value));
+            if fits && !same(stage, inputs) && !same(stage, outputs) && self.cone(stage, outputs).is_some() {
+                let (before, after) = (&stages[..at], &stages[at + 1..]);
+                return Some(self.part(inputs, stage, before)?.then(self.part(stage, outputs, after)?));
+            }
+        }
+        let groups = self.groups(inputs, outputs)?;
+        if let [_] = groups[..] {
+            return self.whole(inputs, outputs, scalars);
+        }
+        let parts = groups.into_iter().map(|(inputs, outputs)| self.part(&inputs, &outputs, stages));
+        parts.into_iter().try_fold(Part { norm: 0.0, ..Part::IDENTITY }, |all, part| Some(all.beside(part?)))
+    }
+
+    /// The parts that do not mix: outputs that share an input are in one.
+    fn groups(&self, inputs: &[Operand], outputs: &[Operand]) -> Option<Vec<(Vec<Operand>, Vec<Operand>)>> {
+        let mut groups: Vec<(Vec<Operand>, Vec<Operand>)> = Vec::new();
+        for &output in outputs {
+            let (signals, _) = self.cone(inputs, &[output])?;
+            let used: Vec<Operand> = inputs.iter().copied().filter(|input| signals.contains(input)).collect();
+            let mut joined = (used, vec![output]);
+            let (touching, apart): (Vec<_>, Vec<_>) =
+                groups.into_iter().partition(|(others, _)| others.iter().any(|input| signals.contains(input)));
+            for (inputs, outputs) in touching {
+                joined.0.extend(inputs.into_iter().filter(|input| !signals.contains(input)));
+                joined.1.extend(outputs);
+            }
+            groups = apart;
+            groups.push(joined);
+        }
+        Some(groups)
+    }
+
+    /// A part that falls no further apart.
+    fn whole(&self, inputs: &[Operand], outputs: &[Operand], scalars: HashSet<Operand>) -> Option<Part> {
+        if inputs.len() == outputs.len() && outputs.iter().all(|output| inputs.contains(&self.unsigned(*output))) {
+            return Some(Part::IDENTITY);
+        }
+        if let (&[x, y], &[real, imaginary]) = (inputs, outputs)
+            && let Some(part) = self.turn([x, y], [real, imaginary], &scalars)
+        {
+            return Some(part);
+        }
+        let (domain, _) = self.domain(scalars)?;
+        let section = Section::new(self.listing, domain, inputs, outputs, |operand| self.start(operand))?;
+        let key = format!("{domain:?} {} {}", self.roundoff, section.key());
+        if let Some(&(error, norm)) = KNOWN.lock().ok()?.get_or_insert_default().get(&key) {
+            return Some(Part { error, norm });
+        }
+        let norm = exact_norm(&section, domain);
+        let weight = |run: &Run, mode: usize, enough: f64| section.weights(run, mode).weight_norm(enough);
+        let error = match (domain, section.is_affine()) {
+            (Domain::Circle, true) => {
+                let given = phase_error(&section, domain, |start| start.error);
+                let starts: Vec<Start> =
+                    section.starts().iter().map(|start| Start { error: [0.0; 2], ..*start }).collect();
+                let reach = section.starts().iter().map(|start| start.error[0].max(start.error[1])).fold(0.0, f64::max);
+                let rounded = sweep(&section, domain, &starts, self.roundoff, reach, &weight);
+                [rounded[0] + given[0], rounded[1] + given[1]]
+            }
+            _ => sweep(&section, domain, section.starts(), self.roundoff, 0.0, &weight),
+        };
+        KNOWN.lock().ok()?.get_or_insert_default().insert(key, (error, norm));
+        Some(Part { error, norm })
+    }
+
+    /// A plane that a phase turns.
+    fn turn(&self, plane: [Operand; 2], [real, imaginary]: [Operand; 2], scalars: &HashSet<Operand>) -> Option<Part> {
+        let phase = scalars.iter().find_map(|&operand| self.phases.of(operand))?.0;
+        let factor = [phase.cos, phase.sin];
+        let turn = |a, b| phases::turn(self.listing, a, b, plane, factor);
+        let own = turn(real, imaginary).or_else(|| turn(imaginary, real))?;
+        let own = if self.roundoff == 0.0 { [0.0; 2] } else { own };
+        let error = |i: usize| (phase.size() + phase.error[i]) * (1.0 + own[i]) - phase.size();
+        Some(Part { error: [error(0), error(1)], norm: phase.size() })
+    }
+}
+
+/// Where a cosine or a sine of an angle is a number of its own.
+type Others = Vec<(Operand, Root)>;
+
+/// The pairs that the method `angles` is given, and the two numbers after them.
+fn all_angles(order: usize) -> (Vec<Phase>, Others) {
+    let count = order - 1;
+    let last = |index| Operand::Input { param: 0, index: 6 * count + index };
+    let pairs = (0..3 * count).map(|pair| phases::given(0, pair, pair / count, pair % count + 1)).collect();
+    (pairs, vec![(last(0), Root::HalfSquare), (last(1), Root::Product)])
+}
+
+/// Points a degree on the grid, by the number of angles.
+fn density(degree: domain::Degree) -> usize {
+    match degree.iter().filter(|&&d| d > 0).count() {
+        0 | 1 => 16,
+        2 => 12,
+        _ => 10,
+    }
+}
+
+/// The largest measure over the domain; `reach` widens what the roots may be.
+fn sweep(
+    section: &Section,
+    domain: Domain,
+    starts: &[Start],
+    roundoff: f64,
+    reach: f64,
+    measure: &dyn Fn(&Run, usize, f64) -> f64,
+) -> Both {
+    let roots: Vec<Root> = starts.iter().map(|start| start.root).collect();
+    let degree = section.degree();
+    let mut run = Run::default();
+    let mut over = |slab: (f64, f64)| {
+        let (grid, factor) = domain.grid(&roots, degree, density(degree), slab);
+        let mut worst = [0.0; 2];
+        for mut values in grid {
+            values.iter_mut().for_each(|value| value.1 += reach);
+            section.run(&values, starts, roundoff, &mut run);
+            for mode in 0..2 {
+                worst[mode] = measure(&run, mode, worst[mode]).max(worst[mode]);
+            }
+        }
+        worst.map(|bound| bound * factor)
+    };
+    let Some((from, to)) = domain.slabs() else {
+        return over((0.0, 0.0));
+    };
+    // Halve the slab with the largest bound until it is hardly above what is found at single angles.
+    let largest = |both: Both| both[0].max(both[1]);
+    let mut slabs = vec![((from, to), over((from, to)))];
+    let mut found = largest(over((to, to)));
+    for _ in 0..40 {
+        let (at, &((a, b), bound)) =
+            slabs.iter().enumerate().max_by(|x, y| largest(x.1.1).total_cmp(&largest(y.1.1))).expect("there is a slab");
+        if largest(bound) <= 1.05 * found {
+            break;
+        }
+        let middle = (a + b) / 2.0;
+        found = found.max(largest(over((middle, middle))));
+        slabs[at] = ((a, middle), over((a, middle)));
+        slabs.push(((middle, b), over((middle, b))));
+    }
+    slabs.into_iter().map(|(_, bound)| bound).fold([0.0; 2], larger)
+}
+
+/// How far a map that is affine in phases is off by errors of the phases, as a norm: Σ dcₖ Aₖ + dsₖ Bₖ, where the planes
+/// of different phases are orthogonal if the map is; else the norms add.
+fn phase_error(section: &Section, domain: Domain, error: impl Fn(&Start) -> Both) -> Both {
+    let starts = section.starts();
+    let mut run = Run::default();
+    let mut map = |values: &[f64]| -> Matrix {
+        let values: Vec<_> = values.iter().map(|&value| (value, 0.0)).collect();
+        section.run(&values, starts, 0.0, &mut run);
+        let [mid, _] = section.map(&run);
+        mid
+    };
+    debug_assert_eq!(domain, Domain::Circle);
+    let zero = map(&vec![0.0; starts.len()]);
+    // The derivative by a phase's part, wherever it stands.
+    let mut derivative = |root: Root| -> Matrix {
+        let values: Vec<f64> = starts.iter().map(|start| f64::from(u8::from(start.root == root))).collect();
+        let mut matrix = map(&values);
+        matrix.entries.iter_mut().zip(&zero.entries).for_each(|(x, y)| *x -= y);
+        matrix
+    };
+    let mut multiples: Vec<(usize, Both)> = Vec::new();
+    for start in starts {
+        if let Root::Cos(k) | Root::Sin(k) = start.root
+            && !multiples.iter().any(|(known, _)| *known == k)
+        {
+            multiples.push((k, error(start)));
+        }
+    }
+    let pairs: Vec<[Matrix; 2]> =
+        multiples.iter().map(|&(k, _)| [derivative(Root::Cos(k)), derivative(Root::Sin(k))]).collect();
+    let norms: Vec<f64> = pairs
+        .iter()
+        .map(|[cos, sin]| {
+            // The norm of cos ψ A + sin ψ B is a supremum of polynomials of degree one in ψ.
+            let points = 64;
+            let at = |i: usize| {
+                let psi = std::f64::consts::TAU * i as f64 / points as f64;
+                let entries = cos.entries.iter().zip(&sin.entries).map(|(a, b)| psi.cos() * a + psi.sin() * b);
+                Matrix { columns: cos.columns, entries: entries.collect() }.norm()
+            };
+            (0..points).map(at).fold(0.0, f64::max) / (std::f64::consts::PI / points as f64).cos()
+        })
+        .collect();
+    let apart = pairs
+        .iter()
+        .enumerate()
+        .all(|(i, p)| pairs[..i].iter().all(|q| p.iter().all(|a| q.iter().all(|b| are_orthogonal(a, b)))));
+    // Orthogonal to 1e-12 only: what they mix is added.
+    let mixed = 1e-10 * multiples.iter().map(|(_, error)| error[0].max(error[1])).sum::<f64>();
+    let each = multiples.iter().zip(&norms).map(|((_, error), norm)| error.map(|error| error * norm));
+    match apart {
+        true => each.fold([0.0; 2], larger).map(|error| error + mixed),
+        false => each.fold([0.0; 2], |sum, error| [sum[0] + error[0], sum[1] + error[1]]),
+    }
+}
+
+/// Whether AᵀB and ABᵀ vanish.
+fn are_orthogonal(a: &Matrix, b: &Matrix) -> bool {
+    let rows = a.entries.len() / a.columns;
+    let columns = a.columns;
+    let at = |m: &Matrix, i: usize, j: usize| m.entries[i * columns + j];
+    let inner = (0..columns)
+        .all(|i| (0..columns).all(|j| (0..rows).map(|k| at(a, k, i) * at(b, k, j)).sum::<f64>().abs() < 1e-12));
+    let outer = (0..rows)
+        .all(|i| (0..rows).all(|j| (0..columns).map(|k| at(a, i, k) * at(b, j, k)).sum::<f64>().abs() < 1e-12));
+    inner && outer
+}
+
+/// At least the 2-norm of a section's exact map; infinite where it is not needed, for domains of several angles.
+fn exact_norm(section: &Section, domain: Domain) -> f64 {
+    if !matches!(domain, Domain::Nothing | Domain::Circle | Domain::Small(_)) {
+        return f64::INFINITY;
+    }
+    let exact: Vec<Start> =
+        section.starts().iter().map(|start| Start { spread: 0.0, error: [0.0; 2], ..*start }).collect();
+    let whole = |run: &Run| {
+        let [mid, radius] = section.map(run);
+        (mid, radius.frobenius())
+    };
+    // MᵀM − 1 is a polynomial of twice the degree: on a grid of eight points a degree of it, its bound is 1.09 times its
+    // largest value there; the grid has sixteen for a degree of M.
+    let defect = |run: &Run, _: usize, _: f64| {
+        let (mid, radius) = whole(run);
+        let mut gram = mid.gram();
+        let columns = gram.columns;
+        gram.entries.iter_mut().step_by(columns + 1).for_each(|x| *x -= 1.0);
+        gram.frobenius() + 3.0 * radius * (1.0 + mid.frobenius())
+    };
+    let defect = 1.1 * sweep(section, domain, &exact, 0.0, 0.0, &defect)[0];
+    let ideal = if defect < 1e-6 {
+        (1.0 + defect).sqrt()
+    } else {
+        let norm = |run: &Run, _: usize, _: f64| {
+            let (mid, radius) = whole(run);
+            mid.norm() + radius
+        };
+        sweep(section, domain, &exact, 0.0, 0.0, &norm)[0]
+    };
+    // The phases are not quite of unit size: an error of each root by as much.
+    let spread: Vec<Start> =
+        exact.iter().zip(section.starts()).map(|(exact, start)| Start { error: [start.spread; 2], ..*exact }).collect();
+    let weight = |run: &Run, mode: usize, enough: f64| section.weights(run, mode).weight_norm(enough);
+    ideal + sweep(section, domain, &spread, 0.0, 0.0, &weight)[0]
+}

@@ -1,0 +1,191 @@
+//! The parameters' domains as trigonometric grids. Everything that a section computes, its error included, is a
+//! trigonometric polynomial in the angles of its domain, for fixed relative roundings; such a polynomial of degree d stays
+//! below its largest value at N equidistant points divided by cos(πd/N) (M. Riesz). So a grid proves a bound for all angles.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// What a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// There is no parameter.
+    Nothing,
+    /// One unit phase.
+    Circle,
+    /// A number of at most this size.
+    Small(f64),
+    /// Unit vectors (x, y, z).
+    Sphere,
+    /// Unit vectors at most this angle from z.
+    Cap(f64),
+    /// Unit quaternions (x, y, z, w).
+    Quaternion,
+    /// Rotation matrices by columns.
+    Rotation,
+}
+
+/// A number that a section starts from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Root {
+    /// A component of the parameter.
+    Component(usize),
+    /// cos kθ.
+    Cos(usize),
+    /// sin kθ.
+    Sin(usize),
+    /// sin²θ / 2.
+    HalfSquare,
+    /// sin θ cos θ.
+    Product,
+}
+
+/// Degrees in up to three angles.
+pub type Degree = [usize; 3];
+
+/// An enclosure: a midpoint and a radius.
+pub type Enclosure = (f64, f64);
+
+/// What f64 makes of a cosine of a multiple of π.
+const THIN: f64 = 1e-14;
+
+fn thin(value: f64) -> Enclosure {
+    (value, THIN)
+}
+
+fn enclose(a: f64, b: f64) -> Enclosure {
+    ((a + b) / 2.0, (a - b).abs() / 2.0 + THIN)
+}
+
+fn times(a: Enclosure, b: Enclosure) -> Enclosure {
+    let mid = a.0 * b.0;
+    (mid, a.0.abs() * b.1 + a.1 * (b.0.abs() + b.1) + THIN * mid.abs())
+}
+
+fn minus(a: Enclosure, b: Enclosure) -> Enclosure {
+    (a.0 - b.0, a.1 + b.1 + THIN)
+}
+
+fn plus(a: Enclosure, b: Enclosure) -> Enclosure {
+    (a.0 + b.0, a.1 + b.1 + THIN)
+}
+
+impl Domain {
+    /// The degrees of a root in the domain's angles.
+    pub fn degree(self, root: Root) -> Degree {
+        match (self, root) {
+            (_, Root::Cos(k) | Root::Sin(k)) => [k, 0, 0],
+            (_, Root::HalfSquare | Root::Product) => [2, 0, 0],
+            (Self::Small(_), _) => [1, 0, 0],
+            (Self::Sphere, Root::Component(2)) => [0, 1, 0],
+            (Self::Sphere, _) => [1, 1, 0],
+            (Self::Cap(_), Root::Component(2)) => [0, 0, 0],
+            (Self::Cap(_), _) => [1, 0, 0],
+            (Self::Quaternion, Root::Component(i)) => [usize::from(i < 2), 1, usize::from(i >= 2)],
+            (Self::Rotation, Root::Component(i)) => [usize::from(i % 3 < 2), 1, usize::from(i < 6)],
+            _ => [0, 0, 0],
+        }
+    }
+
+    /// The sections of the domain that no grid covers: parts of the angle from z.
+    pub fn slabs(self) -> Option<(f64, f64)> {
+        match self {
+            Self::Cap(most) => Some((0.0, most)),
+            _ => None,
+        }
+    }
+
+    /// The grid for polynomials of this degree, on it the value of each root (its f32 rounding left out), and the factor
+    /// by which the largest value on the grid is multiplied. `density` points are taken for each degree.
+    pub fn grid(self, roots: &[Root], degree: Degree, density: usize, slab: (f64, f64)) -> (Vec<Vec<Enclosure>>, f64) {
+        let sizes = degree.map(|d| (density * d).max(4).next_multiple_of(4));
+        let factor: f64 = degree.iter().zip(sizes).map(|(&d, n)| 1.0 / (PI * d as f64 / n as f64).cos()).product();
+        let angle = |i: usize, n: usize| TAU * i as f64 / n as f64;
+        let turn = |i: usize, n: usize| [thin(angle(i, n).cos()), thin(angle(i, n).sin())];
+        let [n0, n1, n2] = sizes;
+        let mut grid: Vec<Vec<Enclosure>> = Vec::new();
+        let mut push = |at: &dyn Fn(Root) -> Enclosure| grid.push(roots.iter().map(|&root| at(root)).collect());
+        let component = |values: Vec<Enclosure>| {
+            move |root: Root| match root {
+                Root::Component(i) => values[i],
+                _ => unreachable!("only a circle has phases"),
+            }
+        };
+        match self {
+            Self::Nothing => push(&component(vec![])),
+            Self::Circle => {
+                for i in 0..n0 {
+                    let theta = angle(i, n0);
+                    push(&|root| {
+                        thin(match root {
+                            Root::Cos(k) => (k as f64 * theta).cos(),
+                            Root::Sin(k) => (k as f64 * theta).sin(),
+                            Root::HalfSquare => theta.sin() * theta.sin() / 2.0,
+                            Root::Product => theta.sin() * theta.cos(),
+                            Root::Component(i) => [theta.cos(), theta.sin()][i],
+                        })
+                    });
+                }
+            }
+            // most · cos t covers both signs already for t up to π.
+            Self::Small(most) => (0..=n0 / 2).for_each(|i| push(&component(vec![thin(most * angle(i, n0).cos())]))),
+            Self::Sphere => {
+                for i in 0..=n1 / 2 {
+                    let [z, sin] = turn(i, n1);
+                    for j in 0..n0 {
+                        let [x, y] = turn(j, n0);
+                        push(&component(vec![times(sin, x), times(sin, y), z]));
+                    }
+                }
+            }
+            Self::Cap(_) => {
+                let sin = enclose(slab.0.sin(), slab.1.sin());
+                let z = enclose(slab.0.cos(), slab.1.cos());
+                for j in 0..n0 {
+                    let [x, y] = turn(j, n0);
+                    push(&component(vec![times(sin, x), times(sin, y), z]));
+                }
+            }
+            Self::Quaternion => {
+                for i in 0..=n1 / 4 {
+                    let [cos, sin] = turn(i, n1);
+                    for j in 0..n0 {
+                        let [x, y] = turn(j, n0);
+                        for k in 0..n2 {
+                            let [w, z] = turn(k, n2);
+                            let all = vec![times(sin, x), times(sin, y), times(cos, z), times(cos, w)];
+                            push(&component(all));
+                        }
+                    }
+                }
+            }
+            Self::Rotation => {
+                for i in 0..=n1 / 2 {
+                    let [cb, sb] = turn(i, n1);
+                    for j in 0..n0 {
+                        let [ca, sa] = turn(j, n0);
+                        for k in 0..n2 {
+                            let [cg, sg] = turn(k, n2);
+                            let (cc, sc) = (times(ca, cb), times(sa, cb));
+                            push(&component(vec![
+                                minus(times(cc, cg), times(sa, sg)),
+                                plus(times(sc, cg), times(ca, sg)),
+                                times((-sb.0, sb.1), cg),
+                                minus(times((-cc.0, cc.1), sg), times(sa, cg)),
+                                minus(times(ca, cg), times(sc, sg)),
+                                times(sb, sg),
+                                times(ca, sb),
+                                times(sa, sb),
+                                cb,
+                            ]));
+                        }
+                    }
+                }
+            }
+        }
+        (grid, factor)
+    }
+
+    /// Whether the angle from z stays where sine and cosine are monotone, which [`Domain::Cap`] needs.
+    pub fn is_valid(self) -> bool {
+        !matches!(self, Self::Cap(most) if most > FRAC_PI_2)
+    }
+}
