@@ -1,18 +1,19 @@
 //! Proven bounds of the f32 rounding error of a straight-line kernel, in the measure of [`crate::accuracy`] (MATH section
 //! 11). What is bounded is the distance between the kernel's f32 result and the same formula in exact arithmetic on the
-//! same f32 inputs, whatever each operation's rounding does within half a unit in the last place.
+//! same f32 inputs.
 //!
 //! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
 //! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation.
-//! Left out are signals so small that products underflow, and quaternions with w or normals with x within 1e-16 of −1e-15
-//! whose neighbour (z, or y) vanishes too, for which the set-up's tiny number does not help.
+//! Left out are signals so small that products underflow, and the place where adding the tiny number does not help:
+//! a quaternion with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16, a normal with such an x and y.
 //!
 //! The arithmetic is IEEE's: 1/x is rounded once and 1/√x twice; a contraction is one of [`crate::eval::Contraction`]'s.
 //! A shader compiler that flushes, reorders or takes a less exact inverse root is outside of it.
 //!
-//! Method: a band is cut where the kernel notes a stage ([`crate::graph::Graph::stage`]); errors of stages add. A stage
-//! falls into parts that do not mix. A part that is a plane turned by a phase is bounded as a complex product; any other
-//! is run on enclosures with error weights over a grid of its one to three angles ([`domain`] says why a grid proves it).
+//! Method: a band is cut where the kernel notes a stage ([`crate::graph::Graph::stage`]); errors of stages add, each
+//! multiplied by the exact norm of what follows. A stage falls into parts that do not mix. A plane that a phase turns is
+//! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
+//! grid of its one to three angles ([`domain`] says why a grid proves it). Whatever is not recognised has no bound.
 
 pub mod domain;
 pub mod norm;
@@ -29,7 +30,7 @@ use norm::{Matrix, SLACK};
 use phases::{INPUT, Phase, Phases};
 use section::{Both, Run, Section, Start, U, larger};
 use std::collections::{HashMap, HashSet};
-use std::sync::Mutex;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 /// A kernel's proven f32 rounding bound, in the measure of [`crate::accuracy`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -111,7 +112,7 @@ struct Prover<'a> {
 }
 
 /// The bounds of parts that were met before: kernels share most of theirs.
-static KNOWN: Mutex<Option<HashMap<String, (Both, f64)>>> = Mutex::new(None);
+static KNOWN: LazyLock<Mutex<HashMap<String, Part>>> = LazyLock::new(Mutex::default);
 
 impl<'a> Prover<'a> {
     fn new(spec: &'a Spec, listing: &'a Listing) -> Option<Self> {
@@ -356,11 +357,22 @@ impl<'a> Prover<'a> {
         let (domain, _) = self.domain(scalars)?;
         let section = Section::new(self.listing, domain, inputs, outputs, |operand| self.start(operand))?;
         let key = format!("{domain:?} {} {}", self.roundoff, section.key());
-        if let Some(&(error, norm)) = KNOWN.lock().ok()?.get_or_insert_default().get(&key) {
-            return Some(Part { error, norm });
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(&part) = known().get(&key) {
+            return Some(part);
         }
         let norm = exact_norm(&section, domain);
-        let weight = |run: &Run, mode: usize, enough: f64| section.weights(run, mode).weight_norm(enough);
+        let roundoff = self.roundoff;
+        let weight = |run: &Run, mode: usize, enough: f64| {
+            let weight = section.weights(run, mode).weight_norm(enough);
+            // The second bound is too slow for a grid of several angles.
+            match domain {
+                Domain::Nothing | Domain::Circle | Domain::Small(_) if weight > enough => {
+                    weight.min(section.error_by_depth(run, roundoff)[mode])
+                }
+                _ => weight,
+            }
+        };
         let error = match (domain, section.is_affine()) {
             (Domain::Circle, true) => {
                 let given = phase_error(&section, domain, |start| start.error);
@@ -372,8 +384,9 @@ impl<'a> Prover<'a> {
             }
             _ => sweep(&section, domain, section.starts(), self.roundoff, 0.0, &weight),
         };
-        KNOWN.lock().ok()?.get_or_insert_default().insert(key, (error, norm));
-        Some(Part { error, norm })
+        let part = Part { error, norm };
+        known().insert(key, part);
+        Some(part)
     }
 
     /// A plane that a phase turns.

@@ -79,7 +79,7 @@ impl Graph {
     }
 
     /// Notes that what follows in a band, or in an invariant part of it, depends on the signal through these values
-    /// alone, and that an orthogonal map has made them. It changes no operation: the proof of rounding bounds cuts here.
+    /// alone. It changes no operation: [`crate::bound`] may cut here, with a close bound if what follows is orthogonal.
     pub fn stage(&mut self, values: &[Id]) {
         self.stages.push(values.to_vec());
     }

@@ -383,7 +383,7 @@ fn timing(report: &Report) -> File {
     let slower: Vec<String> = slower.map(|times| format!("`{}`", times.spec)).collect();
     let remark = match slower.is_empty() {
         true => String::new(),
-        false => format!("Slower in lanes, since the compiler does not vectorise code so long: {}.", slower.join(", ")),
+        false => format!("Slower in lanes than one at a time, as compiled here: {}.", slower.join(", ")),
     };
     let parts = [
         format!(

@@ -30,11 +30,11 @@
 //!
 //! # Input that is not unit
 //!
-//! Nothing is checked, nothing is normalised and nothing panics. Every kernel is a polynomial in its parameters (with
-//! one inverse square root in the rotations from order 4 on), computed as it stands. Hence:
+//! Nothing is checked, nothing is normalised and nothing panics. Every kernel is a polynomial in its parameters, most
+//! rotations after one inverse square root or reciprocal, computed as it stands. Hence:
 //!
-//! * A direction of length 1 + e, |e| ≤ 0.01, moves band l of [`evaluate_basis`] and [`evaluate`] by l² |e| of the
-//!   signal's norm at most.
+//! * A direction of length 1 + e, |e| ≤ 0.01, moves band l of [`evaluate_basis`] by l² |e| at most, and what band l adds
+//!   to [`evaluate`] by that times the band's norm.
 //! * A quaternion of length 1 + e, |e| ≤ 0.1, moves band l of [`rotate`] and [`Rotation`] by 5 l |e| of the band's norm
 //!   at most, and of [`rotate`] at the orders 2 and 3 by 15 l |e|. What glam normalised has e of a few 10⁻⁸.
 //! * A NaN in a quaternion makes every coefficient from band 1 on NaN; band 0 passes through, since no rotation changes

@@ -5,8 +5,8 @@ use crate::coefficients::{Coefficients, Scalar};
 /// A rotation of one order and precision with its set-up done: the multiples of its three angles.
 ///
 /// `C` names the order and the precision; how many channels a signal has is open until [`apply`](Self::apply).
-/// Applying it costs what `rotate:n:angles` costs in [`costs`](crate::costs), about three quarters of
-/// [`rotate`](crate::rotate) for one channel.
+/// Making it costs what `angles:n` costs in [`costs`](crate::costs), applying it what `rotate:n:angles` does: less than
+/// [`rotate`](crate::rotate), the more so the lower the order.
 ///
 /// ```
 /// use glam::{Quat, Vec3};

@@ -32,7 +32,7 @@ fn out_dir() -> PathBuf {
         let id = message["package_id"].as_str().unwrap_or_default();
         message["reason"] == "build-script-executed" && id.contains("fixture")
     };
-    let message = messages.filter(executed).last().expect("the fixture has a build script");
+    let message = messages.filter(executed).next_back().expect("the fixture has a build script");
     PathBuf::from(message["out_dir"].as_str().expect("a folder"))
 }
 

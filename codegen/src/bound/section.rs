@@ -116,6 +116,8 @@ pub struct Section {
     /// For each slot of a signal the columns that it depends on and where its entries begin.
     support: Vec<Vec<u16>>,
     offset: Vec<usize>,
+    /// The steps of the signal by depth.
+    levels: Vec<Vec<usize>>,
     /// For each entry of a step the entries of its first and of its last signal operand; 0 is an entry of zero.
     from: Vec<[u32; 2]>,
 }
@@ -152,6 +154,7 @@ impl Section {
             degrees: vec![],
             support: vec![],
             offset: vec![],
+            levels: vec![],
             from: vec![[0, 0]],
         };
         let mut known: HashMap<Operand, usize> = HashMap::new();
@@ -188,6 +191,7 @@ impl Section {
             known.insert(operand, place);
         }
         section.outputs = outputs.iter().map(|output| known[output]).collect();
+        section.sort_by_depth();
         Some(section)
     }
 
@@ -230,27 +234,36 @@ impl Section {
         if kind == Kind::Scalar {
             return Some(self.push(Slot::Step(op), kind, degree, vec![], vec![]));
         }
-        let (first, last) = match op {
-            Op::Neg(a) | Op::Mul(a, _) => (a, None),
-            Op::Add(a, b) | Op::Sub(a, b) => (a, Some(b)),
-            Op::Fma(a, _, c, _) => (a, Some(c)),
-            Op::Recip(_) | Op::Rsqrt(_) => return None,
-        };
-        if std::iter::once(first).chain(last).any(|operand| self.kinds[place(operand)] == Kind::Scalar) {
+        if matches!(op, Op::Recip(_) | Op::Rsqrt(_)) {
             return None;
         }
-        let entries = |operand: Operand| (&self.support[place(operand)], self.offset[place(operand)]);
+        let (first, last) = ends(op);
+        if std::iter::once(first).chain(last).any(|slot| self.kinds[slot] == Kind::Scalar) {
+            return None;
+        }
+        let entries = |slot: usize| (&self.support[slot], self.offset[slot]);
         let mut support: Vec<u16> = entries(first).0.clone();
         support.extend(last.iter().flat_map(|&last| entries(last).0));
         support.sort_unstable();
         support.dedup();
-        let entry = |operand: Operand, column: u16| {
-            let (columns, offset) = entries(operand);
+        let entry = |slot: usize, column: u16| {
+            let (columns, offset) = entries(slot);
             columns.binary_search(&column).map_or(0, |at| (offset + at) as u32)
         };
         let from =
             support.iter().map(|&column| [entry(first, column), last.map_or(0, |last| entry(last, column))]).collect();
         Some(self.push(Slot::Step(op), kind, degree, support, from))
+    }
+
+    fn sort_by_depth(&mut self) {
+        let mut depth = vec![0; self.slots.len()];
+        for (at, slot) in self.slots.iter().enumerate() {
+            if let (Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) {
+                depth[at] = 1 + op.operands().map(|operand| depth[place(operand)]).max().unwrap_or(0);
+                self.levels.resize(self.levels.len().max(depth[at]), vec![]);
+                self.levels[depth[at] - 1].push(at);
+            }
+        }
     }
 
     /// The numbers that it starts from.
@@ -339,24 +352,30 @@ impl Section {
         }
     }
 
-    fn signal(&self, at: usize, op: Op, roundoff: f64, run: &mut Run) {
+    /// A step of the signal as ±(factor · first) ± last: the factor, whether its product and the sum are rounded where
+    /// nothing is fused, and the signs.
+    fn form(&self, op: Op, scalars: &[Value]) -> (Value, [bool; 2], [f64; 2]) {
         let one = Value { mid: 1.0, ..Value::default() };
-        let factor = |operand: Operand| run.scalars[place(operand)];
-        let (factor, rounds, plus, minus) = match op {
-            Op::Neg(_) => (one, [false, false], -1.0, 0.0),
-            Op::Add(..) => (one, [false, true], 1.0, 1.0),
-            Op::Sub(..) => (one, [false, true], 1.0, -1.0),
-            Op::Mul(_, b) => (factor(b), [!self.is_power(place(b)), false], 1.0, 0.0),
+        let factor = |operand: Operand| (scalars[place(operand)], !self.is_power(place(operand)));
+        match op {
+            Op::Neg(_) => (one, [false, false], [-1.0, 0.0]),
+            Op::Add(..) => (one, [false, true], [1.0, 1.0]),
+            Op::Sub(..) => (one, [false, true], [1.0, -1.0]),
+            Op::Mul(_, b) => (factor(b).0, [factor(b).1, false], [1.0, 0.0]),
             Op::Fma(_, b, _, sign) => {
-                let (plus, minus) = match sign {
-                    Sign::Plus => (1.0, 1.0),
-                    Sign::MinusAddend => (1.0, -1.0),
-                    Sign::MinusProduct => (-1.0, 1.0),
+                let signs = match sign {
+                    Sign::Plus => [1.0, 1.0],
+                    Sign::MinusAddend => [1.0, -1.0],
+                    Sign::MinusProduct => [-1.0, 1.0],
                 };
-                (factor(b), [!self.is_power(place(b)), true], plus, minus)
+                (factor(b).0, [factor(b).1, true], signs)
             }
             Op::Recip(_) | Op::Rsqrt(_) => unreachable!("refused when the section was made"),
-        };
+        }
+    }
+
+    fn signal(&self, at: usize, op: Op, roundoff: f64, run: &mut Run) {
+        let (factor, rounds, [plus, minus]) = self.form(op, &run.scalars);
         // A product alone is rounded in both modes, one that is fused only where it is not.
         let product_rounds = [rounds[0], rounds[0] && !rounds[1]];
         let size = factor.magnitude();
@@ -395,6 +414,76 @@ impl Section {
         Matrix { columns: self.columns, entries }
     }
 
+    /// Another bound of the error's norm: with P the map from a depth's values to the outputs and V that from the inputs
+    /// to what is rounded there, a depth adds ‖P‖ ‖V‖ u. It keeps the signs that weights lose, and counts depths.
+    pub fn error_by_depth(&self, run: &Run, roundoff: f64) -> Both {
+        let rows = self.outputs.len();
+        let (mut mid, mut radius) = (vec![0.0; self.slots.len() * rows], vec![0.0; self.slots.len() * rows]);
+        for (row, &output) in self.outputs.iter().enumerate() {
+            mid[output * rows + row] += 1.0;
+        }
+        let mut total = [0.0; 2];
+        for (at, slot) in self.slots.iter().enumerate().rev() {
+            let (&Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) else { continue };
+            let (factor, _, [plus, minus]) = self.form(op, &run.scalars);
+            let (first, last) = ends(op);
+            for row in 0..rows {
+                let (m, r) = (mid[at * rows + row], radius[at * rows + row]);
+                let to = first * rows + row;
+                mid[to] += plus * factor.mid * m;
+                radius[to] += m.abs() * (factor.radius + EPSILON * factor.mid.abs()) + r * factor.magnitude();
+                radius[to] += mid[to].abs() * EPSILON;
+                if let Some(last) = last {
+                    let to = last * rows + row;
+                    mid[to] += minus * m;
+                    radius[to] += r + mid[to].abs() * EPSILON;
+                }
+            }
+        }
+        for level in &self.levels {
+            let side = |values: &[f64]| -> Matrix {
+                let entries = level.iter().flat_map(|&at| values[at * rows..(at + 1) * rows].iter().copied()).collect();
+                Matrix { columns: rows, entries }
+            };
+            let after = side(&mid).quick_norm() + side(&radius).frobenius();
+            // What each step rounds: its sum and its product; what its factor is off by; and errors of errors.
+            let mut parts: [Matrix; 3] = std::array::from_fn(|_| self.empty(level.len()));
+            let mut factors = [self.empty(level.len()), self.empty(level.len())];
+            let (mut rest, mut thick) = ([0.0; 2], 0.0);
+            for (i, &at) in level.iter().enumerate() {
+                let Slot::Step(op) = self.slots[at] else { unreachable!("a level holds steps") };
+                let (factor, rounds, _) = self.form(op, &run.scalars);
+                for (entry, &column) in (self.offset[at]..).zip(&self.support[at]) {
+                    let (a, to) = (self.from[entry][0] as usize, i * self.columns + column as usize);
+                    let (given, size) = (run.mid[a], factor.magnitude());
+                    parts[0].entries[to] = if rounds[1] { run.mid[entry] } else { 0.0 };
+                    let product = if rounds[0] { factor.mid * given } else { 0.0 };
+                    parts[if rounds[1] { 1 } else { 2 }].entries[to] = product;
+                    let loose =
+                        run.radius[entry] + run.radius[a] * size + given.abs() * (factor.radius + EPSILON * size);
+                    thick += loose * loose;
+                    for mode in 0..2 {
+                        factors[mode].entries[to] = factor.error[mode] * given;
+                        let error = 2.0 * roundoff * run.weight[mode][entry]
+                            + factor.error[mode] * (run.radius[a] + run.weight[mode][a]);
+                        rest[mode] += error * error;
+                    }
+                }
+            }
+            let [sum, fused, alone] = parts.map(|part| part.quick_norm());
+            for mode in 0..2 {
+                let rounded = sum + alone + if mode == 0 { fused } else { 0.0 } + 4.0 * thick.sqrt();
+                let error = roundoff * rounded + factors[mode].quick_norm() + rest[mode].sqrt();
+                total[mode] += if error == 0.0 { 0.0 } else { after * error };
+            }
+        }
+        total.map(|error| error * SLACK)
+    }
+
+    fn empty(&self, rows: usize) -> Matrix {
+        Matrix { columns: self.columns, entries: vec![0.0; rows * self.columns] }
+    }
+
     /// The error's weights, a row an output.
     pub fn weights(&self, run: &Run, mode: usize) -> Matrix {
         self.matrix(&run.weight[mode])
@@ -420,5 +509,14 @@ fn place(slot: Operand) -> usize {
     match slot {
         Operand::Step(place) => place,
         _ => unreachable!("the operands of a section are slots"),
+    }
+}
+
+/// The signal operands of a step: the one in its product, or its first, and the one that is added.
+fn ends(op: Op) -> (usize, Option<usize>) {
+    match op {
+        Op::Neg(a) | Op::Mul(a, _) | Op::Recip(a) | Op::Rsqrt(a) => (place(a), None),
+        Op::Add(a, b) | Op::Sub(a, b) => (place(a), Some(place(b))),
+        Op::Fma(a, _, c, _) => (place(a), Some(place(c))),
     }
 }
