@@ -14,7 +14,7 @@ pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
 /// How many inputs rounding is measured over.
 const SAMPLES: usize = 256;
 /// How many for a loop, whose interpreter is slower; its unrolled twin has the others.
-const LOOP_SAMPLES: usize = 32;
+const LOOP_SAMPLES: usize = 128;
 /// The measured worst case is multiplied by this before it is promised.
 pub const MARGIN: f64 = 3.0;
 const SEED: u64 = 0x0005_a0a1;

@@ -1210,7 +1210,7 @@ static BASIS_LOOP_SECTORAL: [f64; 2] = [
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 23 (15 mul, 0 add, 8 fma); 8 constants, 9 live values.
-/// Error: f32 rounding at most 1.6e-7 of one, for dir of unit length (3 times the worst of 32
+/// Error: f32 rounding at most 2.5e-7 of one, for dir of unit length (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1271,7 +1271,7 @@ static ROTATE_ZYZ_LOOP_J: [f64; 10] = [
 /// Returns the rotated coefficients.
 /// Operations: 88 (51 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 ///     live values.
-/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every unit q (3 times the worst of 32
+/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1372,8 +1372,8 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 9] = [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 41 (18 mul, 0 add, 23 fma); 18 constants, 9 live values.
-/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 32 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
+/// Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 128 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 ///     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]

@@ -1713,7 +1713,7 @@ static BASIS_LOOP_SECTORAL: [f64; 3] = [
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 42 (27 mul, 0 add, 15 fma); 15 constants, 16 live values.
-/// Error: f32 rounding at most 2.3e-7 of one, for dir of unit length (3 times the worst of 32
+/// Error: f32 rounding at most 3.7e-7 of one, for dir of unit length (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1777,7 +1777,7 @@ static ROTATE_LOOP_J: [f64; 23] = [
 /// Returns the rotated coefficients.
 /// Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 ///     live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (3 times the worst of 32
+/// Error: f32 rounding at most 2.1e-6 of the norm of a band, for every unit q (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -1879,8 +1879,8 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 16] = [
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
 /// Operations: 76 (32 mul, 0 add, 44 fma); 32 constants, 16 live values.
-/// Error: f32 rounding at most 2.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 32 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
+/// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+///     worst of 128 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
 ///     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]

@@ -2595,7 +2595,8 @@ static BASIS_LOOP_SECTORAL: [f64; 4] = [
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 66 (42 mul, 0 add, 24 fma); 24 constants, 25 live values.
-/// Error: f32 rounding at most 5e-7 of one, for dir of unit length (3 times the worst of 32 measured).
+/// Error: f32 rounding at most 6.1e-7 of one, for dir of unit length (3 times the worst of 128
+///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 25] {
@@ -2662,7 +2663,7 @@ static ROTATE_LOOP_J: [f64; 44] = [
 /// Returns the rotated coefficients.
 /// Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 ///     live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for every unit q (3 times the worst of 32
+/// Error: f32 rounding at most 2.4e-6 of the norm of a band, for every unit q (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -2768,7 +2769,7 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 25] = [
 /// Returns the rotated coefficients.
 /// Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
 /// Error: f32 rounding at most 3.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 32 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
+///     worst of 128 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
 ///     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]

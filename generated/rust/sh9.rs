@@ -8489,7 +8489,7 @@ static BASIS_LOOP_SECTORAL: [f64; 8] = [
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 212 (132 mul, 0 add, 80 fma); 80 constants, 81 live values.
-/// Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (3 times the worst of 32
+/// Error: f32 rounding at most 2.2e-6 of one, for dir of unit length (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -8600,7 +8600,7 @@ static ROTATE_LOOP_J: [f64; 248] = [
 /// Returns the rotated coefficients.
 /// Operations: 1032 (429 mul, 7 add, 596 fma) and 1 inverse square root or reciprocal; 248 constants,
 ///     152 live values.
-/// Error: f32 rounding at most 3.9e-6 of the norm of a band, for every unit q (3 times the worst of 32
+/// Error: f32 rounding at most 4.2e-6 of the norm of a band, for every unit q (3 times the worst of 128
 ///     measured).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -8720,7 +8720,7 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 81] = [
 /// Returns the rotated coefficients.
 /// Operations: 401 (162 mul, 0 add, 239 fma); 162 constants, 81 live values.
 /// Error: f32 rounding at most 8.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 32 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
+///     worst of 128 measured). Method error, the worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at
 ///     10, 1.6e0 at 15, 5.2e0 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]

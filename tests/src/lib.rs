@@ -6,8 +6,6 @@ pub mod shader;
 
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::Command;
-use std::sync::OnceLock;
 use zonal_codegen::built;
 use zonal_codegen::eval::{Contraction, Number, Program};
 use zonal_codegen::listing::Listing;
@@ -98,25 +96,4 @@ pub fn quaternion_product(a: &[f64], b: &[f64]) -> Vec<f64> {
         w * r + x * q - y * p + z * s,
         w * s - x * p - y * q - z * r,
     ]
-}
-
-/// The command `zonal`, built once for all tests of a run with the profile that they have.
-///
-/// # Panics
-///
-/// If it cannot be built.
-pub fn command() -> Command {
-    static BUILT: OnceLock<PathBuf> = OnceLock::new();
-    Command::new(BUILT.get_or_init(|| {
-        let test = std::env::current_exe().expect("a test has a path");
-        let profile = test.ancestors().nth(2).expect("tests lie in target/<profile>/deps");
-        let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "-p", "zonal-codegen", "--features", "cli", "--bin", "zonal", "--target-dir"]);
-        build.arg(profile.parent().expect("profiles lie in target")).current_dir(repository(""));
-        if profile.ends_with("release") {
-            build.arg("--release");
-        }
-        assert!(build.status().expect("cargo starts").success(), "the command is built");
-        profile.join("zonal")
-    }))
 }

@@ -18,7 +18,7 @@ use zonal_tests::spec;
 
 const BOTH: [Contraction; 2] = [Contraction::Separate, Contraction::Fused];
 /// Steps that the interpreter is given for each kernel and contraction.
-const STEPS: usize = 4_000_000;
+const STEPS: usize = 1_500_000;
 
 fn listing(text: &str) -> (Spec, Listing) {
     let spec = spec(text);

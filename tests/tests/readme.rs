@@ -1,9 +1,11 @@
 //! The README's figures come from the kernels and its quoted output from the command: this test compares them, and
 //! writes them with `UPDATE=1 cargo test -p zonal-tests --test readme`.
 
+use std::process::Command;
 use zonal_codegen::catalog::build;
 use zonal_codegen::spec::Spec;
-use zonal_tests::{command, repository, spec};
+use zonal_tests::command::zonal;
+use zonal_tests::{repository, spec};
 
 /// The README's table of costs.
 fn costs() -> String {
@@ -33,7 +35,7 @@ fn costs() -> String {
 fn generated() -> String {
     let folder = std::env::temp_dir().join(format!("zonal-readme-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a temporary folder");
-    let output = command().arg("generate").current_dir(&folder).output().expect("the command starts");
+    let output = Command::new(zonal()).arg("generate").current_dir(&folder).output().expect("the command starts");
     std::fs::remove_dir_all(&folder).expect("removable");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");

@@ -11,8 +11,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 103 (50 mul, 0 add, 53 fma); 18 constants, 9 live values.
-// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 32 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
+// Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 128 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
 //     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const float[9] SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[9](

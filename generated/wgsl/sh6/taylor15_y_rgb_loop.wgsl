@@ -8,8 +8,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 454 (212 mul, 0 add, 242 fma); 72 constants, 36 live values.
-// Error: f32 rounding at most 3.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 32 measured). Method error, the worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at
+// Error: f32 rounding at most 4.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
+//     worst of 128 measured). Method error, the worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at
 //     10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 36>(

@@ -112,14 +112,9 @@ fn functions(mode: Mode) -> Vec<Function> {
         specs.retain(|spec| spec.order == MUTATED_ORDER && !spec.rgb);
         specs.dedup_by_key(|spec| report::family(spec));
     }
-    if let Ok(only) = std::env::var("ONLY") {
-        specs.retain(|spec| only.split(',').any(|o| o == spec.to_string()));
-    }
     let mut functions = build(&specs);
     // The longest first, so that the threads end together.
-    functions.sort_by_key(|function| {
-        std::cmp::Reverse((function.built.code.cost(function.spec.channels()).total * 7919) % 10007)
-    });
+    functions.sort_by_key(|function| std::cmp::Reverse(function.built.code.cost(function.spec.channels()).total));
     functions
 }
 
@@ -135,9 +130,7 @@ pub fn run(mode: Mode, started: impl Fn(&str) + Sync, report: impl Fn(Row) + Syn
         let gpu = Gpu::open()?;
         started(&gpu.name);
         while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let t = std::time::Instant::now();
             let cases = Cases::new(function);
-            eprintln!("cases {:?}", t.elapsed());
             for target in [Target::Wgsl, Target::Glsl] {
                 let file = wrap::file(function, target);
                 let texts = match mode {
@@ -145,9 +138,9 @@ pub fn run(mode: Mode, started: impl Fn(&str) + Sync, report: impl Fn(Row) + Syn
                     Mode::Mutated => corrupted(&file),
                 };
                 for (change, text) in texts {
-                    let text = wrap::compute(function, target, &text, INPUTS);
+                    let text = wrap::compute(function, target, &text);
                     let name = function.shader_name();
-                    let got = gpu.run(&name, target, &text, &cases.inputs, cases.output_len(), INPUTS);
+                    let got = gpu.run(&name, target, &text, &cases.inputs, wrap::output_len(function), INPUTS);
                     let (error, tolerance) = (cases.error(&got), tolerance(function));
                     report(Row { spec: function.spec.to_string(), target, change, error, tolerance });
                 }

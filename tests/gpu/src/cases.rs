@@ -1,11 +1,15 @@
 //! What a kernel is run on and what it has to give: seeded inputs with the extremes among them, signals that are zero,
 //! huge, small or all of these by band, results of the interpreter in f64, and how far a driver may be from them.
 
-use crate::wrap;
+use crate::wrap::{self, ALIGNMENT};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use zonal_codegen::built::kernel;
+use zonal_codegen::code::Code;
 use zonal_codegen::emit::Function;
 use zonal_codegen::eval::{Contraction, Number};
 use zonal_codegen::graph::Kind;
+use zonal_codegen::kernel::Param;
+use zonal_codegen::listing::Listing;
 use zonal_codegen::samples;
 use zonal_codegen::sh::exact::Exact;
 use zonal_codegen::spec::Family;
@@ -115,9 +119,9 @@ fn scale(block: usize, band: Option<usize>) -> f64 {
 /// The inputs of one kernel and the results that they should have.
 #[derive(Debug)]
 pub struct Cases {
-    /// The inputs as the wrapped shader reads them.
+    /// The inputs, each at its offset.
     pub inputs: Vec<f32>,
-    /// The results as it should write them, without padding, and what each is measured in.
+    /// The results, one after the other, and what each number of them is measured in.
     wanted: Vec<(f64, f64)>,
     /// How many numbers a result has.
     result: usize,
@@ -132,7 +136,11 @@ impl Cases {
         let params = built.code.params();
         let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
         let samples = samples::inputs(&function.spec, params, 7, INPUTS, max_angle);
-        let runner = built.code.runner::<Wide>();
+        // A loop is held to its unrolled twin, which is the faster to run.
+        let runner = match &built.code {
+            Code::Straight(_) => built.code.runner::<Wide>(),
+            Code::Loop(_) => Code::Straight(Listing::new(&kernel(&function.spec))).runner(),
+        };
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         let by_band = !matches!(function.spec.family, Family::Basis | Family::Angles | Family::Eval);
@@ -143,7 +151,7 @@ impl Cases {
             // Channels share their parameters and differ in their signals.
             let lists: Vec<Vec<Vec<Wide>>> = (0..channels)
                 .map(|channel| {
-                    let list = |(place, param): (usize, &zonal_codegen::kernel::Param)| match param.kind {
+                    let list = |(place, param): (usize, &Param)| match param.kind {
                         Kind::Scalar => samples[parameters][place].iter().map(|&x| Wide(x)).collect(),
                         Kind::Signal => {
                             let signal = samples[(case + channel) % INPUTS][place].iter().enumerate();
@@ -160,7 +168,7 @@ impl Cases {
                     inputs.extend(channels.iter().map(|channel| channel[place][i].0 as f32));
                 }
             }
-            inputs.resize(inputs.len().next_multiple_of(4), 0.0);
+            inputs.resize(inputs.len().next_multiple_of(ALIGNMENT), 0.0);
             let results: Vec<Vec<Wide>> = lists
                 .iter()
                 .map(|lists| {
@@ -179,17 +187,11 @@ impl Cases {
         Self { inputs, wanted, result: shape.len(), channels, by_band }
     }
 
-    /// How many numbers a driver has to return, with padding.
-    pub fn output_len(&self) -> usize {
-        INPUTS * (self.result * self.channels).next_multiple_of(4)
-    }
-
     /// The largest error in the kernel's measure: of a band as a whole, or of each number. Not finite if a zero signal
     /// does not give exact zeros or if anything is not a number.
     pub fn error(&self, got: &[f32]) -> f64 {
-        assert_eq!(got.len(), self.output_len());
         let size = self.result * self.channels;
-        let got = got.chunks(size.next_multiple_of(4)).flat_map(|chunk| &chunk[..size]);
+        let got = got.chunks(size.next_multiple_of(ALIGNMENT)).flat_map(|result| &result[..size]);
         let relative = |(&got, &(want, unit)): (&f32, &(f64, f64))| match (f64::from(got) - want, unit) {
             (0.0, 0.0) => 0.0,
             (difference, unit) => difference / unit,

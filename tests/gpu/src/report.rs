@@ -40,6 +40,7 @@ pub fn measure(worker: &str, driver: Driver, mode: &str) -> Result<Measured, Str
         .arg(mode)
         .env("VK_ICD_FILENAMES", &manifest)
         .env("VK_DRIVER_FILES", &manifest)
+        .envs(driver.settings.iter().copied())
         .output()
         .map_err(|error| error.to_string())?;
     let (text, said) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));

@@ -15,6 +15,8 @@ pub struct Driver {
     manifest: (&'static str, &'static str),
     /// The package that installs it.
     package: &'static str,
+    /// What its environment says besides.
+    pub settings: &'static [(&'static str, &'static str)],
 }
 
 /// The drivers that every kernel is run on.
@@ -24,12 +26,15 @@ pub const DRIVERS: [Driver; 2] = [
         adapter: "llvmpipe",
         manifest: ("/usr/share/vulkan/icd.d", "lvp_icd"),
         package: "mesa-vulkan-drivers",
+        // LLVM's optimiser takes most of the time and changes no result: the same operations are compiled as they are.
+        settings: &[("GALLIVM_PERF", "nopt")],
     },
     Driver {
         name: "SwiftShader",
         adapter: "SwiftShader",
         manifest: ("/usr/lib/chromium", "vk_swiftshader_icd"),
         package: "chromium",
+        settings: &[],
     },
 ];
 

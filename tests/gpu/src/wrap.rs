@@ -6,8 +6,8 @@ use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::graph::Kind;
 use zonal_codegen::kernel::Shape;
 
-/// How many threads are one workgroup.
-pub const GROUP: usize = 64;
+/// The numbers of every call start at a multiple of so many in a buffer: 256 bytes, as WebGPU asks of offsets.
+pub const ALIGNMENT: usize = 64;
 
 /// The text of the file that holds one function.
 ///
@@ -67,15 +67,16 @@ fn value(dialect: Dialect, shape: Shape, kind: Kind, next: &mut impl FnMut() -> 
     format!("{}({})", of(shape), parts.join(", "))
 }
 
-/// The function's file and an entry point that calls it for `count` inputs. An input is all its parameters' numbers, the
-/// channels of a number together, padded to whole vectors of four; a result likewise. `text` is the file, in WGSL or
-/// GLSL. A software driver writes hundreds of instructions for each access to a buffer, hence the vectors.
-pub fn compute(function: &Function, target: Target, text: &str, count: usize) -> String {
+/// The function's file and an entry point that calls it once. Its input is all parameters' numbers, the channels of a
+/// number together, padded to whole vectors of four; its result likewise. Each call is a dispatch of its own with other
+/// offsets into the buffers, so that every index is a constant: a software driver compiles that many times faster than
+/// an index by thread. `text` is the file, in WGSL or GLSL.
+pub fn compute(function: &Function, target: Target, text: &str) -> String {
     let dialect = dialect(function, target);
     let glsl = target == Target::Glsl;
     let (define, four) = if glsl { ("vec4", "vec4") } else { ("let", "vec4<f32>") };
     let (input, output) = (input_len(function).div_ceil(4), output_len(function).div_ceil(4));
-    let reads: String = (0..input).map(|i| format!("    {define} in{i}_ = inputs[at + {i}u];\n")).collect();
+    let reads: String = (0..input).map(|i| format!("    {define} in{i}_ = inputs[{i}];\n")).collect();
     let letter = |place: usize| [".x", ".y", ".z", ".w"][place % 4];
     let mut places = 0..;
     let mut next = || {
@@ -96,28 +97,24 @@ pub fn compute(function: &Function, target: Target, text: &str, count: usize) ->
     let writes: String = (0..output)
         .map(|i| {
             let numbers = [0, 1, 2, 3].map(|j| number(4 * i + j)).join(", ");
-            format!("    outputs[to + {i}u] = {four}({numbers});\n")
+            format!("    outputs[{i}] = {four}({numbers});\n")
         })
         .collect();
     match glsl {
         true => format!(
             "#version 450\n{text}\n\
-             layout(local_size_x = {GROUP}) in;\n\
-             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[]; }};\n\
-             layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[]; }};\n\
-             void main() {{\n    uint thread = gl_GlobalInvocationID.x;\n    if (thread >= {count}u) {{ return; }}\n    \
-             uint at = thread * {input}u;\n    uint to = thread * {output}u;\n{reads}    \
-             {} result = {call};\n{writes}}}\n",
+             layout(local_size_x = 1) in;\n\
+             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[{input}]; }};\n\
+             layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[{output}]; }};\n\
+             void main() {{\n{reads}    {} result = {call};\n{writes}}}\n",
             dialect.type_of(shape, kind)
         ),
         false => format!(
             "{text}\n\
-             @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;\n\
-             @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;\n\
-             @compute @workgroup_size({GROUP})\n\
-             fn main(@builtin(global_invocation_id) id: vec3<u32>) {{\n    let thread = id.x;\n    \
-             if thread >= {count}u {{ return; }}\n    let at = thread * {input}u;\n    let to = thread * {output}u;\n\
-             {reads}    let result = {call};\n{writes}}}\n"
+             @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>, {input}>;\n\
+             @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>, {output}>;\n\
+             @compute @workgroup_size(1)\n\
+             fn main() {{\n{reads}    let result = {call};\n{writes}}}\n"
         ),
     }
 }
