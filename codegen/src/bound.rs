@@ -28,7 +28,7 @@ use crate::spec::{Family, Form, Method, Spec};
 use domain::{Domain, Root};
 use norm::{Matrix, SLACK};
 use phases::{INPUT, Phase, Phases};
-use section::{Both, Run, Section, Start, U, larger};
+use section::{Both, Run, Section, Start, U, larger, larger_of};
 use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
@@ -261,7 +261,7 @@ impl<'a> Prover<'a> {
         let (domain, _) = self.domain(outputs.iter().copied())?;
         let section = Section::new(self.listing, domain, &[], outputs, |operand| self.start(operand))?;
         let measure =
-            |run: &Run, mode: usize, _: f64| section.errors(run).iter().map(|both| both[mode]).fold(0.0, f64::max);
+            |run: &Run, mode: usize, _: f64| section.errors(run).iter().map(|both| both[mode]).fold(0.0, larger_of);
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
 
@@ -440,7 +440,7 @@ fn sweep(
             values.iter_mut().for_each(|value| value.1 += reach);
             section.run(&values, starts, roundoff, &mut run);
             for mode in 0..2 {
-                worst[mode] = measure(&run, mode, worst[mode]).max(worst[mode]);
+                worst[mode] = larger_of(measure(&run, mode, worst[mode]), worst[mode]);
             }
         }
         worst.map(|bound| bound * factor)

@@ -31,7 +31,7 @@ fn method_errors_follow_their_laws() {
     for order in [4usize, 6, 9] {
         let l = (order - 1) as f64;
         let error = |method: &str| method_errors(&zonal_tests::spec(&format!("{method}:{order}")), &[beta])[0];
-        let even = |l: f64| if l as usize % 2 == 0 { l * l * l } else { l * l * l - l };
+        let even = |l: f64| if (l as usize).is_multiple_of(2) { l * l * l } else { l * l * l - l };
         let laws = [
             ("taylor1", (l * beta).powi(2) / 2.0),
             ("taylor2", (l * beta).powi(3) / 6.0),

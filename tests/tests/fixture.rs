@@ -27,12 +27,12 @@ fn cargo(command: &str, options: &[&str]) -> String {
 /// The folder of the build script's output, from what cargo says of the build.
 fn out_dir() -> PathBuf {
     let messages = cargo("build", &["--message-format=json"]);
-    let messages = messages.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let mut messages = messages.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
     let executed = |message: &Value| {
         let id = message["package_id"].as_str().unwrap_or_default();
         message["reason"] == "build-script-executed" && id.contains("fixture")
     };
-    let message = messages.filter(executed).next_back().expect("the fixture has a build script");
+    let message = messages.rfind(executed).expect("the fixture has a build script");
     PathBuf::from(message["out_dir"].as_str().expect("a folder"))
 }
 

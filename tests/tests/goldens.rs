@@ -24,7 +24,7 @@ fn basis_meets_the_golden_values_at_every_direction_and_order() {
         for case in cases(&file) {
             let (direction, want) = (numbers(&case["unit"]), numbers(&case["y"]));
             let want = &want[..order * order];
-            let error = band_error(&wide.run(&[direction.clone()]), want);
+            let error = band_error(&wide.run(std::slice::from_ref(&direction)), want);
             assert!(error <= 1e-14, "order {order}, {}: {error:e} in f64", case["name"]);
             // The bound; the kernel's own, half roundings of the input included, is some 4e-7.
             let error = band_error(&narrow.run(&[direction]), want);

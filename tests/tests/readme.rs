@@ -10,7 +10,8 @@ use zonal_tests::{repository, spec};
 /// The README's table of costs.
 fn costs() -> String {
     let orders = 3..=10;
-    let rows: [(&str, fn(usize) -> String); 8] = [
+    type Text = fn(usize) -> String;
+    let rows: [(&str, Text); 8] = [
         ("`rotate:n` from a quaternion", |n| format!("rotate:{n}")),
         ("`rotate:n:angles`, multiples given", |n| format!("rotate:{n}:angles")),
         ("`rotate:n:zxzxz`, the papers' way", |n| format!("rotate:{n}:zxzxz")),

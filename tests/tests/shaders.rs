@@ -63,7 +63,7 @@ fn check(function: &Function, target: Target, language: Language) {
     let text = module(function).shader(target).expect("the catalogue fits its targets");
     let name = function.shader_name();
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));
-    assert_eq!(shader.functions(), [name.clone()], "{target}");
+    assert_eq!(shader.functions(), std::slice::from_ref(&name), "{target}");
     let (params, channels) = (function.built.code.params(), function.spec.channels());
     let (shape, kind) = function.built.code.result();
     let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);

@@ -1,9 +1,10 @@
 //! The unit phases of a kernel: which pairs of scalars are e^{ikθ}, and how far their f32 values are off as complex
 //! numbers. Componentwise a chain of complex products would seem to lose half a bit a step; as complex numbers errors add.
 //!
-//! With K = √5 for separate and 2 for fused arithmetic a complex product is off by K u of its size at most (Brent,
-//! Percival and Zimmermann 2007; Jeannerod, Kornerup, Louvet and Muller 2017). The set-ups are recognised by their
-//! operations and bounded by hand:
+//! A complex product is off by K u of its size at most: K = √5 for separate arithmetic (Brent, Percival and Zimmermann
+//! 2007), 2 for fused (Jeannerod, Kornerup, Louvet and Muller 2017; whichever products are rounded, one of each part, they
+//! share a factor, so that what they lose is u |a| |cos + i sin| at most, and the sums lose as much again). The set-ups
+//! are recognised by their operations and bounded by hand:
 //!
 //! - a quaternion's: A = w² + z² and B = x² + y² are each off by 2 u relatively, AB by 5 u, 1/√(AB) by 4.5 u, the pair
 //!   (w, z)/√(AB) by 5.5 u, its product with (y, ±x) by (5.5 + K) u; cos β = A − B by 2 u + u |cos β|, sin β = 2 √(AB) by

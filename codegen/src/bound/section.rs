@@ -19,9 +19,14 @@ const EPSILON: f64 = f64::EPSILON;
 /// A bound for each [`crate::eval::Contraction`]: separate, fused.
 pub type Both = [f64; 2];
 
+/// The larger of two bounds; what is not a number is no bound.
+pub fn larger_of(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
+
 /// The larger of each.
 pub fn larger(a: Both, b: Both) -> Both {
-    [a[0].max(b[0]), a[1].max(b[1])]
+    [larger_of(a[0], b[0]), larger_of(a[1], b[1])]
 }
 
 /// A scalar: its exact value is within `radius` of `mid`, its f32 value within `error` of the exact one.

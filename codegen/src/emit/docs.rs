@@ -197,6 +197,9 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
             at.join(", ")
         );
     }
+    if spec.max_angle().is_some() && accuracy.method.is_empty() {
+        text += " Method error: about (l beta)^2 / 4 in band l while l beta is below 1.";
+    }
     text
 }
 

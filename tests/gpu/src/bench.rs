@@ -70,7 +70,7 @@ impl FromStr for Row {
     }
 }
 
-/// Where the constants of a text are: every literal with a point, outside comments.
+/// Where the constants of a text are: every literal with a point that is not zero, outside comments.
 fn constants(text: &str) -> Vec<std::ops::Range<usize>> {
     let mut found = Vec::new();
     let mut start = 0;
@@ -81,7 +81,10 @@ fn constants(text: &str) -> Vec<std::ops::Range<usize>> {
             let from = at + skip;
             at = line[from..].find(|c| !is_word(c)).map_or(line.len(), |length| from + length);
             let word = &line[from..at];
-            if word.starts_with(|c: char| c.is_ascii_digit()) && word.contains('.') && word.parse::<f64>().is_ok() {
+            if word.starts_with(|c: char| c.is_ascii_digit())
+                && word.contains('.')
+                && word.parse::<f64>().is_ok_and(|value| value != 0.0)
+            {
                 found.push(start + from..start + at);
             }
         }
@@ -161,7 +164,7 @@ mod tests {
 
     #[test]
     fn constants_are_found_outside_comments_and_names() {
-        let text = "// 1.5 in words\nlet t1 = 0.25 * c[2] + x.y;\nconst A = f(-1.5, 2.0);\n";
+        let text = "// 1.5 in words\nlet t1 = 0.25 * c[2] + x.y;\nconst A = f(-1.5, 0.0, 2.0);\n";
         let words: Vec<&str> = constants(text).into_iter().map(|range| &text[range]).collect();
         assert_eq!(words, ["0.25", "1.5", "2.0"]);
         assert_eq!(corrupted("a = 2.0;").len(), 1);
