@@ -1,9 +1,10 @@
-//! How exact a kernel is: the rounding error of its f32 form against its f64 form, measured over seeded inputs, and for
-//! an approximate rotation the error of the method at an angle, computed from its matrix.
+//! How exact a kernel is: the rounding error of its f32 form, proven ([`crate::bound`]) and, against its f64 form, measured
+//! over seeded inputs; for an approximate rotation the error of the method at an angle, computed from its matrix.
 
+use crate::bound;
 use crate::code::Code;
 use crate::eval::{Contraction, Number, Program};
-use crate::kernels::y_rotation::about_y;
+use crate::kernels::y_rotation::{about_y, small_y};
 use crate::kernels::{rotate, tilt};
 use crate::listing::Listing;
 use crate::samples;
@@ -17,15 +18,20 @@ const SAMPLES: usize = 256;
 const LOOP_SAMPLES: usize = 128;
 /// How many for a loop beyond the orders of unrolled kernels, whose every run is a hundred thousand operations.
 const LONG_LOOP_SAMPLES: usize = 8;
-/// The measured worst case is multiplied by this before it is promised.
+/// Where nothing is proven, the measured worst case is multiplied by this before it is promised.
 pub const MARGIN: f64 = 3.0;
 const SEED: u64 = 0x0005_a0a1;
 
 /// What is promised of a kernel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Accuracy {
-    /// The f32 rounding error, in the measure of `relative_to`.
+    /// The f32 rounding error that is promised, in the measure of `relative_to`: the proven one where there is a proof,
+    /// else [`MARGIN`] times the measured one.
     pub rounding_f32: f64,
+    /// Whether it is proven, for IEEE arithmetic, contracted or not.
+    pub proven: bool,
+    /// The largest that was measured.
+    pub measured_f32: f64,
     /// What the rounding error is relative to.
     pub relative_to: &'static str,
     /// How many inputs it was measured over.
@@ -67,7 +73,7 @@ impl Measure {
     pub fn of(spec: &Spec) -> Self {
         match spec.family {
             Family::Basis => Self::Absolute,
-            Family::Eval => Self::Whole,
+            Family::Eval | Family::EvalMonomial => Self::Whole,
             _ => Self::Bands,
         }
     }
@@ -152,7 +158,7 @@ impl Accuracy {
     /// Measures a kernel.
     pub fn of(spec: &Spec, code: &Code) -> Self {
         let samples = match code {
-            Code::Straight(_) => SAMPLES,
+            Code::Straight(_) | Code::Branch(_) => SAMPLES,
             Code::Loop(_) if spec.order <= MAX_ORDER => LOOP_SAMPLES,
             Code::Loop(_) => LONG_LOOP_SAMPLES,
         };
@@ -167,7 +173,15 @@ impl Accuracy {
             }
             false => vec![],
         };
-        Self { rounding_f32: round_up(worst * MARGIN), relative_to: Measure::of(spec).name(), samples, method }
+        let bound = bound::of(spec, code);
+        Self {
+            rounding_f32: round_up(bound.as_ref().map_or(worst * MARGIN, bound::Bound::value)),
+            proven: bound.is_some(),
+            measured_f32: round_up(worst),
+            relative_to: Measure::of(spec).name(),
+            samples,
+            method,
+        }
     }
 }
 
@@ -187,7 +201,8 @@ pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
     let order = spec.order;
     let approximate = match &spec.family {
         Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => about_y(order, methods),
-        Family::Tilt => tilt::tilt(order),
+        Family::Tilt(methods) | Family::TiltPrescaled(methods) => tilt::tilt(order, methods, false),
+        Family::RotateSmall(methods) | Family::RotateAdaptive(methods) => small_y(order, methods),
         _ => return vec![vec![0.0; order]; angles.len()],
     };
     let approximate = Program::<f64>::new(&Listing::new(&approximate));
@@ -197,7 +212,8 @@ pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
         .map(|&angle| {
             let turn = [angle.cos(), angle.sin()];
             let parameter = match spec.family {
-                Family::Tilt => vec![turn[1], 0.0, turn[0]],
+                Family::Tilt(_) | Family::TiltPrescaled(_) => vec![turn[1], 0.0, turn[0]],
+                Family::RotateSmall(_) | Family::RotateAdaptive(_) => turn.to_vec(),
                 _ => vec![angle],
             };
             // No band mixes with another, so that one run gives a column of every band.

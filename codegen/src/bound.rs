@@ -20,6 +20,7 @@ pub mod norm;
 pub mod phases;
 pub mod section;
 
+use crate::code::Code;
 use crate::graph::Kind;
 use crate::kernel::Shape;
 use crate::kernels::rotate;
@@ -58,6 +59,14 @@ impl Bound {
 
 /// What adding the tiny number to a quaternion's w and y changes in band l, divided by l: the quaternion turns by 3e-15.
 const NUDGE: f64 = 1e-13;
+
+/// The bound of a spec's kernel in either form.
+pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
+    match code {
+        Code::Straight(listing) => prove(spec, listing),
+        Code::Loop(_) | Code::Branch(_) => None,
+    }
+}
 
 /// The bound of a spec's kernel, laid out. None for loops, for `zhf` (whose basis is taken at 2n − 1 turned lobes), and
 /// for a listing whose set-up is not recognised.
@@ -228,7 +237,7 @@ impl<'a> Prover<'a> {
         let max_angle = self.spec.max_angle();
         let domain = match (&self.spec.family, self.listing.params[param].shape) {
             (Family::Basis | Family::Eval | Family::Rotate(Method::Zonal), Shape::Vec3) => Domain::Sphere,
-            (Family::Tilt, Shape::Vec3) => {
+            (Family::Tilt(_) | Family::TiltPrescaled(_), Shape::Vec3) => {
                 Domain::Cap(max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
             }
             (Family::Rotate(Method::Tensor), Shape::Vec4) => Domain::Quaternion,

@@ -1,9 +1,9 @@
 //! A spec's kernel: built, laid out, counted and measured, once for all languages.
 
 use crate::accuracy::Accuracy;
-use crate::code::Code;
+use crate::code::{Branch, Code};
 use crate::kernel::Kernel;
-use crate::kernels::{basis, loops, rotate, tilt, y_rotation, zhf};
+use crate::kernels::{basis, loops, monomial, rotate, tilt, y_rotation, zhf};
 use crate::listing::Listing;
 use crate::spec::{Family, Form, Method, Spec};
 
@@ -18,7 +18,7 @@ pub struct Built {
     pub accuracy: Accuracy,
 }
 
-/// The kernel of an unrolled spec, or the unrolled twin of a loop.
+/// The kernel of an unrolled spec, the unrolled twin of a loop, or the exact way of a branch.
 pub fn kernel(spec: &Spec) -> Kernel {
     let order = spec.order;
     match &spec.family {
@@ -30,7 +30,17 @@ pub fn kernel(spec: &Spec) -> Kernel {
         Family::RotateXPlus90 => rotate::rotate_x_90(order, 1),
         Family::RotateXMinus90 => rotate::rotate_x_90(order, -1),
         Family::Angles => rotate::angles(order),
-        Family::Tilt => tilt::tilt(order),
+        Family::EvalMonomial => monomial::eval(order),
+        Family::ToMonomial => monomial::from_harmonics(order),
+        Family::Tilt(methods) => tilt::tilt(order, methods, false),
+        Family::TiltPrescaled(methods) => tilt::tilt(order, methods, true),
+        Family::TiltScale => tilt::rescale(order, false),
+        Family::TiltUnscale => tilt::rescale(order, true),
+        Family::RotateSmall(methods) => y_rotation::small_rotate(order, methods),
+        Family::RotateAdaptive(methods) => {
+            let [_, _, exact] = y_rotation::adaptive(order, methods);
+            exact
+        }
         Family::SmallY(methods) => y_rotation::about_y(order, methods),
         Family::Zhf => zhf::rotate(order),
         Family::ZhfWeights => zhf::weights_of(order),
@@ -55,6 +65,11 @@ pub fn code(spec: &Spec) -> Code {
         (Form::Loop, Family::Basis) => Code::Loop(loops::basis_loop(spec.order)),
         (Form::Loop, Family::SmallY(_)) => Code::Loop(loops::taylor15_loop(spec.order)),
         (Form::Loop, Family::Rotate(_)) => Code::Loop(loops::rotate_loop(spec.order)),
+        (_, Family::RotateAdaptive(methods)) => {
+            let [condition, below, above] =
+                y_rotation::adaptive(spec.order, methods).map(|kernel| Listing::new(&kernel));
+            Code::Branch(Box::new(Branch { condition, below, above }))
+        }
         _ => Code::Straight(Listing::new(&kernel(spec))),
     }
 }

@@ -42,7 +42,10 @@ fn of_order(order: usize) -> Vec<Spec> {
         Family::Rotate(Method::Zxzxz),
         Family::Rotate(Method::Align),
         Family::Rotate(Method::Zonal),
-        Family::Tilt,
+        Family::Tilt(Small::Lf3.from_band_3(order)),
+        Family::RotateSmall(Small::Lf3.from_band_3(order)),
+        Family::EvalMonomial,
+        Family::ToMonomial,
         Family::Zhf,
         Family::ZhfWeights,
         Family::ZhfTailored,
@@ -54,6 +57,16 @@ fn of_order(order: usize) -> Vec<Spec> {
     if order <= 3 {
         families.push(Family::Rotate(Method::Tensor));
         families.push(Family::Rotate(Method::Matrix));
+    }
+    if order > 3 {
+        families.push(Family::TiltScale);
+        families.push(Family::TiltUnscale);
+        for method in [Small::Lf3, Small::Lf5] {
+            families.push(Family::TiltPrescaled(method.from_band_3(order)));
+        }
+        families.push(Family::Tilt(Small::Lf5.from_band_3(order)));
+        families.push(Family::RotateSmall(Small::Lf5.from_band_3(order)));
+        families.push(Family::RotateAdaptive(Small::Lf3.from_band_3(order)));
     }
     let mut specs = vec![Spec::new(Family::Basis, order), Spec::new(Family::Angles, order)];
     for family in families {

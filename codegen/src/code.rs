@@ -13,6 +13,19 @@ pub enum Code {
     Straight(Listing),
     /// Tables and a loop.
     Loop(LoopKernel),
+    /// One of two listings.
+    Branch(Box<Branch>),
+}
+
+/// Two listings of the same parameters and results, and what decides between them.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Two scalars.
+    pub condition: Listing,
+    /// What is done where the first of them is at most the second.
+    pub below: Listing,
+    /// What is done elsewhere.
+    pub above: Listing,
 }
 
 impl Code {
@@ -21,6 +34,7 @@ impl Code {
         match self {
             Self::Straight(listing) => &listing.params,
             Self::Loop(kernel) => &kernel.params,
+            Self::Branch(branch) => &branch.above.params,
         }
     }
 
@@ -29,6 +43,7 @@ impl Code {
         match self {
             Self::Straight(listing) => (listing.result, listing.result_kind),
             Self::Loop(kernel) => (kernel.result, kernel.result_kind),
+            Self::Branch(branch) => (branch.above.result, branch.above.result_kind),
         }
     }
 
@@ -37,14 +52,16 @@ impl Code {
         match self {
             Self::Straight(listing) => &listing.result_doc,
             Self::Loop(kernel) => &kernel.result_doc,
+            Self::Branch(branch) => &branch.above.result_doc,
         }
     }
 
-    /// What it costs for so many channels.
+    /// What it costs for so many channels, at most.
     pub fn cost(&self, channels: usize) -> Cost {
         match self {
             Self::Straight(listing) => listing.cost(channels),
             Self::Loop(kernel) => kernel.cost(channels),
+            Self::Branch(branch) => branch.costs(channels)[1],
         }
     }
 
@@ -56,6 +73,7 @@ impl Code {
                 constants: kernel.tables.iter().map(|table| table.values.len()).sum(),
                 live: array_items(&kernel.body),
             },
+            Self::Branch(branch) => branch.footprint(),
         }
     }
 
@@ -64,7 +82,38 @@ impl Code {
         match self {
             Self::Straight(listing) => Runner::Straight(Program::new(listing)),
             Self::Loop(kernel) => Runner::Loop(LoopProgram::new(kernel)),
+            Self::Branch(branch) => {
+                let [condition, below, above] = [&branch.condition, &branch.below, &branch.above].map(Program::new);
+                Runner::Branch { condition, below, above }
+            }
         }
+    }
+}
+
+impl Branch {
+    /// What both ways cost for so many channels, the condition included: the cheaper one first.
+    pub fn costs(&self, channels: usize) -> [Cost; 2] {
+        let condition = self.condition.cost(channels);
+        let mut both = [&self.below, &self.above].map(|listing| {
+            let cost = listing.cost(channels);
+            Cost {
+                mul: cost.mul + condition.mul,
+                add: cost.add + condition.add,
+                fma: cost.fma + condition.fma,
+                special: cost.special + condition.special,
+                total: cost.total + condition.total,
+            }
+        });
+        both.sort_by_key(|cost| cost.total);
+        both
+    }
+
+    fn footprint(&self) -> Footprint {
+        let [below, above] = [&self.below, &self.above].map(Listing::footprint);
+        let mut constants: Vec<_> = [&self.below, &self.above].iter().flat_map(|listing| &listing.constants).collect();
+        constants.sort();
+        constants.dedup();
+        Footprint { constants: constants.len(), live: below.live.max(above.live) }
     }
 }
 
@@ -85,6 +134,15 @@ pub enum Runner<T> {
     Straight(Program<T>),
     /// Tables and a loop.
     Loop(LoopProgram<T>),
+    /// One of two.
+    Branch {
+        /// Two scalars.
+        condition: Program<T>,
+        /// Where the first is at most the second.
+        below: Program<T>,
+        /// Elsewhere.
+        above: Program<T>,
+    },
 }
 
 impl<T: Number> Runner<T> {
@@ -97,6 +155,11 @@ impl<T: Number> Runner<T> {
         match self {
             Self::Straight(program) => program.run(inputs, contraction),
             Self::Loop(program) => program.run(inputs, contraction),
+            Self::Branch { condition, below, above } => {
+                let sides = condition.run(inputs, contraction);
+                let program = if sides[0] <= sides[1] { below } else { above };
+                program.run(inputs, contraction)
+            }
         }
     }
 }

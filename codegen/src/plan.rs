@@ -168,7 +168,8 @@ fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static
     let exact = Family::Rotate(Spec::default_method(order, rgb));
     let families = match kind {
         Turn::Tilt => vec![
-            (Family::Tilt, None),
+            (Family::Tilt(Small::Lf3.from_band_3(order)), None),
+            (Family::Tilt(Small::Lf5.from_band_3(order)), None),
             (exact, None),
             (Family::Rotate(Method::Align), Some("leaves the spin about the normal open")),
         ],

@@ -131,7 +131,8 @@ pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle:
     let mut random = Random::new(seed);
     let multiples = matches!(spec.family, Family::Rotate(Method::Angles))
         .then(|| Program::<f64>::new(&Listing::new(&rotate::angles(spec.order))));
-    let tilts = matches!(spec.family, Family::Tilt);
+    let tilts = matches!(spec.family, Family::Tilt(_) | Family::TiltPrescaled(_));
+    let small = matches!(spec.family, Family::RotateSmall(_)) && spec.max_angle().is_some();
     (0..count)
         .map(|i| {
             let values = params.iter().map(|param| match (param.name, param.shape) {
@@ -139,12 +140,18 @@ pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle:
                     const FRACTIONS: [f64; 6] = [0.0, 1.0, -1.0, 1e-7, 1e-20, -0.5];
                     vec![FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed()) * max_angle]
                 }
+                ("limit", _) => {
+                    // The half angle's sine: at most a third of a per cent below half the angle at 25 degrees.
+                    let half = max_angle / 2.0;
+                    vec![random.signed().abs() * (half - half * half * half / 6.0)]
+                }
                 ("n", _) if tilts && spec.max_angle().is_some() => tilted(&mut random, i, max_angle).to_vec(),
                 ("n", _) if tilts => {
                     let [x, y, z] = direction(&mut random, i);
                     vec![x, y, z.abs()]
                 }
                 (_, Shape::Vec3) => direction(&mut random, i).to_vec(),
+                ("q", _) if small => small_rotation(&mut random, i, max_angle).to_vec(),
                 (_, Shape::Vec4) => quaternion(&mut random, i).to_vec(),
                 (_, Shape::Mat3) => matrix_of(quaternion(&mut random, i)).to_vec(),
                 (_, Shape::Pair) => pairs(&mut random, i, 1),
@@ -159,14 +166,30 @@ pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle:
         .collect()
 }
 
+/// A unit quaternion whose y angle is at most `max_angle`; the extremes are those of [`tilted`].
+fn small_rotation(random: &mut Random, i: usize, max_angle: f64) -> [f64; 4] {
+    let [sin, _, cos] = tilted_by(random, i, max_angle);
+    // The half angle's cosine and sine from the angle's.
+    let cosine = ((1.0 + cos) / 2.0).sqrt();
+    let sine = sin / (2.0 * cosine);
+    let ([a, b], [c, d]) = (random.unit::<2>(), random.unit::<2>());
+    [sine * a, sine * b, cosine * c, cosine * d]
+}
+
 /// A unit vector within `max_angle` of z; the extremes are z itself, tiny tilts and the largest.
 fn tilted(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
-    const FRACTIONS: [f64; 5] = [0.0, 1e-8, 1.0, 1e-4, 1e-20];
     let [cos, sin] = random.unit::<2>();
+    let [x, _, z] = tilted_by(random, i, max_angle);
+    [x * cos, x * sin, z]
+}
+
+/// The same in the plane of x and z.
+fn tilted_by(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
+    const FRACTIONS: [f64; 5] = [0.0, 1e-8, 1.0, 1e-4, 1e-20];
     // The tangent of the tilt stays below that of the largest: no trigonometry, the same bits everywhere.
     let fraction = FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed());
     let (half, square) = (max_angle / 2.0, max_angle * max_angle / 4.0);
     // Half-angle tangent from its series, two terms: 1e-3 below the angle at 45 degrees.
     let t = fraction * half * (1.0 + square / 3.0).min(1.1);
-    normalised([2.0 * t * cos, 2.0 * t * sin, 1.0 - t * t])
+    normalised([2.0 * t, 0.0, 1.0 - t * t])
 }

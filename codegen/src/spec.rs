@@ -46,6 +46,10 @@ pub enum Family {
     Basis,
     /// Σ c_i y_i at a direction.
     Eval,
+    /// The same from the coefficients of monomials.
+    EvalMonomial,
+    /// From coefficients of harmonics to coefficients of monomials.
+    ToMonomial,
     /// About z by (cos, sin).
     RotateZ,
     /// About y by (cos, sin), exactly.
@@ -62,8 +66,18 @@ pub enum Family {
     Angles,
     /// About y by a small angle, a method for each band from 1.
     SmallY(Vec<Small>),
-    /// z to a normal, bands 1 and 2 exactly, the others by shears.
-    Tilt,
+    /// z to a normal, a method for each band from 1: bands 1 and 2 exactly, the others by shears.
+    Tilt(Vec<Small>),
+    /// The same on coefficients that `tilt_scale` has divided, one multiplication a coupling cheaper.
+    TiltPrescaled(Vec<Small>),
+    /// From coefficients to those that `tilt_prescaled` takes.
+    TiltScale,
+    /// Back again.
+    TiltUnscale,
+    /// From a unit quaternion whose y angle is small, a method for each band from 1.
+    RotateSmall(Vec<Small>),
+    /// The same below a limiting angle, exactly above it: one branch.
+    RotateAdaptive(Vec<Small>),
     /// Rotation by a sparse zonal factorisation over 2n − 1 shared lobes.
     Zhf,
     /// The lobe weights Âᵀ c.
@@ -109,21 +123,36 @@ pub struct SpecError {
 }
 
 /// The families that take no method, with their names.
-const PLAIN: [(Family, &str); 13] = [
+const PLAIN: [(Family, &str); 16] = [
     (Family::Basis, "basis"),
     (Family::Eval, "eval"),
+    (Family::EvalMonomial, "eval_monomial"),
+    (Family::ToMonomial, "to_monomial"),
     (Family::RotateZ, "rotate_z"),
     (Family::RotateY, "rotate_y"),
     (Family::SwapYz, "swap_yz"),
     (Family::RotateXPlus90, "rotate_x_plus_90"),
     (Family::RotateXMinus90, "rotate_x_minus_90"),
     (Family::Angles, "angles"),
-    (Family::Tilt, "tilt"),
+    (Family::TiltScale, "tilt_scale"),
+    (Family::TiltUnscale, "tilt_unscale"),
     (Family::Zhf, "zhf"),
     (Family::ZhfWeights, "zhf_weights"),
     (Family::ZhfTailored, "zhf_tailored"),
     // `rotate` alone: the method is the cheapest exact one.
     (Family::Rotate(Method::Zyz), "rotate"),
+];
+
+/// Makes a family of a list of methods.
+type Listed = fn(Vec<Small>) -> Family;
+
+/// The families that take a method for each band, exact bands among them, with their names; `lf3` from band 3 on if
+/// none is named.
+const LISTED: [(Listed, &str); 4] = [
+    (Family::Tilt, "tilt"),
+    (Family::TiltPrescaled, "tilt_prescaled"),
+    (Family::RotateSmall, "rotate_small"),
+    (Family::RotateAdaptive, "rotate_adaptive"),
 ];
 
 /// The methods of `rotate` but for the small-angle ones, with their names.
@@ -141,6 +170,7 @@ const METHODS: [(Method, &str); 8] = [
 /// Every family name that a spec may start with.
 pub fn family_names() -> Vec<&'static str> {
     let mut names: Vec<&str> = PLAIN.iter().map(|(_, name)| *name).collect();
+    names.extend(LISTED.iter().map(|(_, name)| *name));
     names.extend(Small::ALL.iter().map(|(_, name)| *name));
     names.push("mix");
     names
@@ -162,6 +192,18 @@ fn small_list(methods: &[Small]) -> String {
     match methods.iter().all(|method| *method == methods[0]) {
         true => methods[0].name().to_owned(),
         false => methods.iter().map(|method| method.name()).collect::<Vec<_>>().join("+"),
+    }
+}
+
+/// A list of [`LISTED`]: nothing if it is what the family takes by itself, one name if it stands from band 3 on.
+fn listed(methods: &[Small]) -> Option<String> {
+    let order = methods.len() + 1;
+    let usual = methods.last().filter(|last| *methods == last.from_band_3(order));
+    match usual {
+        Some(Small::Lf3) => None,
+        Some(Small::Exact) if order <= 3 => None,
+        Some(last) => Some(last.name().to_owned()),
+        None => Some(methods.iter().map(|method| method.name()).collect::<Vec<_>>().join("+")),
     }
 }
 
@@ -194,6 +236,19 @@ pub(crate) fn hint(got: &str, known: &[&str]) -> String {
     match suggest(got, known) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("known are {}", known.join(", ")),
+    }
+}
+
+impl Family {
+    /// A method for each band from 1, where exact bands may be among them; none for the other families.
+    pub fn methods(&self) -> Option<&[Small]> {
+        match self {
+            Self::Tilt(methods)
+            | Self::TiltPrescaled(methods)
+            | Self::RotateSmall(methods)
+            | Self::RotateAdaptive(methods) => Some(methods),
+            _ => None,
+        }
     }
 }
 
@@ -232,8 +287,7 @@ impl Spec {
     pub fn max_angle(&self) -> Option<f64> {
         let approximate = match &self.family {
             Family::SmallY(_) | Family::Rotate(Method::Small(_)) => true,
-            Family::Tilt => self.order > 3,
-            _ => false,
+            family => family.methods().is_some_and(|methods| methods.iter().any(|method| *method != Small::Exact)),
         };
         approximate.then(|| SMALL_ANGLE_DEGREES.to_radians())
     }
@@ -253,7 +307,13 @@ impl Spec {
             Family::SmallY(methods) => format!("{}_y", small_list(methods).replace('+', "_")),
             Family::RotateXPlus90 => "rotate_x_plus_90deg".to_owned(),
             Family::RotateXMinus90 => "rotate_x_minus_90deg".to_owned(),
-            family => name_of(&PLAIN, family).to_owned(),
+            family => match family.methods() {
+                Some(methods) => {
+                    let list = listed(methods).map(|list| list.replace('+', "_") + "_").unwrap_or_default();
+                    list + listed_name(family, methods)
+                }
+                None => name_of(&PLAIN, family).to_owned(),
+            },
         };
         if self.rgb {
             name += "_rgb";
@@ -268,6 +328,11 @@ impl Spec {
     pub fn name(&self) -> String {
         format!("sh{}_{}", self.order, self.stem())
     }
+}
+
+/// The name of a family of [`LISTED`] with these methods.
+fn listed_name(family: &Family, methods: &[Small]) -> &'static str {
+    LISTED.iter().find(|(make, _)| make(methods.to_vec()) == *family).map_or("", |(_, name)| name)
 }
 
 fn name_of<T: PartialEq>(table: &[(T, &'static str)], wanted: &T) -> &'static str {
@@ -288,7 +353,15 @@ impl fmt::Display for Spec {
                     false => write!(f, "{list}:{order}")?,
                 }
             }
-            family => write!(f, "{}:{order}", name_of(&PLAIN, family))?,
+            family => match family.methods() {
+                Some(methods) => {
+                    write!(f, "{}:{order}", listed_name(family, methods))?;
+                    if let Some(list) = listed(methods) {
+                        write!(f, ":{list}")?;
+                    }
+                }
+                None => write!(f, "{}:{order}", name_of(&PLAIN, family))?,
+            },
         }
         if !self.is_whole() {
             let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
@@ -327,17 +400,27 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
         .collect()
 }
 
-fn parse_small(piece: &Piece<'_>, order: usize) -> Result<Vec<Small>, SpecError> {
+/// A method for each band; one alone is every band's, or `alone` makes a list of it. `exact` says whether it is known.
+fn parse_small(
+    piece: &Piece<'_>,
+    order: usize,
+    exact: bool,
+    alone: impl Fn(Small) -> Vec<Small>,
+) -> Result<Vec<Small>, SpecError> {
     let names: Vec<&str> = piece.text.split('+').collect();
-    let known: Vec<&str> = Small::ALL.iter().map(|(_, name)| *name).collect();
+    let mut known: Vec<&str> = Small::ALL.iter().map(|(_, name)| *name).collect();
+    if exact {
+        known.push(Small::Exact.name());
+    }
     let mut methods = Vec::new();
     for name in &names {
-        let method =
-            small(name).ok_or_else(|| piece.error(format!("`{name}` is no small-angle method"), hint(name, &known)))?;
+        let method = small(name).or((exact && *name == Small::Exact.name()).then_some(Small::Exact));
+        let method = method
+            .ok_or_else(|| piece.error(format!("`{name}` is no method for a small angle here"), hint(name, &known)))?;
         methods.push(method);
     }
     if methods.len() == 1 {
-        methods = vec![methods[0]; order - 1];
+        methods = alone(methods[0]);
     }
     if methods.len() != order - 1 {
         let message = format!("{} methods for the bands 1 to {}", methods.len(), order - 1);
@@ -402,11 +485,26 @@ impl FromStr for Spec {
                     ));
                 };
                 options = others;
-                Family::SmallY(parse_small(list, order)?)
+                Family::SmallY(parse_small(list, order, false, |method| vec![method; order - 1])?)
             }
-            (name, None) => {
-                PLAIN.iter().find(|(_, known)| *known == name).map(|(family, _)| family.clone()).expect("is known")
-            }
+            (name, None) => match LISTED.iter().find(|(_, known)| *known == name) {
+                Some((make, _)) => {
+                    let is_list = |piece: &&Piece<'_>| {
+                        let first = piece.text.split('+').next().unwrap_or(piece.text);
+                        small(first).is_some() || first == Small::Exact.name()
+                    };
+                    match options.first().filter(is_list) {
+                        Some(list) => {
+                            options = &options[1..];
+                            make(parse_small(list, order, true, |method| method.from_band_3(order))?)
+                        }
+                        None => make(Small::Lf3.from_band_3(order)),
+                    }
+                }
+                None => {
+                    PLAIN.iter().find(|(_, known)| *known == name).map(|(family, _)| family.clone()).expect("is known")
+                }
+            },
         };
         let is_rotate = head.text == "rotate";
         for option in options {
@@ -426,7 +524,7 @@ impl FromStr for Spec {
                     }
                     method = Some(match METHODS.iter().find(|(_, known)| *known == name) {
                         Some((method, _)) => method.clone(),
-                        None => Method::Small(parse_small(option, order)?),
+                        None => Method::Small(parse_small(option, order, false, |method| vec![method; order - 1])?),
                     });
                 }
                 name => {
@@ -469,6 +567,17 @@ impl Spec {
             return Err(whole.error(
                 format!("this method has orders 2 and 3 only, not {order}"),
                 "from order 4 on `zyz` is the cheapest exact rotation: leave the method out",
+            ));
+        }
+        if let Family::Tilt(methods) | Family::TiltPrescaled(methods) = &self.family
+            && !methods.iter().enumerate().all(|(i, method)| match i {
+                0 | 1 => *method == Small::Exact,
+                _ => matches!(method, Small::Lf3 | Small::Lf5),
+            })
+        {
+            return Err(whole.error(
+                "a tilt is exact in bands 1 and 2 and takes `lf3` or `lf5` in the others".to_owned(),
+                "write it as in `tilt:5:lf5` or `tilt:5:exact+exact+lf3+lf5`",
             ));
         }
         let zhf = matches!(self.family, Family::Zhf | Family::ZhfWeights | Family::ZhfTailored);

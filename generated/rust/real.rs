@@ -30,6 +30,8 @@ pub trait Real: Signal<Self> {
     fn root(self) -> Self;
     /// 1 / self.
     fn recip(self) -> Self;
+    /// Whether it is at most `limit`, of many numbers all of them: then an approximation may serve.
+    fn at_most(self, limit: Self) -> bool;
     /// 1 / √self, rounded twice.
     #[inline(always)]
     fn rsqrt(self) -> Self {
@@ -76,6 +78,10 @@ impl Real for f32 {
     fn recip(self) -> Self {
         1.0 / self
     }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> bool {
+        self <= limit
+    }
 }
 impl Signal<f64> for f64 {
     #[inline(always)]
@@ -116,6 +122,10 @@ impl Real for f64 {
     #[inline(always)]
     fn recip(self) -> Self {
         1.0 / self
+    }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> bool {
+        self <= limit
     }
 }
 /// A signal of `N` channels that share the parameters: `Channels<f32, 3>` is RGB.
@@ -169,7 +179,7 @@ impl<T: Real, const N: usize> Signal<T> for Channels<T, N> {
     }
 }
 /// `N` numbers that are worked on at once, one a problem: the layout that vector units like. A kernel on `Lanes`
-/// does what it does on each number.
+/// does what it does on each number, but that one with a branch takes the same way for all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes<T, const N: usize>(pub [T; N]);
@@ -236,5 +246,9 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
     #[inline(always)]
     fn recip(self) -> Self {
         Self(self.0.map(#[inline(always)] |x| x.recip()))
+    }
+    #[inline(always)]
+    fn at_most(self, limit: Self) -> bool {
+        (0..N).all(#[inline(always)] |i| self.0[i].at_most(limit.0[i]))
     }
 }

@@ -239,6 +239,54 @@ pub const SH2_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh2/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:2`.
+pub const SH2_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:2",
+    name: "sh2_rotate_small",
+    wgsl: include_str!("../wgsl/sh2/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_small.glsl"),
+};
+
+/// `rotate_small:2:rgb`.
+pub const SH2_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:2:rgb",
+    name: "sh2_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:2`.
+pub const SH2_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:2",
+    name: "sh2_eval_monomial",
+    wgsl: include_str!("../wgsl/sh2/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh2/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:2:rgb`.
+pub const SH2_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:2:rgb",
+    name: "sh2_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh2/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:2`.
+pub const SH2_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:2",
+    name: "sh2_to_monomial",
+    wgsl: include_str!("../wgsl/sh2/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh2/to_monomial.glsl"),
+};
+
+/// `to_monomial:2:rgb`.
+pub const SH2_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:2:rgb",
+    name: "sh2_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh2/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:2`.
 pub const SH2_ZHF: Shader = Shader {
     spec: "zhf:2",
@@ -413,6 +461,38 @@ pub const SH2_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh2_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh2/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh2/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:2`.
+pub const SH2_LF5_Y: Shader = Shader {
+    spec: "lf5:2",
+    name: "sh2_lf5_y",
+    wgsl: include_str!("../wgsl/sh2/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_y.glsl"),
+};
+
+/// `lf5:2:rgb`.
+pub const SH2_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:2:rgb",
+    name: "sh2_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:2:lf5`.
+pub const SH2_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:2:lf5",
+    name: "sh2_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh2/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_zyz.glsl"),
+};
+
+/// `rotate:2:lf5:rgb`.
+pub const SH2_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:lf5:rgb",
+    name: "sh2_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_zyz_rgb.glsl"),
 };
 
 /// `rotate:2`.
@@ -711,6 +791,54 @@ pub const SH3_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh3/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:3`.
+pub const SH3_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:3",
+    name: "sh3_rotate_small",
+    wgsl: include_str!("../wgsl/sh3/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_small.glsl"),
+};
+
+/// `rotate_small:3:rgb`.
+pub const SH3_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:3:rgb",
+    name: "sh3_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:3`.
+pub const SH3_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:3",
+    name: "sh3_eval_monomial",
+    wgsl: include_str!("../wgsl/sh3/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh3/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:3:rgb`.
+pub const SH3_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:3:rgb",
+    name: "sh3_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh3/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:3`.
+pub const SH3_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:3",
+    name: "sh3_to_monomial",
+    wgsl: include_str!("../wgsl/sh3/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh3/to_monomial.glsl"),
+};
+
+/// `to_monomial:3:rgb`.
+pub const SH3_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:3:rgb",
+    name: "sh3_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh3/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:3`.
 pub const SH3_ZHF: Shader = Shader {
     spec: "zhf:3",
@@ -885,6 +1013,38 @@ pub const SH3_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh3_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh3/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh3/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:3`.
+pub const SH3_LF5_Y: Shader = Shader {
+    spec: "lf5:3",
+    name: "sh3_lf5_y",
+    wgsl: include_str!("../wgsl/sh3/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_y.glsl"),
+};
+
+/// `lf5:3:rgb`.
+pub const SH3_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:3:rgb",
+    name: "sh3_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:3:lf5`.
+pub const SH3_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:3:lf5",
+    name: "sh3_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh3/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_zyz.glsl"),
+};
+
+/// `rotate:3:lf5:rgb`.
+pub const SH3_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:lf5:rgb",
+    name: "sh3_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_zyz_rgb.glsl"),
 };
 
 /// `rotate:3`.
@@ -1183,6 +1343,54 @@ pub const SH4_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh4/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:4`.
+pub const SH4_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:4",
+    name: "sh4_rotate_small",
+    wgsl: include_str!("../wgsl/sh4/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_small.glsl"),
+};
+
+/// `rotate_small:4:rgb`.
+pub const SH4_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:4:rgb",
+    name: "sh4_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:4`.
+pub const SH4_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:4",
+    name: "sh4_eval_monomial",
+    wgsl: include_str!("../wgsl/sh4/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh4/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:4:rgb`.
+pub const SH4_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:4:rgb",
+    name: "sh4_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh4/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:4`.
+pub const SH4_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:4",
+    name: "sh4_to_monomial",
+    wgsl: include_str!("../wgsl/sh4/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh4/to_monomial.glsl"),
+};
+
+/// `to_monomial:4:rgb`.
+pub const SH4_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:4:rgb",
+    name: "sh4_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh4/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:4`.
 pub const SH4_ZHF: Shader = Shader {
     spec: "zhf:4",
@@ -1357,6 +1565,150 @@ pub const SH4_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh4_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh4/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh4/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:4`.
+pub const SH4_LF5_Y: Shader = Shader {
+    spec: "lf5:4",
+    name: "sh4_lf5_y",
+    wgsl: include_str!("../wgsl/sh4/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_y.glsl"),
+};
+
+/// `lf5:4:rgb`.
+pub const SH4_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:4:rgb",
+    name: "sh4_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:4:lf5`.
+pub const SH4_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:4:lf5",
+    name: "sh4_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh4/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_zyz.glsl"),
+};
+
+/// `rotate:4:lf5:rgb`.
+pub const SH4_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:lf5:rgb",
+    name: "sh4_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:4`.
+pub const SH4_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:4",
+    name: "sh4_tilt_scale",
+    wgsl: include_str!("../wgsl/sh4/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:4:rgb`.
+pub const SH4_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:4:rgb",
+    name: "sh4_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:4`.
+pub const SH4_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:4",
+    name: "sh4_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh4/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:4:rgb`.
+pub const SH4_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:4:rgb",
+    name: "sh4_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:4`.
+pub const SH4_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:4",
+    name: "sh4_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh4/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:4:rgb`.
+pub const SH4_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:4:rgb",
+    name: "sh4_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:4:lf5`.
+pub const SH4_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:4:lf5",
+    name: "sh4_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:4:lf5:rgb`.
+pub const SH4_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:4:lf5:rgb",
+    name: "sh4_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:4:lf5`.
+pub const SH4_LF5_TILT: Shader = Shader {
+    spec: "tilt:4:lf5",
+    name: "sh4_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt.glsl"),
+};
+
+/// `tilt:4:lf5:rgb`.
+pub const SH4_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:4:lf5:rgb",
+    name: "sh4_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:4:lf5`.
+pub const SH4_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:4:lf5",
+    name: "sh4_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:4:lf5:rgb`.
+pub const SH4_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:4:lf5:rgb",
+    name: "sh4_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:4`.
+pub const SH4_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:4",
+    name: "sh4_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh4/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:4:rgb`.
+pub const SH4_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:4:rgb",
+    name: "sh4_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_adaptive_rgb.glsl"),
 };
 
 /// `basis:4:loop`.
@@ -1623,6 +1975,54 @@ pub const SH5_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh5/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:5`.
+pub const SH5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:5",
+    name: "sh5_rotate_small",
+    wgsl: include_str!("../wgsl/sh5/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_small.glsl"),
+};
+
+/// `rotate_small:5:rgb`.
+pub const SH5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:5:rgb",
+    name: "sh5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:5`.
+pub const SH5_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:5",
+    name: "sh5_eval_monomial",
+    wgsl: include_str!("../wgsl/sh5/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh5/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:5:rgb`.
+pub const SH5_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:5:rgb",
+    name: "sh5_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh5/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:5`.
+pub const SH5_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:5",
+    name: "sh5_to_monomial",
+    wgsl: include_str!("../wgsl/sh5/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh5/to_monomial.glsl"),
+};
+
+/// `to_monomial:5:rgb`.
+pub const SH5_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:5:rgb",
+    name: "sh5_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh5/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:5`.
 pub const SH5_ZHF: Shader = Shader {
     spec: "zhf:5",
@@ -1797,6 +2197,150 @@ pub const SH5_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh5_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh5/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh5/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:5`.
+pub const SH5_LF5_Y: Shader = Shader {
+    spec: "lf5:5",
+    name: "sh5_lf5_y",
+    wgsl: include_str!("../wgsl/sh5/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_y.glsl"),
+};
+
+/// `lf5:5:rgb`.
+pub const SH5_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:5:rgb",
+    name: "sh5_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:5:lf5`.
+pub const SH5_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:5:lf5",
+    name: "sh5_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh5/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_zyz.glsl"),
+};
+
+/// `rotate:5:lf5:rgb`.
+pub const SH5_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:lf5:rgb",
+    name: "sh5_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:5`.
+pub const SH5_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:5",
+    name: "sh5_tilt_scale",
+    wgsl: include_str!("../wgsl/sh5/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:5:rgb`.
+pub const SH5_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:5:rgb",
+    name: "sh5_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:5`.
+pub const SH5_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:5",
+    name: "sh5_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh5/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:5:rgb`.
+pub const SH5_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:5:rgb",
+    name: "sh5_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:5`.
+pub const SH5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:5",
+    name: "sh5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh5/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:5:rgb`.
+pub const SH5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:5:rgb",
+    name: "sh5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:5:lf5`.
+pub const SH5_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:5:lf5",
+    name: "sh5_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:5:lf5:rgb`.
+pub const SH5_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:5:lf5:rgb",
+    name: "sh5_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:5:lf5`.
+pub const SH5_LF5_TILT: Shader = Shader {
+    spec: "tilt:5:lf5",
+    name: "sh5_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt.glsl"),
+};
+
+/// `tilt:5:lf5:rgb`.
+pub const SH5_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:5:lf5:rgb",
+    name: "sh5_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:5:lf5`.
+pub const SH5_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:5:lf5",
+    name: "sh5_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:5:lf5:rgb`.
+pub const SH5_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:5:lf5:rgb",
+    name: "sh5_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:5`.
+pub const SH5_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:5",
+    name: "sh5_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh5/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:5:rgb`.
+pub const SH5_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:5:rgb",
+    name: "sh5_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_adaptive_rgb.glsl"),
 };
 
 /// `eval:5:bands=0+1+2+4`.
@@ -2087,6 +2631,54 @@ pub const SH6_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh6/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:6`.
+pub const SH6_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:6",
+    name: "sh6_rotate_small",
+    wgsl: include_str!("../wgsl/sh6/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_small.glsl"),
+};
+
+/// `rotate_small:6:rgb`.
+pub const SH6_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:6:rgb",
+    name: "sh6_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:6`.
+pub const SH6_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:6",
+    name: "sh6_eval_monomial",
+    wgsl: include_str!("../wgsl/sh6/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh6/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:6:rgb`.
+pub const SH6_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:6:rgb",
+    name: "sh6_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh6/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:6`.
+pub const SH6_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:6",
+    name: "sh6_to_monomial",
+    wgsl: include_str!("../wgsl/sh6/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh6/to_monomial.glsl"),
+};
+
+/// `to_monomial:6:rgb`.
+pub const SH6_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:6:rgb",
+    name: "sh6_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh6/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:6`.
 pub const SH6_ZHF: Shader = Shader {
     spec: "zhf:6",
@@ -2261,6 +2853,150 @@ pub const SH6_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh6_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh6/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh6/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:6`.
+pub const SH6_LF5_Y: Shader = Shader {
+    spec: "lf5:6",
+    name: "sh6_lf5_y",
+    wgsl: include_str!("../wgsl/sh6/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_y.glsl"),
+};
+
+/// `lf5:6:rgb`.
+pub const SH6_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:6:rgb",
+    name: "sh6_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:6:lf5`.
+pub const SH6_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:6:lf5",
+    name: "sh6_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh6/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_zyz.glsl"),
+};
+
+/// `rotate:6:lf5:rgb`.
+pub const SH6_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:lf5:rgb",
+    name: "sh6_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:6`.
+pub const SH6_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:6",
+    name: "sh6_tilt_scale",
+    wgsl: include_str!("../wgsl/sh6/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:6:rgb`.
+pub const SH6_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:6:rgb",
+    name: "sh6_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:6`.
+pub const SH6_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:6",
+    name: "sh6_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh6/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:6:rgb`.
+pub const SH6_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:6:rgb",
+    name: "sh6_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:6`.
+pub const SH6_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:6",
+    name: "sh6_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh6/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:6:rgb`.
+pub const SH6_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:6:rgb",
+    name: "sh6_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:6:lf5`.
+pub const SH6_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:6:lf5",
+    name: "sh6_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:6:lf5:rgb`.
+pub const SH6_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:6:lf5:rgb",
+    name: "sh6_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:6:lf5`.
+pub const SH6_LF5_TILT: Shader = Shader {
+    spec: "tilt:6:lf5",
+    name: "sh6_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt.glsl"),
+};
+
+/// `tilt:6:lf5:rgb`.
+pub const SH6_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:6:lf5:rgb",
+    name: "sh6_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:6:lf5`.
+pub const SH6_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:6:lf5",
+    name: "sh6_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:6:lf5:rgb`.
+pub const SH6_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:6:lf5:rgb",
+    name: "sh6_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:6`.
+pub const SH6_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:6",
+    name: "sh6_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh6/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:6:rgb`.
+pub const SH6_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:6:rgb",
+    name: "sh6_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_adaptive_rgb.glsl"),
 };
 
 /// `basis:6:loop`.
@@ -2527,6 +3263,54 @@ pub const SH7_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh7/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:7`.
+pub const SH7_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:7",
+    name: "sh7_rotate_small",
+    wgsl: include_str!("../wgsl/sh7/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_small.glsl"),
+};
+
+/// `rotate_small:7:rgb`.
+pub const SH7_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:7:rgb",
+    name: "sh7_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:7`.
+pub const SH7_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:7",
+    name: "sh7_eval_monomial",
+    wgsl: include_str!("../wgsl/sh7/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh7/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:7:rgb`.
+pub const SH7_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:7:rgb",
+    name: "sh7_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh7/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:7`.
+pub const SH7_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:7",
+    name: "sh7_to_monomial",
+    wgsl: include_str!("../wgsl/sh7/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh7/to_monomial.glsl"),
+};
+
+/// `to_monomial:7:rgb`.
+pub const SH7_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:7:rgb",
+    name: "sh7_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh7/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:7`.
 pub const SH7_ZHF: Shader = Shader {
     spec: "zhf:7",
@@ -2701,6 +3485,150 @@ pub const SH7_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh7_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh7/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh7/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:7`.
+pub const SH7_LF5_Y: Shader = Shader {
+    spec: "lf5:7",
+    name: "sh7_lf5_y",
+    wgsl: include_str!("../wgsl/sh7/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_y.glsl"),
+};
+
+/// `lf5:7:rgb`.
+pub const SH7_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:7:rgb",
+    name: "sh7_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:7:lf5`.
+pub const SH7_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:7:lf5",
+    name: "sh7_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh7/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_zyz.glsl"),
+};
+
+/// `rotate:7:lf5:rgb`.
+pub const SH7_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:lf5:rgb",
+    name: "sh7_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:7`.
+pub const SH7_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:7",
+    name: "sh7_tilt_scale",
+    wgsl: include_str!("../wgsl/sh7/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:7:rgb`.
+pub const SH7_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:7:rgb",
+    name: "sh7_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:7`.
+pub const SH7_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:7",
+    name: "sh7_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh7/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:7:rgb`.
+pub const SH7_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:7:rgb",
+    name: "sh7_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:7`.
+pub const SH7_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:7",
+    name: "sh7_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh7/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:7:rgb`.
+pub const SH7_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:7:rgb",
+    name: "sh7_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:7:lf5`.
+pub const SH7_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:7:lf5",
+    name: "sh7_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:7:lf5:rgb`.
+pub const SH7_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:7:lf5:rgb",
+    name: "sh7_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:7:lf5`.
+pub const SH7_LF5_TILT: Shader = Shader {
+    spec: "tilt:7:lf5",
+    name: "sh7_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt.glsl"),
+};
+
+/// `tilt:7:lf5:rgb`.
+pub const SH7_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:7:lf5:rgb",
+    name: "sh7_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:7:lf5`.
+pub const SH7_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:7:lf5",
+    name: "sh7_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:7:lf5:rgb`.
+pub const SH7_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:7:lf5:rgb",
+    name: "sh7_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:7`.
+pub const SH7_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:7",
+    name: "sh7_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh7/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:7:rgb`.
+pub const SH7_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:7:rgb",
+    name: "sh7_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_adaptive_rgb.glsl"),
 };
 
 /// `basis:7:loop`.
@@ -2967,6 +3895,54 @@ pub const SH8_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh8/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:8`.
+pub const SH8_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:8",
+    name: "sh8_rotate_small",
+    wgsl: include_str!("../wgsl/sh8/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_small.glsl"),
+};
+
+/// `rotate_small:8:rgb`.
+pub const SH8_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:8:rgb",
+    name: "sh8_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:8`.
+pub const SH8_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:8",
+    name: "sh8_eval_monomial",
+    wgsl: include_str!("../wgsl/sh8/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh8/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:8:rgb`.
+pub const SH8_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:8:rgb",
+    name: "sh8_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh8/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:8`.
+pub const SH8_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:8",
+    name: "sh8_to_monomial",
+    wgsl: include_str!("../wgsl/sh8/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh8/to_monomial.glsl"),
+};
+
+/// `to_monomial:8:rgb`.
+pub const SH8_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:8:rgb",
+    name: "sh8_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh8/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:8`.
 pub const SH8_ZHF: Shader = Shader {
     spec: "zhf:8",
@@ -3141,6 +4117,150 @@ pub const SH8_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh8_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh8/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh8/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:8`.
+pub const SH8_LF5_Y: Shader = Shader {
+    spec: "lf5:8",
+    name: "sh8_lf5_y",
+    wgsl: include_str!("../wgsl/sh8/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_y.glsl"),
+};
+
+/// `lf5:8:rgb`.
+pub const SH8_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:8:rgb",
+    name: "sh8_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:8:lf5`.
+pub const SH8_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:8:lf5",
+    name: "sh8_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh8/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_zyz.glsl"),
+};
+
+/// `rotate:8:lf5:rgb`.
+pub const SH8_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:lf5:rgb",
+    name: "sh8_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:8`.
+pub const SH8_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:8",
+    name: "sh8_tilt_scale",
+    wgsl: include_str!("../wgsl/sh8/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:8:rgb`.
+pub const SH8_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:8:rgb",
+    name: "sh8_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:8`.
+pub const SH8_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:8",
+    name: "sh8_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh8/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:8:rgb`.
+pub const SH8_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:8:rgb",
+    name: "sh8_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:8`.
+pub const SH8_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:8",
+    name: "sh8_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh8/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:8:rgb`.
+pub const SH8_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:8:rgb",
+    name: "sh8_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:8:lf5`.
+pub const SH8_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:8:lf5",
+    name: "sh8_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:8:lf5:rgb`.
+pub const SH8_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:8:lf5:rgb",
+    name: "sh8_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:8:lf5`.
+pub const SH8_LF5_TILT: Shader = Shader {
+    spec: "tilt:8:lf5",
+    name: "sh8_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt.glsl"),
+};
+
+/// `tilt:8:lf5:rgb`.
+pub const SH8_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:8:lf5:rgb",
+    name: "sh8_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:8:lf5`.
+pub const SH8_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:8:lf5",
+    name: "sh8_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:8:lf5:rgb`.
+pub const SH8_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:8:lf5:rgb",
+    name: "sh8_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:8`.
+pub const SH8_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:8",
+    name: "sh8_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh8/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:8:rgb`.
+pub const SH8_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:8:rgb",
+    name: "sh8_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_adaptive_rgb.glsl"),
 };
 
 /// `basis:8:loop`.
@@ -3407,6 +4527,54 @@ pub const SH9_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh9/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:9`.
+pub const SH9_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:9",
+    name: "sh9_rotate_small",
+    wgsl: include_str!("../wgsl/sh9/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_small.glsl"),
+};
+
+/// `rotate_small:9:rgb`.
+pub const SH9_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:9:rgb",
+    name: "sh9_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:9`.
+pub const SH9_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:9",
+    name: "sh9_eval_monomial",
+    wgsl: include_str!("../wgsl/sh9/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh9/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:9:rgb`.
+pub const SH9_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:9:rgb",
+    name: "sh9_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh9/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:9`.
+pub const SH9_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:9",
+    name: "sh9_to_monomial",
+    wgsl: include_str!("../wgsl/sh9/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh9/to_monomial.glsl"),
+};
+
+/// `to_monomial:9:rgb`.
+pub const SH9_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:9:rgb",
+    name: "sh9_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh9/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:9`.
 pub const SH9_ZHF: Shader = Shader {
     spec: "zhf:9",
@@ -3581,6 +4749,150 @@ pub const SH9_LF3_ZYZ_RGB: Shader = Shader {
     name: "sh9_lf3_zyz_rgb",
     wgsl: include_str!("../wgsl/sh9/lf3_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh9/lf3_zyz_rgb.glsl"),
+};
+
+/// `lf5:9`.
+pub const SH9_LF5_Y: Shader = Shader {
+    spec: "lf5:9",
+    name: "sh9_lf5_y",
+    wgsl: include_str!("../wgsl/sh9/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_y.glsl"),
+};
+
+/// `lf5:9:rgb`.
+pub const SH9_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:9:rgb",
+    name: "sh9_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:9:lf5`.
+pub const SH9_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:9:lf5",
+    name: "sh9_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh9/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_zyz.glsl"),
+};
+
+/// `rotate:9:lf5:rgb`.
+pub const SH9_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:lf5:rgb",
+    name: "sh9_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:9`.
+pub const SH9_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:9",
+    name: "sh9_tilt_scale",
+    wgsl: include_str!("../wgsl/sh9/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:9:rgb`.
+pub const SH9_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:9:rgb",
+    name: "sh9_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:9`.
+pub const SH9_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:9",
+    name: "sh9_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh9/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:9:rgb`.
+pub const SH9_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:9:rgb",
+    name: "sh9_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:9`.
+pub const SH9_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:9",
+    name: "sh9_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh9/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:9:rgb`.
+pub const SH9_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:9:rgb",
+    name: "sh9_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:9:lf5`.
+pub const SH9_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:9:lf5",
+    name: "sh9_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:9:lf5:rgb`.
+pub const SH9_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:9:lf5:rgb",
+    name: "sh9_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:9:lf5`.
+pub const SH9_LF5_TILT: Shader = Shader {
+    spec: "tilt:9:lf5",
+    name: "sh9_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt.glsl"),
+};
+
+/// `tilt:9:lf5:rgb`.
+pub const SH9_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:9:lf5:rgb",
+    name: "sh9_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:9:lf5`.
+pub const SH9_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:9:lf5",
+    name: "sh9_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:9:lf5:rgb`.
+pub const SH9_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:9:lf5:rgb",
+    name: "sh9_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:9`.
+pub const SH9_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:9",
+    name: "sh9_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh9/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:9:rgb`.
+pub const SH9_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:9:rgb",
+    name: "sh9_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_adaptive_rgb.glsl"),
 };
 
 /// `basis:9:loop`.
@@ -3847,6 +5159,54 @@ pub const SH10_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/tilt_rgb.glsl"),
 };
 
+/// `rotate_small:10`.
+pub const SH10_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:10",
+    name: "sh10_rotate_small",
+    wgsl: include_str!("../wgsl/sh10/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_small.glsl"),
+};
+
+/// `rotate_small:10:rgb`.
+pub const SH10_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:10:rgb",
+    name: "sh10_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_small_rgb.glsl"),
+};
+
+/// `eval_monomial:10`.
+pub const SH10_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:10",
+    name: "sh10_eval_monomial",
+    wgsl: include_str!("../wgsl/sh10/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh10/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:10:rgb`.
+pub const SH10_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:10:rgb",
+    name: "sh10_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh10/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:10`.
+pub const SH10_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:10",
+    name: "sh10_to_monomial",
+    wgsl: include_str!("../wgsl/sh10/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh10/to_monomial.glsl"),
+};
+
+/// `to_monomial:10:rgb`.
+pub const SH10_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:10:rgb",
+    name: "sh10_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh10/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/to_monomial_rgb.glsl"),
+};
+
 /// `zhf:10`.
 pub const SH10_ZHF: Shader = Shader {
     spec: "zhf:10",
@@ -4023,6 +5383,150 @@ pub const SH10_LF3_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/lf3_zyz_rgb.glsl"),
 };
 
+/// `lf5:10`.
+pub const SH10_LF5_Y: Shader = Shader {
+    spec: "lf5:10",
+    name: "sh10_lf5_y",
+    wgsl: include_str!("../wgsl/sh10/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_y.glsl"),
+};
+
+/// `lf5:10:rgb`.
+pub const SH10_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:10:rgb",
+    name: "sh10_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_y_rgb.glsl"),
+};
+
+/// `rotate:10:lf5`.
+pub const SH10_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:10:lf5",
+    name: "sh10_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh10/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_zyz.glsl"),
+};
+
+/// `rotate:10:lf5:rgb`.
+pub const SH10_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:lf5:rgb",
+    name: "sh10_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_zyz_rgb.glsl"),
+};
+
+/// `tilt_scale:10`.
+pub const SH10_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:10",
+    name: "sh10_tilt_scale",
+    wgsl: include_str!("../wgsl/sh10/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:10:rgb`.
+pub const SH10_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:10:rgb",
+    name: "sh10_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:10`.
+pub const SH10_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:10",
+    name: "sh10_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh10/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:10:rgb`.
+pub const SH10_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:10:rgb",
+    name: "sh10_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_unscale_rgb.glsl"),
+};
+
+/// `tilt_prescaled:10`.
+pub const SH10_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:10",
+    name: "sh10_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh10/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:10:rgb`.
+pub const SH10_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:10:rgb",
+    name: "sh10_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:10:lf5`.
+pub const SH10_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:10:lf5",
+    name: "sh10_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:10:lf5:rgb`.
+pub const SH10_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:10:lf5:rgb",
+    name: "sh10_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt:10:lf5`.
+pub const SH10_LF5_TILT: Shader = Shader {
+    spec: "tilt:10:lf5",
+    name: "sh10_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt.glsl"),
+};
+
+/// `tilt:10:lf5:rgb`.
+pub const SH10_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:10:lf5:rgb",
+    name: "sh10_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_rgb.glsl"),
+};
+
+/// `rotate_small:10:lf5`.
+pub const SH10_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:10:lf5",
+    name: "sh10_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:10:lf5:rgb`.
+pub const SH10_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:10:lf5:rgb",
+    name: "sh10_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:10`.
+pub const SH10_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:10",
+    name: "sh10_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh10/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:10:rgb`.
+pub const SH10_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:10:rgb",
+    name: "sh10_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_adaptive_rgb.glsl"),
+};
+
 /// `basis:10:loop`.
 pub const SH10_BASIS_LOOP: Shader = Shader {
     spec: "basis:10:loop",
@@ -4093,6 +5597,12 @@ pub const ALL: &[Shader] = &[
     SH2_ROTATE_ZONAL_RGB,
     SH2_TILT,
     SH2_TILT_RGB,
+    SH2_ROTATE_SMALL,
+    SH2_ROTATE_SMALL_RGB,
+    SH2_EVAL_MONOMIAL,
+    SH2_EVAL_MONOMIAL_RGB,
+    SH2_TO_MONOMIAL,
+    SH2_TO_MONOMIAL_RGB,
     SH2_ZHF,
     SH2_ZHF_RGB,
     SH2_ZHF_WEIGHTS,
@@ -4115,6 +5625,10 @@ pub const ALL: &[Shader] = &[
     SH2_LF3_Y_RGB,
     SH2_LF3_ZYZ,
     SH2_LF3_ZYZ_RGB,
+    SH2_LF5_Y,
+    SH2_LF5_Y_RGB,
+    SH2_LF5_ZYZ,
+    SH2_LF5_ZYZ_RGB,
     SH2_ROTATE,
     SH2_ROTATE_RGB,
     SH2_ROTATE_MATRIX,
@@ -4152,6 +5666,12 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_ZONAL_RGB,
     SH3_TILT,
     SH3_TILT_RGB,
+    SH3_ROTATE_SMALL,
+    SH3_ROTATE_SMALL_RGB,
+    SH3_EVAL_MONOMIAL,
+    SH3_EVAL_MONOMIAL_RGB,
+    SH3_TO_MONOMIAL,
+    SH3_TO_MONOMIAL_RGB,
     SH3_ZHF,
     SH3_ZHF_RGB,
     SH3_ZHF_WEIGHTS,
@@ -4174,6 +5694,10 @@ pub const ALL: &[Shader] = &[
     SH3_LF3_Y_RGB,
     SH3_LF3_ZYZ,
     SH3_LF3_ZYZ_RGB,
+    SH3_LF5_Y,
+    SH3_LF5_Y_RGB,
+    SH3_LF5_ZYZ,
+    SH3_LF5_ZYZ_RGB,
     SH3_ROTATE,
     SH3_ROTATE_TENSOR_RGB,
     SH3_ROTATE_MATRIX,
@@ -4211,6 +5735,12 @@ pub const ALL: &[Shader] = &[
     SH4_ROTATE_ZONAL_RGB,
     SH4_TILT,
     SH4_TILT_RGB,
+    SH4_ROTATE_SMALL,
+    SH4_ROTATE_SMALL_RGB,
+    SH4_EVAL_MONOMIAL,
+    SH4_EVAL_MONOMIAL_RGB,
+    SH4_TO_MONOMIAL,
+    SH4_TO_MONOMIAL_RGB,
     SH4_ZHF,
     SH4_ZHF_RGB,
     SH4_ZHF_WEIGHTS,
@@ -4233,6 +5763,24 @@ pub const ALL: &[Shader] = &[
     SH4_LF3_Y_RGB,
     SH4_LF3_ZYZ,
     SH4_LF3_ZYZ_RGB,
+    SH4_LF5_Y,
+    SH4_LF5_Y_RGB,
+    SH4_LF5_ZYZ,
+    SH4_LF5_ZYZ_RGB,
+    SH4_TILT_SCALE,
+    SH4_TILT_SCALE_RGB,
+    SH4_TILT_UNSCALE,
+    SH4_TILT_UNSCALE_RGB,
+    SH4_TILT_PRESCALED,
+    SH4_TILT_PRESCALED_RGB,
+    SH4_LF5_TILT_PRESCALED,
+    SH4_LF5_TILT_PRESCALED_RGB,
+    SH4_LF5_TILT,
+    SH4_LF5_TILT_RGB,
+    SH4_LF5_ROTATE_SMALL,
+    SH4_LF5_ROTATE_SMALL_RGB,
+    SH4_ROTATE_ADAPTIVE,
+    SH4_ROTATE_ADAPTIVE_RGB,
     SH4_BASIS_LOOP,
     SH4_ROTATE_LOOP,
     SH4_ROTATE_RGB_LOOP,
@@ -4266,6 +5814,12 @@ pub const ALL: &[Shader] = &[
     SH5_ROTATE_ZONAL_RGB,
     SH5_TILT,
     SH5_TILT_RGB,
+    SH5_ROTATE_SMALL,
+    SH5_ROTATE_SMALL_RGB,
+    SH5_EVAL_MONOMIAL,
+    SH5_EVAL_MONOMIAL_RGB,
+    SH5_TO_MONOMIAL,
+    SH5_TO_MONOMIAL_RGB,
     SH5_ZHF,
     SH5_ZHF_RGB,
     SH5_ZHF_WEIGHTS,
@@ -4288,6 +5842,24 @@ pub const ALL: &[Shader] = &[
     SH5_LF3_Y_RGB,
     SH5_LF3_ZYZ,
     SH5_LF3_ZYZ_RGB,
+    SH5_LF5_Y,
+    SH5_LF5_Y_RGB,
+    SH5_LF5_ZYZ,
+    SH5_LF5_ZYZ_RGB,
+    SH5_TILT_SCALE,
+    SH5_TILT_SCALE_RGB,
+    SH5_TILT_UNSCALE,
+    SH5_TILT_UNSCALE_RGB,
+    SH5_TILT_PRESCALED,
+    SH5_TILT_PRESCALED_RGB,
+    SH5_LF5_TILT_PRESCALED,
+    SH5_LF5_TILT_PRESCALED_RGB,
+    SH5_LF5_TILT,
+    SH5_LF5_TILT_RGB,
+    SH5_LF5_ROTATE_SMALL,
+    SH5_LF5_ROTATE_SMALL_RGB,
+    SH5_ROTATE_ADAPTIVE,
+    SH5_ROTATE_ADAPTIVE_RGB,
     SH5_BANDS_0_1_2_4_EVAL,
     SH5_BANDS_0_1_2_4_EVAL_RGB,
     SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y,
@@ -4324,6 +5896,12 @@ pub const ALL: &[Shader] = &[
     SH6_ROTATE_ZONAL_RGB,
     SH6_TILT,
     SH6_TILT_RGB,
+    SH6_ROTATE_SMALL,
+    SH6_ROTATE_SMALL_RGB,
+    SH6_EVAL_MONOMIAL,
+    SH6_EVAL_MONOMIAL_RGB,
+    SH6_TO_MONOMIAL,
+    SH6_TO_MONOMIAL_RGB,
     SH6_ZHF,
     SH6_ZHF_RGB,
     SH6_ZHF_WEIGHTS,
@@ -4346,6 +5924,24 @@ pub const ALL: &[Shader] = &[
     SH6_LF3_Y_RGB,
     SH6_LF3_ZYZ,
     SH6_LF3_ZYZ_RGB,
+    SH6_LF5_Y,
+    SH6_LF5_Y_RGB,
+    SH6_LF5_ZYZ,
+    SH6_LF5_ZYZ_RGB,
+    SH6_TILT_SCALE,
+    SH6_TILT_SCALE_RGB,
+    SH6_TILT_UNSCALE,
+    SH6_TILT_UNSCALE_RGB,
+    SH6_TILT_PRESCALED,
+    SH6_TILT_PRESCALED_RGB,
+    SH6_LF5_TILT_PRESCALED,
+    SH6_LF5_TILT_PRESCALED_RGB,
+    SH6_LF5_TILT,
+    SH6_LF5_TILT_RGB,
+    SH6_LF5_ROTATE_SMALL,
+    SH6_LF5_ROTATE_SMALL_RGB,
+    SH6_ROTATE_ADAPTIVE,
+    SH6_ROTATE_ADAPTIVE_RGB,
     SH6_BASIS_LOOP,
     SH6_ROTATE_LOOP,
     SH6_ROTATE_RGB_LOOP,
@@ -4379,6 +5975,12 @@ pub const ALL: &[Shader] = &[
     SH7_ROTATE_ZONAL_RGB,
     SH7_TILT,
     SH7_TILT_RGB,
+    SH7_ROTATE_SMALL,
+    SH7_ROTATE_SMALL_RGB,
+    SH7_EVAL_MONOMIAL,
+    SH7_EVAL_MONOMIAL_RGB,
+    SH7_TO_MONOMIAL,
+    SH7_TO_MONOMIAL_RGB,
     SH7_ZHF,
     SH7_ZHF_RGB,
     SH7_ZHF_WEIGHTS,
@@ -4401,6 +6003,24 @@ pub const ALL: &[Shader] = &[
     SH7_LF3_Y_RGB,
     SH7_LF3_ZYZ,
     SH7_LF3_ZYZ_RGB,
+    SH7_LF5_Y,
+    SH7_LF5_Y_RGB,
+    SH7_LF5_ZYZ,
+    SH7_LF5_ZYZ_RGB,
+    SH7_TILT_SCALE,
+    SH7_TILT_SCALE_RGB,
+    SH7_TILT_UNSCALE,
+    SH7_TILT_UNSCALE_RGB,
+    SH7_TILT_PRESCALED,
+    SH7_TILT_PRESCALED_RGB,
+    SH7_LF5_TILT_PRESCALED,
+    SH7_LF5_TILT_PRESCALED_RGB,
+    SH7_LF5_TILT,
+    SH7_LF5_TILT_RGB,
+    SH7_LF5_ROTATE_SMALL,
+    SH7_LF5_ROTATE_SMALL_RGB,
+    SH7_ROTATE_ADAPTIVE,
+    SH7_ROTATE_ADAPTIVE_RGB,
     SH7_BASIS_LOOP,
     SH7_ROTATE_LOOP,
     SH7_ROTATE_RGB_LOOP,
@@ -4434,6 +6054,12 @@ pub const ALL: &[Shader] = &[
     SH8_ROTATE_ZONAL_RGB,
     SH8_TILT,
     SH8_TILT_RGB,
+    SH8_ROTATE_SMALL,
+    SH8_ROTATE_SMALL_RGB,
+    SH8_EVAL_MONOMIAL,
+    SH8_EVAL_MONOMIAL_RGB,
+    SH8_TO_MONOMIAL,
+    SH8_TO_MONOMIAL_RGB,
     SH8_ZHF,
     SH8_ZHF_RGB,
     SH8_ZHF_WEIGHTS,
@@ -4456,6 +6082,24 @@ pub const ALL: &[Shader] = &[
     SH8_LF3_Y_RGB,
     SH8_LF3_ZYZ,
     SH8_LF3_ZYZ_RGB,
+    SH8_LF5_Y,
+    SH8_LF5_Y_RGB,
+    SH8_LF5_ZYZ,
+    SH8_LF5_ZYZ_RGB,
+    SH8_TILT_SCALE,
+    SH8_TILT_SCALE_RGB,
+    SH8_TILT_UNSCALE,
+    SH8_TILT_UNSCALE_RGB,
+    SH8_TILT_PRESCALED,
+    SH8_TILT_PRESCALED_RGB,
+    SH8_LF5_TILT_PRESCALED,
+    SH8_LF5_TILT_PRESCALED_RGB,
+    SH8_LF5_TILT,
+    SH8_LF5_TILT_RGB,
+    SH8_LF5_ROTATE_SMALL,
+    SH8_LF5_ROTATE_SMALL_RGB,
+    SH8_ROTATE_ADAPTIVE,
+    SH8_ROTATE_ADAPTIVE_RGB,
     SH8_BASIS_LOOP,
     SH8_ROTATE_LOOP,
     SH8_ROTATE_RGB_LOOP,
@@ -4489,6 +6133,12 @@ pub const ALL: &[Shader] = &[
     SH9_ROTATE_ZONAL_RGB,
     SH9_TILT,
     SH9_TILT_RGB,
+    SH9_ROTATE_SMALL,
+    SH9_ROTATE_SMALL_RGB,
+    SH9_EVAL_MONOMIAL,
+    SH9_EVAL_MONOMIAL_RGB,
+    SH9_TO_MONOMIAL,
+    SH9_TO_MONOMIAL_RGB,
     SH9_ZHF,
     SH9_ZHF_RGB,
     SH9_ZHF_WEIGHTS,
@@ -4511,6 +6161,24 @@ pub const ALL: &[Shader] = &[
     SH9_LF3_Y_RGB,
     SH9_LF3_ZYZ,
     SH9_LF3_ZYZ_RGB,
+    SH9_LF5_Y,
+    SH9_LF5_Y_RGB,
+    SH9_LF5_ZYZ,
+    SH9_LF5_ZYZ_RGB,
+    SH9_TILT_SCALE,
+    SH9_TILT_SCALE_RGB,
+    SH9_TILT_UNSCALE,
+    SH9_TILT_UNSCALE_RGB,
+    SH9_TILT_PRESCALED,
+    SH9_TILT_PRESCALED_RGB,
+    SH9_LF5_TILT_PRESCALED,
+    SH9_LF5_TILT_PRESCALED_RGB,
+    SH9_LF5_TILT,
+    SH9_LF5_TILT_RGB,
+    SH9_LF5_ROTATE_SMALL,
+    SH9_LF5_ROTATE_SMALL_RGB,
+    SH9_ROTATE_ADAPTIVE,
+    SH9_ROTATE_ADAPTIVE_RGB,
     SH9_BASIS_LOOP,
     SH9_ROTATE_LOOP,
     SH9_ROTATE_RGB_LOOP,
@@ -4544,6 +6212,12 @@ pub const ALL: &[Shader] = &[
     SH10_ROTATE_ZONAL_RGB,
     SH10_TILT,
     SH10_TILT_RGB,
+    SH10_ROTATE_SMALL,
+    SH10_ROTATE_SMALL_RGB,
+    SH10_EVAL_MONOMIAL,
+    SH10_EVAL_MONOMIAL_RGB,
+    SH10_TO_MONOMIAL,
+    SH10_TO_MONOMIAL_RGB,
     SH10_ZHF,
     SH10_ZHF_RGB,
     SH10_ZHF_WEIGHTS,
@@ -4566,6 +6240,24 @@ pub const ALL: &[Shader] = &[
     SH10_LF3_Y_RGB,
     SH10_LF3_ZYZ,
     SH10_LF3_ZYZ_RGB,
+    SH10_LF5_Y,
+    SH10_LF5_Y_RGB,
+    SH10_LF5_ZYZ,
+    SH10_LF5_ZYZ_RGB,
+    SH10_TILT_SCALE,
+    SH10_TILT_SCALE_RGB,
+    SH10_TILT_UNSCALE,
+    SH10_TILT_UNSCALE_RGB,
+    SH10_TILT_PRESCALED,
+    SH10_TILT_PRESCALED_RGB,
+    SH10_LF5_TILT_PRESCALED,
+    SH10_LF5_TILT_PRESCALED_RGB,
+    SH10_LF5_TILT,
+    SH10_LF5_TILT_RGB,
+    SH10_LF5_ROTATE_SMALL,
+    SH10_LF5_ROTATE_SMALL_RGB,
+    SH10_ROTATE_ADAPTIVE,
+    SH10_ROTATE_ADAPTIVE_RGB,
     SH10_BASIS_LOOP,
     SH10_ROTATE_LOOP,
     SH10_ROTATE_RGB_LOOP,

@@ -92,7 +92,7 @@ fn errors_are_those_of_the_files_heads() {
     for (method, family) in [
         (Way::Uniform(Small::Taylor15), Family::SmallY(vec![Small::Taylor15; 5])),
         (Way::Uniform(Small::Lf3), Family::Rotate(RotationMethod::Small(vec![Small::Lf3; 5]))),
-        (Way::Tilt, Family::Tilt),
+        (Way::Tilt, Family::Tilt(Small::Lf3.from_band_3(6))),
     ] {
         let angles = [0.05, 0.4];
         let comparison = Comparison::new(method, 6);

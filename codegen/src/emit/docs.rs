@@ -1,9 +1,11 @@
 //! What stands above a function: what it computes, over which inputs, at what cost and within which error, in plain
 //! ASCII so that every compiler reads it.
 
-use crate::accuracy::Accuracy;
+use crate::accuracy::{Accuracy, MARGIN};
 use crate::built::Built;
+use crate::code::Code;
 use crate::kernel::Param;
+use crate::kernels::y_rotation::Small;
 use crate::spec::{Family, Method, SMALL_ANGLE_DEGREES, Spec};
 
 const WIDTH: usize = 100;
@@ -91,14 +93,41 @@ pub fn summary(spec: &Spec) -> String {
         Family::Angles => format!(
             "The multiples of the three angles of a rotation that `rotate:{order}:angles` takes; done once for many signals."
         ),
-        Family::Tilt => match order {
+        Family::Tilt(methods) => match order {
             2 | 3 => {
                 format!("Tilts order {order}: the shortest rotation from z to a normal, exactly, with no trigonometry.")
             }
             _ => format!(
-                "Tilts order {order}: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with (-n.x, -n.y, n.z)."
+                "Tilts order {order}: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by shears that are regular at n = z ({}). The inverse is the same with (-n.x, -n.y, n.z).",
+                small_list(&methods[2..])
             ),
         },
+        Family::TiltPrescaled(methods) => format!(
+            "Tilts order {order} as `tilt` does ({}), on coefficients that `tilt_scale:{order}` has divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a light, is scaled the other way, by `tilt_unscale:{order}`.",
+            small_list(methods.get(2..).unwrap_or_default())
+        ),
+        Family::TiltScale => {
+            format!(
+                "Divides the coefficients of order {order} as `tilt_prescaled:{order}` takes them; done once, when they are stored."
+            )
+        }
+        Family::TiltUnscale => format!(
+            "The inverse of `tilt_scale:{order}`: for tilted coefficients, or for a light that they are multiplied with."
+        ),
+        Family::RotateSmall(methods) => format!(
+            "Rotates order {order} by z, y, z from a quaternion whose y angle is small, approximately ({}).",
+            small_source(methods)
+        ),
+        Family::RotateAdaptive(methods) => format!(
+            "Rotates order {order} from a quaternion: approximately where the y angle is below a limit ({}), exactly above it.",
+            small_source(methods)
+        ),
+        Family::EvalMonomial => format!(
+            "The sum of c_i y_i(dir) over the harmonics {which}, from the coefficients that `to_monomial:{order}` makes."
+        ),
+        Family::ToMonomial => format!(
+            "From the coefficients of the harmonics {which} to those of the monomials that `eval_monomial:{order}` takes; done once, when they are stored."
+        ),
         Family::SmallY(methods) => {
             format!("Rotates order {order} about y by a small angle, approximately ({}).", small_source(methods))
         }
@@ -143,10 +172,18 @@ pub fn summary(spec: &Spec) -> String {
     }
 }
 
-fn small_source(methods: &[crate::kernels::y_rotation::Small]) -> String {
+/// The methods of the bands, repetitions left out.
+fn small_list(methods: &[Small]) -> String {
     let mut names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
     names.dedup();
-    format!("bands from 1: {}; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears", names.join(", "))
+    names.join(", ")
+}
+
+fn small_source(methods: &[Small]) -> String {
+    let names = small_list(methods);
+    format!(
+        "bands from 1: {names}; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears"
+    )
 }
 
 fn parameter(param: &Param) -> String {
@@ -162,8 +199,12 @@ pub fn cost(built: &Built, channels: usize) -> String {
         n => format!(" and {n} inverse square roots or reciprocals"),
     };
     let footprint = built.code.footprint();
+    let below = match &built.code {
+        Code::Branch(branch) => format!(" above the limit, {} below it", branch.costs(channels)[0].total),
+        _ => String::new(),
+    };
     format!(
-        "Operations: {} ({} mul, {} add, {} fma){special}; {} constants, {} live values.",
+        "Operations: {} ({} mul, {} add, {} fma){special}{below}; {} constants, {} live values.",
         cost.total, cost.mul, cost.add, cost.fma, footprint.constants, footprint.live
     )
 }
@@ -172,9 +213,10 @@ pub fn cost(built: &Built, channels: usize) -> String {
 pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
     let small = format!("for an angle up to {SMALL_ANGLE_DEGREES} degrees");
     let domain = match &spec.family {
+        Family::RotateAdaptive(_) => "for every unit q, with a limit up to 25 degrees",
         _ if spec.max_angle().is_some() => &small,
-        Family::Basis | Family::Eval => "for dir of unit length",
-        Family::Tilt => "for every n of unit length with n.z >= 0",
+        Family::Basis | Family::Eval | Family::EvalMonomial => "for dir of unit length",
+        Family::Tilt(_) | Family::TiltPrescaled(_) => "for every n of unit length with n.z >= 0",
         Family::Rotate(Method::Zyz | Method::Zxzxz | Method::Tensor) | Family::Angles => "for every unit q",
         Family::Rotate(Method::Align) => "for every n of unit length",
         Family::Rotate(Method::Zonal) => "for dir of unit length",
@@ -182,12 +224,16 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
         Family::RotateZ | Family::RotateY | Family::Rotate(Method::Euler | Method::Angles) => "for every angle",
         _ => "for every input",
     };
+    let (measured, samples) = (accuracy.measured_f32, accuracy.samples);
+    let why = match accuracy.proven {
+        true => {
+            format!("proven for IEEE arithmetic, contracted or not; the worst of {samples} measured is {measured:e}")
+        }
+        false => format!("{MARGIN} times the worst of {samples} measured, {measured:e}; not proven"),
+    };
     let mut text = format!(
-        "Error: f32 rounding at most {:e} of {}, {domain} ({} times the worst of {} measured).",
-        accuracy.rounding_f32,
-        accuracy.relative_to,
-        crate::accuracy::MARGIN,
-        accuracy.samples
+        "Error: f32 rounding at most {:e} of {}, {domain} ({why}).",
+        accuracy.rounding_f32, accuracy.relative_to
     );
     if !accuracy.method.is_empty() {
         let at: Vec<String> =

@@ -11,6 +11,7 @@ use crate::built::Built;
 use crate::code::Code;
 use crate::graph::Kind;
 use crate::kernel::Shape;
+use crate::listing::Listing;
 use crate::program::LoopKernel;
 use crate::spec::Spec;
 use body::{Body, CHUNK, Line};
@@ -110,6 +111,32 @@ struct WrapperText {
 }
 
 impl FunctionText {
+    /// Sets the lines and the result of a listing.
+    fn print(&mut self, dialect: Dialect, listing: &Listing, (lines, body): (Vec<String>, Body)) {
+        self.body = lines;
+        let items: Vec<String> = body.results.into_iter().map(|(text, _)| text).collect();
+        (self.open, self.results, self.close) = results(dialect, listing.result, listing.result_kind, &items);
+    }
+
+    /// What has been printed so far as the way that is taken where the condition holds.
+    fn early_return(&mut self, dialect: Dialect, condition: &Listing) -> Vec<String> {
+        let condition = Body::new(condition, dialect);
+        let mut lines: Vec<String> = condition.lines.iter().map(|line| statement(dialect, line)).collect();
+        let [(value, _), (limit, _)] = &condition.results[..] else {
+            unreachable!("a condition compares two numbers");
+        };
+        lines.push(match dialect.target {
+            Target::Rust => format!("if ({value}).at_most({limit}) {{"),
+            _ => format!("if ({value} <= {limit}) {{"),
+        });
+        lines.extend(self.body.drain(..).map(|line| format!("    {line}")));
+        lines.push(format!("    return {}", self.open));
+        lines.extend(self.results.drain(..).map(|line| format!("        {line}")));
+        lines.push(format!("    {};", self.close));
+        lines.push("}".to_owned());
+        lines
+    }
+
     fn print_loop(&mut self, kernel: &LoopKernel, dialect: Dialect) {
         let printed = loop_body::print(kernel, dialect, &self.name.to_uppercase());
         (self.tables, self.body, self.results) = (printed.tables, printed.lines, vec![printed.result]);
@@ -170,15 +197,21 @@ impl Function {
         let dialect = Dialect { target, rgb: self.spec.rgb };
         let name = self.shader_name();
         let mut text = self.frame(dialect, name, &self.spec);
+        let lines = |listing: &Listing| {
+            let body = Body::new(listing, dialect);
+            let size = body.lines.len();
+            match size > MAX_STATEMENTS {
+                true => Err(self.limit(target, size, "statements", MAX_STATEMENTS)),
+                false => Ok((body.lines.iter().map(|line| statement(dialect, line)).collect(), body)),
+            }
+        };
         match &self.built.code {
-            Code::Straight(listing) => {
-                let body = Body::new(listing, dialect);
-                if body.lines.len() > MAX_STATEMENTS {
-                    return Err(self.limit(target, body.lines.len(), "statements", MAX_STATEMENTS));
-                }
-                text.body = body.lines.iter().map(|line| statement(dialect, line)).collect();
-                let items: Vec<String> = body.results.into_iter().map(|(text, _)| text).collect();
-                (text.open, text.results, text.close) = results(dialect, listing.result, listing.result_kind, &items);
+            Code::Straight(listing) => text.print(dialect, listing, lines(listing)?),
+            Code::Branch(branch) => {
+                text.print(dialect, &branch.below, lines(&branch.below)?);
+                let early = text.early_return(dialect, &branch.condition);
+                text.print(dialect, &branch.above, lines(&branch.above)?);
+                text.body.splice(0..0, early);
             }
             Code::Loop(kernel) => {
                 if let Some(table) = loop_body::too_long(kernel) {
@@ -244,21 +277,30 @@ impl Function {
         match &self.built.code {
             Code::Straight(listing) => {
                 let body = Body::new(listing, dialect);
-                self.rust_body(&mut text, dialect, &body);
-                let items: Vec<String> = body.results.into_iter().map(|(text, _)| text).collect();
-                (text.open, text.results, text.close) = results(dialect, listing.result, listing.result_kind, &items);
+                let lines = self.rust_body(&mut text, dialect, &body, "part");
+                text.print(dialect, listing, (lines, body));
+            }
+            Code::Branch(branch) => {
+                let body = Body::new(&branch.below, dialect);
+                let lines = self.rust_body(&mut text, dialect, &body, "below");
+                text.print(dialect, &branch.below, (lines, body));
+                let early = text.early_return(dialect, &branch.condition);
+                let body = Body::new(&branch.above, dialect);
+                let lines = self.rust_body(&mut text, dialect, &body, "above");
+                text.print(dialect, &branch.above, (lines, body));
+                text.body.splice(0..0, early);
             }
             Code::Loop(kernel) => text.print_loop(kernel, dialect),
         }
         text
     }
 
-    /// Long bodies are cut into parts that hand on what later parts need.
-    fn rust_body(&self, text: &mut FunctionText, dialect: Dialect, body: &Body) {
+    /// The lines of a body; a long one is cut into parts that hand on what later parts need.
+    fn rust_body(&self, text: &mut FunctionText, dialect: Dialect, body: &Body, part: &str) -> Vec<String> {
         if body.lines.len() <= CHUNK {
-            text.body = body.lines.iter().map(|line| statement(dialect, line)).collect();
-            return;
+            return body.lines.iter().map(|line| statement(dialect, line)).collect();
         }
+        let mut lines = Vec::new();
         let kinds: Vec<Kind> = body.lines.iter().map(|line| line.kind).collect();
         let chunks: Vec<&[Line]> = body.lines.chunks(CHUNK).collect();
         let turbofish = match self.has_signal() {
@@ -294,10 +336,10 @@ impl Function {
             let types = |(names, number): &(Vec<String>, &str)| format!("[{number}; {}]", names.len());
             let mut params = text.params.clone();
             params.extend(inputs.iter().map(|input| format!("{}: {}", brackets(input), types(input))));
-            let name = format!("{}_part_{place}", text.name);
+            let name = format!("{}_{part}_{place}", text.name);
             let call: Vec<String> =
                 arguments.iter().map(|name| (*name).to_owned()).chain(inputs.iter().map(brackets)).collect();
-            text.body.push(format!(
+            lines.push(format!(
                 "let {} = {name}{turbofish}({});",
                 tuple(outputs.iter().map(brackets).collect()),
                 call.join(", ")
@@ -310,6 +352,7 @@ impl Function {
                 results: tuple(outputs.iter().map(brackets).collect()),
             });
         }
+        lines
     }
 
     fn wrapper(&self, generic: &str, name: String) -> WrapperText {

@@ -52,6 +52,8 @@ pub fn real(std: Std) -> String {
                 fn root(self) -> Self { #root }
                 #[inline(always)]
                 fn recip(self) -> Self { 1.0 / self }
+                #[inline(always)]
+                fn at_most(self, limit: Self) -> bool { self <= limit }
             }
         }
     };
@@ -132,6 +134,8 @@ pub fn real(std: Std) -> String {
             fn root(self) -> Self;
             /// 1 / self.
             fn recip(self) -> Self;
+            /// Whether it is at most `limit`, of many numbers all of them: then an approximation may serve.
+            fn at_most(self, limit: Self) -> bool;
             /// 1 / √self, rounded twice.
             #[inline(always)]
             fn rsqrt(self) -> Self { self.root().recip() }
@@ -147,7 +151,7 @@ pub fn real(std: Std) -> String {
         #channels
 
         /// `N` numbers that are worked on at once, one a problem: the layout that vector units like. A kernel on `Lanes`
-        /// does what it does on each number.
+        /// does what it does on each number, but that one with a branch takes the same way for all.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C, align(64))]
         pub struct Lanes<T, const N: usize>(pub [T; N]);
@@ -162,6 +166,10 @@ pub fn real(std: Std) -> String {
             fn root(self) -> Self { Self(self.0.map(#[inline(always)] |x| x.root())) }
             #[inline(always)]
             fn recip(self) -> Self { Self(self.0.map(#[inline(always)] |x| x.recip())) }
+            #[inline(always)]
+            fn at_most(self, limit: Self) -> bool {
+                (0..N).all(#[inline(always)] |i| self.0[i].at_most(limit.0[i]))
+            }
         }
     };
     let file = syn::parse2(tokens).expect("the quoted module is Rust");

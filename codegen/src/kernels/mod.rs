@@ -3,6 +3,7 @@
 
 pub mod basis;
 pub mod loops;
+pub mod monomial;
 pub mod orthogonal;
 pub mod rotate;
 pub mod tilt;

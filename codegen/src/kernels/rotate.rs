@@ -31,7 +31,7 @@ pub struct Euler {
 }
 
 /// The multiples of β up to `count`, with the two products that band 2 uses.
-fn y_phases(g: &mut Graph, beta: Phase, count: usize) -> YPhases {
+pub fn y_phases(g: &mut Graph, beta: Phase, count: usize) -> YPhases {
     let product = g.mul(beta.sin, beta.cos);
     let square = g.mul(beta.sin, beta.sin);
     let half_square = g.scale(&Exact::ratio(1, 2), square);
@@ -50,7 +50,7 @@ fn y_phases(g: &mut Graph, beta: Phase, count: usize) -> YPhases {
 
 /// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch (MATH section 10): adding a tiny
 /// number to w and y keeps both phases defined where one of them has no meaning.
-fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
+pub fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
     let tiny = g.tiny();
     let [x, z] = [q[0], q[2]];
     let [y, w] = [g.add(q[1], tiny), g.add(q[3], tiny)];
@@ -223,7 +223,7 @@ pub fn signal(builder: &mut Builder, order: usize) -> Vec<Id> {
 }
 
 /// Declares the unit quaternion `q`.
-fn quaternion(builder: &mut Builder) -> Vec<Id> {
+pub fn quaternion(builder: &mut Builder) -> Vec<Id> {
     builder.param("q", Shape::Vec4, Kind::Scalar, "the rotation, a unit quaternion (x, y, z, w)")
 }
 
@@ -246,11 +246,15 @@ pub fn zyz(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let q = quaternion(&mut builder);
     let c = signal(&mut builder, order);
-    let g = &mut builder.graph;
-    let angles = phases_of_quaternion(g, &q);
-    let angles = euler(g, angles, order);
-    let out = zyz_apply(g, &c, order, &angles);
+    let out = from_quaternion(&mut builder.graph, &q, &c, order);
     finish(builder, order, out)
+}
+
+/// z, y, z from a unit quaternion.
+pub fn from_quaternion(g: &mut Graph, q: &[Id], c: &[Id], order: usize) -> Vec<Id> {
+    let angles = phases_of_quaternion(g, q);
+    let angles = euler(g, angles, order);
+    zyz_apply(g, c, order, &angles)
 }
 
 /// `rotate` by z, y, z from the three angles' cosine and sine.

@@ -1,13 +1,15 @@
 //! The tilt: the rotation that takes z to a normal by the shortest way, from the normal alone, with no trigonometry.
-//! Bands 1 and 2 are exact closed forms; from band 3 on three parity shears, regular at n = z and odd in (nx, ny), so
+//! Bands 1 and 2 are exact closed forms; from band 3 on three or five parity shears, regular at n = z and odd in (nx, ny), so
 //! that the inverse is the same code with −n (MATH section 9).
 
+use crate::graph::Kind;
 use crate::graph::{Graph, Id};
 use crate::kernel::{Builder, Kernel, Shape};
 use crate::kernels::inner;
 use crate::kernels::rotate::{each_band, normal, signal};
-use crate::kernels::y_rotation::lf3_correction;
+use crate::kernels::y_rotation::{ParityShear, Small, parity_shears};
 use crate::sh::exact::Exact;
+use crate::sh::index::coefficients;
 use crate::sh::tables;
 
 /// What every band needs of the normal.
@@ -70,25 +72,74 @@ fn band_2(g: &mut Graph, band: &[Id], n: &Normal) -> Vec<Id> {
     vec![out_12, g.neg(q_out[1]), out_0, g.neg(q_out[0]), out_2]
 }
 
-/// The coefficients of one parity's shear: for each of its rows m, (x, y) times the coupling to the row above; for the
-/// last row, to the row below.
+/// What every prescaled row of a band takes from the row above it: about the geometric mean of the couplings, so that the
+/// factors of [`scale`] stay near one.
+fn unit(l: usize) -> Exact {
+    let product: f64 = (1..=l).map(|m| tables::ladder(l, m).to_f64()).product();
+    Exact::int(product.powf(1.0 / l as f64).round() as i64)
+}
+
+/// What row m of band l takes from m + 1: the ladder's coupling, or what [`scale`] makes of it.
+fn from_above(l: usize, m: usize, prescaled: bool) -> Exact {
+    if prescaled { unit(l) } else { tables::ladder(l, m + 1) }
+}
+
+/// What row m takes from m − 1.
+fn from_below(l: usize, m: usize, prescaled: bool) -> Exact {
+    let a = tables::ladder(l, m);
+    if prescaled { &(&a * &a) / &unit(l) } else { a }
+}
+
+/// What a coefficient is divided by where it is stored for `tilt_prescaled`: one in bands 0 to 2; in a higher band it
+/// makes all rows take alike from the row above.
+pub fn scale(l: usize, m: isize) -> Exact {
+    match l {
+        0..=2 => Exact::one(),
+        _ => (1..=m.unsigned_abs()).fold(Exact::one(), |d, m| &(&d * &unit(l)) / &tables::ladder(l, m)),
+    }
+}
+
+/// The coefficients of one parity's shear: for each of its rows m, (x, y) times the coupling that is written as one.
 struct Shear {
     parity: usize,
-    rows: Vec<[Id; 2]>,
+    rows: Vec<Row>,
+}
+
+/// A row of a shear.
+struct Row {
+    /// (x, y) times the coupling to one neighbour.
+    pair: [Id; 2],
+    /// The couplings to m + 1 and to m − 1 against that one.
+    up: Exact,
+    down: Exact,
 }
 
 impl Shear {
-    /// `constant` + `linear` · u times (nx, ny) is the first row's pair but for its coupling; the others are multiples.
-    fn new(g: &mut Graph, n: &Normal, l: usize, parity: usize, [constant, linear]: [Exact; 2]) -> Self {
-        let coupling = |m: usize| tables::ladder(l, (m + 1).min(l));
-        let first = coupling(parity);
+    /// `constant` + `linear` · u times (nx, ny), times each row's coupling to the row above, the last row's to the row
+    /// below.
+    fn new(
+        g: &mut Graph,
+        n: &Normal,
+        l: usize,
+        parity: usize,
+        [constant, linear]: [Exact; 2],
+        prescaled: bool,
+    ) -> Self {
+        let (above, below) = (|m| from_above(l, m, prescaled), |m| from_below(l, m, prescaled));
+        let own = |m: usize| if m < l { above(m) } else { below(m) };
+        let first = own(parity);
         let factor = g.affine(&(&first * &linear), n.u, &(&first * &constant));
         let pair = [g.mul(factor, n.x), g.mul(factor, n.y)];
         let rows = (parity..=l)
             .step_by(2)
             .map(|m| {
-                let ratio = &coupling(m) / &first;
-                pair.map(|value| g.scale(&ratio, value))
+                let own = own(m);
+                let ratio = &own / &first;
+                Row {
+                    pair: pair.map(|value| g.scale(&ratio, value)),
+                    up: if m < l { &above(m) / &own } else { Exact::zero() },
+                    down: if m > 0 { &below(m) / &own } else { Exact::zero() },
+                }
             })
             .collect();
         Self { parity, rows }
@@ -98,16 +149,8 @@ impl Shear {
     fn apply(&self, g: &mut Graph, x: &mut [Id], l: usize) {
         let old = x.to_vec();
         let (re, im) = (|m: usize| old[l + m], |m: usize| old[l - m]);
-        for (m, &[c, s]) in (self.parity..=l).step_by(2).zip(&self.rows) {
-            // Upwards a_{m+1} (c − i s) ζ_{m+1}, from below −a_m (c + i s) ζ_{m−1}; ρ = a_m / a_{m+1}.
-            let minus_rho = if m == 0 {
-                Exact::zero()
-            } else if m == l {
-                Exact::int(-1)
-            } else {
-                -&(&tables::ladder(l, m) / &tables::ladder(l, m + 1))
-            };
-            let plus_rho = -&minus_rho;
+        for (m, Row { pair: [c, s], up, down }) in (self.parity..=l).step_by(2).zip(&self.rows) {
+            // Upwards a_{m+1} (c − i s) ζ_{m+1}, from below −a_m (c + i s) ζ_{m−1}.
             let zero = g.constant(Exact::zero());
             let (up_re, up_im) = if m < l { (re(m + 1), im(m + 1)) } else { (zero, zero) };
             let (down_re, down_im) = match m {
@@ -115,43 +158,50 @@ impl Shear {
                 1 => (re(0), zero),
                 _ => (re(m - 1), im(m - 1)),
             };
-            let difference_re = g.scale_add(&minus_rho, down_re, up_re);
-            let sum_im = g.scale_add(&plus_rho, down_im, up_im);
-            let mut row = g.mul_add(difference_re, c, re(m));
-            row = g.mul_add(sum_im, s, row);
+            let combine = |g: &mut Graph, below: &Exact, low: Id, high: Id| {
+                let above = g.scale(up, high);
+                g.scale_add(below, low, above)
+            };
+            let (minus, plus) = (-down, down.clone());
+            let difference_re = combine(g, &minus, down_re, up_re);
+            let sum_im = combine(g, &plus, down_im, up_im);
+            let mut row = g.mul_add(difference_re, *c, re(m));
+            row = g.mul_add(sum_im, *s, row);
             x[l + m] = row;
             if m > 0 {
-                let difference_im = g.scale_add(&minus_rho, down_im, up_im);
-                let sum_re = g.scale_add(&plus_rho, down_re, up_re);
-                let row = g.mul_add(difference_im, c, im(m));
-                let term = g.mul(sum_re, s);
+                let difference_im = combine(g, &minus, down_im, up_im);
+                let sum_re = combine(g, &plus, down_re, up_re);
+                let row = g.mul_add(difference_im, *c, im(m));
+                let term = g.mul(sum_re, *s);
                 x[l - m] = g.sub(row, term);
             }
         }
     }
 }
 
-/// Three shears: error (lβ)³/24, β the tilt.
-fn shears(g: &mut Graph, band: &[Id], n: &Normal) -> Vec<Id> {
+/// Three or five shears, β the tilt. With sin β for β the series' second coefficient takes c₀/6 more.
+fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: Small, prescaled: bool) -> Vec<Id> {
     let l = band.len() / 2;
-    let p = lf3_correction(l);
-    let sixth = Exact::ratio(1, 6);
-    let odd = [Exact::one(), &sixth - &p];
-    let quarter = &(&sixth / &Exact::int(2)) + &(&p / &Exact::int(4));
-    let even = [Exact::ratio(1, 2), quarter];
-    let (even, odd) = (Shear::new(g, n, l, 0, even), Shear::new(g, n, l, 1, odd));
     let mut x = band.to_vec();
-    for shear in [&even, &odd, &even] {
-        shear.apply(g, &mut x, l);
+    for ParityShear { parity, series: [first, third] } in parity_shears(l, method) {
+        let third = &third + &(&first / &Exact::int(6));
+        Shear::new(g, n, l, parity, [first, third], prescaled).apply(g, &mut x, l);
     }
     x
 }
 
-/// The kernel `tilt`.
-pub fn tilt(order: usize) -> Kernel {
+/// The kernels `tilt` and `tilt_prescaled`, with `methods[l − 1]` for band l: exact for bands 1 and 2, shears for the
+/// others.
+pub fn tilt(order: usize, methods: &[Small], prescaled: bool) -> Kernel {
     let mut builder = Builder::new();
     let n = normal(&mut builder);
-    let c = signal(&mut builder, order);
+    let c = match prescaled {
+        true => {
+            let doc = format!("the coefficients as `tilt_scale:{order}` stores them");
+            builder.param("c", Shape::Array(order * order), Kind::Signal, doc)
+        }
+        false => signal(&mut builder, order),
+    };
     let g = &mut builder.graph;
     let one = g.constant(Exact::one());
     let above = g.add(n[2], one);
@@ -160,7 +210,27 @@ pub fn tilt(order: usize) -> Kernel {
         0 => band.to_vec(),
         1 => band_1(g, band, &n),
         2 => band_2(g, band, &n),
-        _ => shears(g, band, &n),
+        _ => shears(g, band, &n, methods[l - 1], prescaled),
     });
-    builder.finish(out, Shape::Array(order * order), "the tilted coefficients")
+    let doc = if prescaled { "the tilted coefficients, scaled alike" } else { "the tilted coefficients" };
+    builder.finish(out, Shape::Array(order * order), doc)
+}
+
+/// The kernels `tilt_scale` and `tilt_unscale`: each coefficient divided by [`scale`], or multiplied by it.
+pub fn rescale(order: usize, unscale: bool) -> Kernel {
+    let mut builder = Builder::new();
+    let c = signal(&mut builder, order);
+    let g = &mut builder.graph;
+    let out = coefficients(order)
+        .zip(&c)
+        .map(|((l, m), &value)| {
+            let scale = scale(l, m);
+            g.scale(&if unscale { scale } else { &Exact::one() / &scale }, value)
+        })
+        .collect();
+    let doc = match unscale {
+        true => "the coefficients that were scaled; those of a light, to be multiplied with scaled ones",
+        false => "the coefficients as `tilt_prescaled` takes them",
+    };
+    builder.finish(out, Shape::Array(order * order), doc)
 }

@@ -1,10 +1,12 @@
-//! Approximate rotations about y by a small angle: Taylor expansions (paper 000) and three parity shears (LF3), which
-//! are cheaper and closer. A kernel names a method for every band.
+//! Approximate rotations about y by a small angle: Taylor expansions (paper 000) and three or five parity shears (LF3,
+//! LF5), which are cheaper and closer. A kernel names a method for every band.
 
 use crate::graph::{Graph, Id, Kind};
 use crate::kernel::{Builder, Kernel, Shape};
-use crate::kernels::rotate::{each_band, signal, z_band};
-use crate::kernels::{multiples, phases};
+use crate::kernels::rotate::{
+    YPhases, each_band, from_quaternion, phases_of_quaternion, quaternion, signal, y_band, y_phases, z_band,
+};
+use crate::kernels::{Phase, inner, multiples, phases};
 use crate::sh::exact::Exact;
 use crate::sh::tables;
 
@@ -19,26 +21,78 @@ pub enum Small {
     Taylor2,
     /// Shears of the even orders, the odd, the even: error (lβ)³/24, determinant one.
     Lf3,
+    /// Two shears more: error (7 − 3√5) (lβ)³/96, about (lβ)³/329, determinant one.
+    Lf5,
+    /// The exact rotation. It takes the cosine and the sine of β, so that kernels which take β alone cannot have it.
+    Exact,
 }
 
 impl Small {
-    /// All of them, with the names that specs use.
-    pub const ALL: [(Self, &'static str); 4] =
-        [(Self::Taylor1, "taylor1"), (Self::Taylor15, "taylor15"), (Self::Taylor2, "taylor2"), (Self::Lf3, "lf3")];
+    /// The approximations, with the names that specs use.
+    pub const ALL: [(Self, &'static str); 5] = [
+        (Self::Taylor1, "taylor1"),
+        (Self::Taylor15, "taylor15"),
+        (Self::Taylor2, "taylor2"),
+        (Self::Lf3, "lf3"),
+        (Self::Lf5, "lf5"),
+    ];
 
     /// Its name in a spec.
     pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(small, _)| *small == self).map_or("", |(_, name)| name)
+        Self::ALL.iter().find(|(small, _)| *small == self).map_or("exact", |(_, name)| name)
+    }
+
+    /// `self` from band 3 on; bands 1 and 2 are exact, which costs less there than any shears.
+    pub fn from_band_3(self, order: usize) -> Vec<Self> {
+        (1..order).map(|l| if l < 3 { Self::Exact } else { self }).collect()
     }
 }
 
 /// The correction p of the shears' polynomials: the discrete minimax over the band's frequencies (MATH section 9.1).
-pub fn lf3_correction(l: usize) -> Exact {
+pub fn shear_correction(l: usize) -> Exact {
     let l = l as i64;
     match l % 2 {
         0 => Exact::ratio(l * l, 8),
         _ => Exact::ratio(3 * l * l + 1, 24),
     }
+}
+
+/// A shear of the rows of one parity: its parity, and its coefficient as c₀ β + c₂ β³.
+pub struct ParityShear {
+    /// Whether the even or the odd orders change.
+    pub parity: usize,
+    /// c₀ and c₂.
+    pub series: [Exact; 2],
+}
+
+/// The shears of LF3 and LF5, none for other methods. On the plane of a frequency k they multiply to 1 − e k³β³ off the
+/// diagonal, once first order is right; the term in β³ takes off the part of e k³ that is linear in k. For five shears
+/// β is split by the golden ratio, where both triangles have the same e = (7 − 3√5)/24; what is left to choose shifts
+/// β³ between the outer and the inner even shears, so that the two triangles err alike in (lβ)⁵ too.
+pub fn parity_shears(l: usize, method: Small) -> Vec<ParityShear> {
+    let p = shear_correction(l);
+    let series: Vec<[Exact; 2]> = match method {
+        Small::Lf3 => {
+            let outer = [Exact::ratio(1, 2), &p / &Exact::int(4)];
+            vec![outer.clone(), [Exact::one(), -&p], outer]
+        }
+        Small::Lf5 => {
+            let root5 = Exact::sqrt_ratio(5, 1);
+            let golden = &(&root5 - &Exact::one()) / &Exact::int(2);
+            let outer = &(&Exact::one() - &golden) / &Exact::int(2);
+            let linear = &(&(&root5 * &Exact::int(3)) - &Exact::int(7)) / &Exact::int(4);
+            let linear = &linear * &p;
+            // l² stands as 8 p, which is what it is on the frequencies of an odd band.
+            let shift = &(&(&(&outer * &outer) * &golden) / &(&root5 * &Exact::int(2))) * &(&p * &Exact::int(8));
+            let scaled = |factor: &Exact, shift: Exact| [factor.clone(), &(factor * &linear) + &shift];
+            let even = scaled(&outer, shift.clone());
+            let odd = scaled(&Exact::ratio(1, 2), Exact::zero());
+            let inner = scaled(&golden, &shift * &Exact::int(-2));
+            vec![even.clone(), odd.clone(), inner, odd, even]
+        }
+        _ => vec![],
+    };
+    series.into_iter().enumerate().map(|(i, series)| ParityShear { parity: i % 2, series }).collect()
 }
 
 /// A band while it is rotated about y: the chain of cosines and the chain of sines, and the couplings of neighbours.
@@ -89,6 +143,8 @@ struct Powers {
     beta: Id,
     /// β².
     square: Id,
+    /// What exact bands take, where the cosine and the sine are known.
+    exact: Option<YPhases>,
 }
 
 fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> Vec<Id> {
@@ -117,19 +173,16 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> V
             let second = Band::new(g, values, powers.beta, |_| true);
             second.map(|m| second.add_generator(g, m, &inner, second.at(m)))
         }
-        Small::Lf3 => {
-            let p = lf3_correction(l);
-            let half = Exact::ratio(1, 2);
-            let s = g.affine(&-&p, powers.square, &Exact::one());
-            let s = g.mul(powers.beta, s);
-            let t = g.affine(&(&p / &Exact::int(4)), powers.square, &half);
-            let t = g.mul(powers.beta, t);
+        Small::Lf3 | Small::Lf5 => {
             let mut x = values.to_vec();
-            let (even, odd) = (Band::new(g, values, t, |_| true), Band::new(g, values, s, |_| true));
-            for (band, parity) in [(&even, 0), (&odd, 1), (&even, 0)] {
+            for shear in parity_shears(l, method) {
+                let [first, third] = &shear.series;
+                let factor = g.affine(third, powers.square, first);
+                let factor = g.mul(powers.beta, factor);
+                let band = Band::new(g, values, factor, |_| true);
                 x = band.map(|m| {
                     let value = x[(l as isize + m) as usize];
-                    match m.rem_euclid(2) == parity {
+                    match m.rem_euclid(2) as usize == shear.parity {
                         true => band.add_generator(g, m, &x, value),
                         false => value,
                     }
@@ -137,16 +190,34 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> V
             }
             x
         }
+        Small::Exact => {
+            let phases = powers.exact.as_ref().expect("a spec with exact bands takes the cosine and the sine");
+            y_band(g, values, phases)
+        }
     }
 }
 
-fn small_rotation(g: &mut Graph, c: &[Id], order: usize, beta: Id, methods: &[Small]) -> Vec<Id> {
-    let square = g.mul(beta, beta);
-    let powers = Powers { beta, square };
+impl Powers {
+    fn of_angle(g: &mut Graph, beta: Id) -> Self {
+        Self { beta, square: g.mul(beta, beta), exact: None }
+    }
+
+    /// β = sin β (1 + sin²β / 6) and its square, to the fifth order; what the exact bands need up to the last of them.
+    fn of_phase(g: &mut Graph, phase: Phase, methods: &[Small]) -> Self {
+        let square = g.mul(phase.sin, phase.sin);
+        let factor = g.affine(&Exact::ratio(1, 6), square, &Exact::one());
+        let beta = g.mul(phase.sin, factor);
+        let factor = g.affine(&Exact::ratio(1, 3), square, &Exact::one());
+        let exact = methods.iter().rposition(|method| *method == Small::Exact);
+        Self { beta, square: g.mul(square, factor), exact: exact.map(|last| y_phases(g, phase, last + 1)) }
+    }
+}
+
+fn small_rotation(g: &mut Graph, c: &[Id], order: usize, powers: &Powers, methods: &[Small]) -> Vec<Id> {
     each_band(g, c, order, |g, l, band| match l {
         0 => band.to_vec(),
         _ => {
-            let out = small_band(g, band, &powers, methods[l - 1]);
+            let out = small_band(g, band, powers, methods[l - 1]);
             g.stage(&out);
             out
         }
@@ -162,7 +233,20 @@ pub fn about_y(order: usize, methods: &[Small]) -> Kernel {
     let mut builder = Builder::new();
     let beta = angle(&mut builder);
     let c = signal(&mut builder, order);
-    let out = small_rotation(&mut builder.graph, &c, order, beta, methods);
+    let g = &mut builder.graph;
+    let powers = Powers::of_angle(g, beta);
+    let out = small_rotation(g, &c, order, &powers, methods);
+    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+}
+
+/// The y rotation of `rotate_small` alone, from (cos β, sin β).
+pub fn small_y(order: usize, methods: &[Small]) -> Kernel {
+    let mut builder = Builder::new();
+    let cs = builder.param("cs", Shape::Pair, Kind::Scalar, "(cos β, sin β)");
+    let c = signal(&mut builder, order);
+    let g = &mut builder.graph;
+    let powers = Powers::of_phase(g, phases(&cs)[0], methods);
+    let out = small_rotation(g, &c, order, &powers, methods);
     builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
 }
 
@@ -174,10 +258,60 @@ pub fn small_zyz(order: usize, methods: &[Small]) -> Kernel {
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;
     let both = phases(&cs);
-    let alpha = multiples(g, both[0], order - 1);
-    let gamma = multiples(g, both[1], order - 1);
-    let turned = each_band(g, &c, order, |g, _, band| z_band(g, band, &gamma));
-    let tilted = small_rotation(g, &turned, order, beta, methods);
-    let out = each_band(g, &tilted, order, |g, _, band| z_band(g, band, &alpha));
+    let powers = Powers::of_angle(g, beta);
+    let out = between_z(g, &c, order, [both[0], both[1]], &powers, methods);
     builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+}
+
+/// Rz(α), the small rotation, Rz(γ).
+fn between_z(
+    g: &mut Graph,
+    c: &[Id],
+    order: usize,
+    [alpha, gamma]: [Phase; 2],
+    powers: &Powers,
+    methods: &[Small],
+) -> Vec<Id> {
+    let alpha = multiples(g, alpha, order - 1);
+    let gamma = multiples(g, gamma, order - 1);
+    let turned = each_band(g, c, order, |g, _, band| z_band(g, band, &gamma));
+    let tilted = small_rotation(g, &turned, order, powers, methods);
+    each_band(g, &tilted, order, |g, _, band| z_band(g, band, &alpha))
+}
+
+/// The kernel `rotate_small`: from a unit quaternion whose y angle is small, `methods[l − 1]` for band l.
+pub fn small_rotate(order: usize, methods: &[Small]) -> Kernel {
+    let mut builder = Builder::new();
+    let q = quaternion(&mut builder);
+    let c = signal(&mut builder, order);
+    let out = small_from_quaternion(&mut builder.graph, &q, &c, order, methods);
+    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+}
+
+fn small_from_quaternion(g: &mut Graph, q: &[Id], c: &[Id], order: usize, methods: &[Small]) -> Vec<Id> {
+    let [alpha, beta, gamma] = phases_of_quaternion(g, q);
+    let powers = Powers::of_phase(g, beta, methods);
+    between_z(g, c, order, [alpha, gamma], &powers, methods)
+}
+
+/// The kernel `rotate_adaptive` as three of the same parameters: the two numbers of which the first must not be above the
+/// second for the small rotation, sin²(β/2) and its limit; the small rotation; the exact one.
+pub fn adaptive(order: usize, methods: &[Small]) -> [Kernel; 3] {
+    let make = |f: &dyn Fn(&mut Graph, [&[Id]; 3]) -> Vec<Id>, shape: Shape| {
+        let mut builder = Builder::new();
+        let q = quaternion(&mut builder);
+        let doc = "sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (√2 + 2 r/R) \
+                   for a radiance cache of error a whose record has the radius R and is used at the distance r";
+        let limit = builder.param("limit", Shape::Scalar, Kind::Scalar, doc);
+        let c = signal(&mut builder, order);
+        let out = f(&mut builder.graph, [&q, &limit, &c]);
+        builder.finish(out, shape, "the rotated coefficients")
+    };
+    let condition = |g: &mut Graph, [q, limit, _]: [&[Id]; 3]| {
+        vec![inner(g, &[q[0], q[1]], &[q[0], q[1]]), g.mul(limit[0], limit[0])]
+    };
+    let small = |g: &mut Graph, [q, _, c]: [&[Id]; 3]| small_from_quaternion(g, q, c, order, methods);
+    let exact = |g: &mut Graph, [q, _, c]: [&[Id]; 3]| from_quaternion(g, q, c, order);
+    let all = Shape::Array(order * order);
+    [make(&condition, Shape::Pair), make(&small, all), make(&exact, all)]
 }

@@ -6,15 +6,16 @@
 #define ZONAL_SH10_LF3_ZYZ_RGB_GLSL
 
 // `rotate:10:lf3:rgb`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1:
-// lf3; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1996 (677 mul, 2 add, 1317 fma); 46 constants, 127 live values.
-// Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at
-//     10, 1.2e0 at 15, 6.8e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
+//     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[100] sh10_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;

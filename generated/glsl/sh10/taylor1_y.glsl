@@ -6,14 +6,15 @@
 #define ZONAL_SH10_TAYLOR1_Y_GLSL
 
 // `taylor1:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
-// Error: f32 rounding at most 5.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at
-//     10, 2.4e0 at 15, 5e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+//     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
+//     grows without bound beyond.
 float[100] sh10_taylor1_y(float beta, float[100] c) {
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;

@@ -6,15 +6,16 @@
 #define ZONAL_SH10_TAYLOR2_ZYZ_GLSL
 
 // `rotate:10:taylor2`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1:
-// taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 802 (266 mul, 2 add, 534 fma); 54 constants, 132 live values.
-// Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at
-//     10, 2e0 at 15, 7.6e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
+//     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
+//     without bound beyond.
 float[100] sh10_taylor2_zyz(vec2[2] cs, float beta, float[100] c) {
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;

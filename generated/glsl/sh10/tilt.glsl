@@ -6,16 +6,17 @@
 #define ZONAL_SH10_TILT_GLSL
 
 // `tilt:10`: Tilts order 10: the shortest rotation from z to a normal, with no trigonometry; bands 1
-// and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with
+// and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
 // (-n.x, -n.y, n.z).
 // n: where the z axis goes, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the tilted coefficients.
 // Operations: 613 (108 mul, 2 add, 503 fma) and 1 inverse square root or reciprocal; 96 constants, 112
 //     live values.
-// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at
-//     10, 1.1e0 at 15, 5.2e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6). Method error, the
+//     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
+//     grows without bound beyond.
 float[100] sh10_tilt(vec3 n, float[100] c) {
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

@@ -12,8 +12,8 @@
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11 live
 //     values.
-// Error: f32 rounding at most 8.1e-7 of the norm of a band, for every unit q (3 times the worst of 256
-//     measured).
+// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 vec2[4] sh2_angles(vec4 q) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

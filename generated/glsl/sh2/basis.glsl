@@ -10,8 +10,8 @@
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
 // Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
-// Error: f32 rounding at most 6.6e-8 of one, for dir of unit length (3 times the worst of 256
-//     measured).
+// Error: f32 rounding at most 3.9e-8 of one, for dir of unit length (proven for IEEE arithmetic,
+//     contracted or not; the worst of 256 measured is 2.2e-8).
 float[4] sh2_basis(vec3 dir) {
     return float[4](
         0.2820948,

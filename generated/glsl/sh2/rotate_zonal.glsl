@@ -11,8 +11,8 @@
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
-// Error: f32 rounding at most 1.1e-7 of the norm of a band, for dir of unit length (3 times the worst
-//     of 256 measured).
+// Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 float[4] sh2_rotate_zonal(vec3 dir, float[2] c) {
     return float[4](
         c[0],

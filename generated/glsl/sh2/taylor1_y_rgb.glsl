@@ -6,14 +6,15 @@
 #define ZONAL_SH2_TAYLOR1_Y_RGB_GLSL
 
 // `taylor1:2:rgb`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at
-//     10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
+//     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
+//     grows without bound beyond.
 vec3[4] sh2_taylor1_y_rgb(float beta, vec3[4] c) {
     return vec3[4](
         c[0],

@@ -6,14 +6,15 @@
 #define ZONAL_SH2_TAYLOR2_Y_GLSL
 
 // `taylor2:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor2; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 5 (1 mul, 0 add, 4 fma); 1 constants, 2 live values.
-// Error: f32 rounding at most 1.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
-//     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
+//     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
+//     without bound beyond.
 float[4] sh2_taylor2_y(float beta, float[4] c) {
     float t0 = 0.5 * beta;
     return float[4](

@@ -6,14 +6,15 @@
 #define ZONAL_SH3_TAYLOR15_Y_GLSL
 
 // `taylor15:3`: Rotates order 3 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 20 (9 mul, 0 add, 11 fma); 5 constants, 9 live values.
-// Error: f32 rounding at most 2.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at
-//     10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.2e-8). Method error, the
+//     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[9] sh3_taylor15_y(float beta, float[9] c) {
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;

@@ -6,14 +6,15 @@
 #define ZONAL_SH3_TAYLOR1_Y_GLSL
 
 // `taylor1:3`: Rotates order 3 about y by a small angle, approximately (bands from 1: taylor1; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 9 (1 mul, 0 add, 8 fma); 1 constants, 7 live values.
-// Error: f32 rounding at most 2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at
-//     10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.5e-8). Method error, the
+//     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[9] sh3_taylor1_y(float beta, float[9] c) {
     float t0 = 1.7320508 * beta;
     return float[9](

@@ -6,15 +6,16 @@
 #define ZONAL_SH3_TAYLOR2_ZYZ_GLSL
 
 // `rotate:3:taylor2`: Rotates order 3 by z, y, z with a small y angle, approximately (bands from 1:
-// taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (19 mul, 2 add, 30 fma); 3 constants, 15 live values.
-// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
-//     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+//     worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[9] sh3_taylor2_zyz(vec2[2] cs, float beta, float[9] c) {
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -6,14 +6,15 @@
 #define ZONAL_SH4_LF3_Y_RGB_GLSL
 
 // `lf3:4:rgb`: Rotates order 4 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 102 (15 mul, 0 add, 87 fma); 11 constants, 18 live values.
-// Error: f32 rounding at most 4.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at
-//     10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
+//     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_lf3_y_rgb(float beta, vec3[16] c) {
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;

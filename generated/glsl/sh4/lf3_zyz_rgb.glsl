@@ -6,15 +6,16 @@
 #define ZONAL_SH4_LF3_ZYZ_RGB_GLSL
 
 // `rotate:4:lf3:rgb`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1:
-// lf3; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 262 (95 mul, 2 add, 165 fma); 11 constants, 25 live values.
-// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at
-//     10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+//     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;

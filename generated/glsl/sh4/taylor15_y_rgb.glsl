@@ -6,14 +6,15 @@
 #define ZONAL_SH4_TAYLOR15_Y_RGB_GLSL
 
 // `taylor15:4:rgb`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (47 mul, 0 add, 61 fma); 12 constants, 18 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
-//     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+//     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_taylor15_y_rgb(float beta, vec3[16] c) {
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;

@@ -6,14 +6,15 @@
 #define ZONAL_SH4_TAYLOR1_Y_GLSL
 
 // `taylor1:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor1; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 22 (4 mul, 0 add, 18 fma); 4 constants, 14 live values.
-// Error: f32 rounding at most 3.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at
-//     10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+//     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[16] sh4_taylor1_y(float beta, float[16] c) {
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;

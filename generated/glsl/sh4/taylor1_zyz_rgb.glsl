@@ -6,15 +6,16 @@
 #define ZONAL_SH4_TAYLOR1_ZYZ_RGB_GLSL
 
 // `rotate:4:taylor1:rgb`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 218 (84 mul, 2 add, 132 fma); 4 constants, 24 live values.
-// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at
-//     10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+//     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -6,14 +6,15 @@
 #define ZONAL_SH4_TAYLOR2_Y_RGB_GLSL
 
 // `taylor2:4:rgb`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor2;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 116 (8 mul, 0 add, 108 fma); 8 constants, 18 live values.
-// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at
-//     10, 8e-2 at 15, 3.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+//     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_taylor2_y_rgb(float beta, vec3[16] c) {
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;

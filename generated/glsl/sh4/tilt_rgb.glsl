@@ -6,16 +6,17 @@
 #define ZONAL_SH4_TILT_RGB_GLSL
 
 // `tilt:4:rgb`: Tilts order 4: the shortest rotation from z to a normal, with no trigonometry; bands 1
-// and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with
+// and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
 // (-n.x, -n.y, n.z).
 // n: where the z axis goes, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the tilted coefficients.
 // Operations: 209 (34 mul, 4 add, 171 fma) and 1 inverse square root or reciprocal; 10 constants, 22
 //     live values.
-// Error: f32 rounding at most 3.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at
-//     10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
+//     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
+//     grows without bound beyond.
 vec3[16] sh4_tilt_rgb(vec3 n, vec3[16] c) {
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

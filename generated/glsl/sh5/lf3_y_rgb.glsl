@@ -6,14 +6,15 @@
 #define ZONAL_SH5_LF3_Y_RGB_GLSL
 
 // `lf3:5:rgb`: Rotates order 5 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 177 (25 mul, 0 add, 152 fma); 16 constants, 28 live values.
-// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
-//     10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+//     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[25] sh5_lf3_y_rgb(float beta, vec3[25] c) {
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -6,15 +6,16 @@
 #define ZONAL_SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y_GLSL
 
 // `mix:5:taylor15+taylor15+taylor15+taylor1`: Rotates order 5 about y by a small angle, approximately
-// (bands from 1: taylor15, taylor1; Taylor forms after Krivanek et al. 2005, lf3 by three parity
-// shears).
+// (bands from 1: taylor15, taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
+// five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 62 (23 mul, 0 add, 39 fma); 16 constants, 23 live values.
-// Error: f32 rounding at most 3.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at
-//     10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
+//     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
+//     grows without bound beyond.
 float[25] sh5_taylor15_taylor15_taylor15_taylor1_y(float beta, float[25] c) {
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;

@@ -6,14 +6,14 @@
 #define ZONAL_SH5_TAYLOR15_Y_LOOP_GLSL
 
 // `taylor15:5:loop`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
 // Error: f32 rounding at most 3.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
-//     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+//     worst of 128 measured, 1.1e-7; not proven). Method error, the worst band's in spectral norm:
+//     2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const float[25] SH5_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[25](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

@@ -6,14 +6,15 @@
 #define ZONAL_SH5_TAYLOR15_Y_RGB_GLSL
 
 // `taylor15:5:rgb`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 187 (78 mul, 1 add, 108 fma); 21 constants, 28 live values.
-// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
-//     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+//     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[25] sh5_taylor15_y_rgb(float beta, vec3[25] c) {
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;

@@ -6,16 +6,17 @@
 #define ZONAL_SH5_TILT_GLSL
 
 // `tilt:5`: Tilts order 5: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
-// 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with (-n.x,
+// 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
 // -n.y, n.z).
 // n: where the z axis goes, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the tilted coefficients.
 // Operations: 133 (28 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 19 constants, 33
 //     live values.
-// Error: f32 rounding at most 6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
-//     10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
+//     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
+//     without bound beyond.
 float[25] sh5_tilt(vec3 n, float[25] c) {
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

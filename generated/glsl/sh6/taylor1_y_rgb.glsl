@@ -6,14 +6,15 @@
 #define ZONAL_SH6_TAYLOR1_Y_RGB_GLSL
 
 // `taylor1:6:rgb`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 160 (10 mul, 0 add, 150 fma); 10 constants, 34 live values.
-// Error: f32 rounding at most 5.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at
-//     10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 6.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+//     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[36] sh6_taylor1_y_rgb(float beta, vec3[36] c) {
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;

@@ -6,14 +6,14 @@
 #define ZONAL_SH7_TAYLOR15_Y_RGB_LOOP_GLSL
 
 // `taylor15:7:rgb:loop`: Rotates order 7 about y by a small angle, approximately (bands from 1:
-// taylor15; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 623 (290 mul, 0 add, 333 fma); 98 constants, 49 live values.
 // Error: f32 rounding at most 4.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured). Method error, the worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at
-//     10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it grows without bound beyond.
+//     worst of 128 measured, 1.5e-7; not proven). Method error, the worst band's in spectral norm:
+//     6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const float[49] SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[49](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

@@ -6,15 +6,16 @@
 #define ZONAL_SH7_TAYLOR1_ZYZ_RGB_GLSL
 
 // `rotate:7:taylor1:rgb`: Rotates order 7 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 774 (286 mul, 2 add, 486 fma); 14 constants, 66 live values.
-// Error: f32 rounding at most 7.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at
-//     10, 1.2e0 at 15, 2.9e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 5.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
+//     worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at 10, 1.2e0 at 15, 2.9e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[49] sh7_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;

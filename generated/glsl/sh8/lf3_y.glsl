@@ -6,14 +6,15 @@
 #define ZONAL_SH8_LF3_Y_GLSL
 
 // `lf3:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
-// after Krivanek et al. 2005, lf3 by three parity shears).
+// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 228 (67 mul, 0 add, 161 fma); 33 constants, 70 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at
-//     10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
+//     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
+//     grows without bound beyond.
 float[64] sh8_lf3_y(float beta, float[64] c) {
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -6,15 +6,16 @@
 #define ZONAL_SH8_TAYLOR15_ZYZ_RGB_GLSL
 
 // `rotate:8:taylor15:rgb`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor15; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1250 (566 mul, 3 add, 681 fma); 48 constants, 86 live values.
-// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at
-//     10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
+//     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[64] sh8_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;

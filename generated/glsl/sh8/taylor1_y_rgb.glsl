@@ -6,14 +6,15 @@
 #define ZONAL_SH8_TAYLOR1_Y_RGB_GLSL
 
 // `taylor1:8:rgb`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 313 (19 mul, 0 add, 294 fma); 19 constants, 62 live values.
-// Error: f32 rounding at most 5.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at
-//     10, 1.6e0 at 15, 3.6e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+//     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[64] sh8_taylor1_y_rgb(float beta, vec3[64] c) {
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;

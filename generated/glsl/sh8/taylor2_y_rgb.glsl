@@ -6,14 +6,15 @@
 #define ZONAL_SH8_TAYLOR2_Y_RGB_GLSL
 
 // `taylor2:8:rgb`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor2;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 624 (36 mul, 0 add, 588 fma); 36 constants, 70 live values.
-// Error: f32 rounding at most 8.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.8e-2 at 5, 3e-1 at
-//     10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
+//     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
+//     without bound beyond.
 vec3[64] sh8_taylor2_y_rgb(float beta, vec3[64] c) {
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;

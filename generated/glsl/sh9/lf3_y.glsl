@@ -6,14 +6,15 @@
 #define ZONAL_SH9_LF3_Y_GLSL
 
 // `lf3:9`: Rotates order 9 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
-// after Krivanek et al. 2005, lf3 by three parity shears).
+// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 293 (85 mul, 0 add, 208 fma); 39 constants, 88 live values.
-// Error: f32 rounding at most 4.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
-//     10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6). Method error, the
+//     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it
+//     grows without bound beyond.
 float[81] sh9_lf3_y(float beta, float[81] c) {
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -6,14 +6,15 @@
 #define ZONAL_SH9_TAYLOR1_Y_GLSL
 
 // `taylor1:9`: Rotates order 9 about y by a small angle, approximately (bands from 1: taylor1; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 153 (25 mul, 0 add, 128 fma); 25 constants, 79 live values.
-// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
-//     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+//     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
+//     grows without bound beyond.
 float[81] sh9_taylor1_y(float beta, float[81] c) {
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;

@@ -6,14 +6,15 @@
 #define ZONAL_SH9_TAYLOR2_Y_RGB_GLSL
 
 // `taylor2:9:rgb`: Rotates order 9 about y by a small angle, approximately (bands from 1: taylor2;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 814 (46 mul, 0 add, 768 fma); 46 constants, 87 live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at
-//     10, 1.5e0 at 15, 5.7e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.6e-7). Method error, the
+//     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
+//     grows without bound beyond.
 vec3[81] sh9_taylor2_y_rgb(float beta, vec3[81] c) {
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;

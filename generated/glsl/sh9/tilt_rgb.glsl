@@ -6,16 +6,17 @@
 #define ZONAL_SH9_TILT_RGB_GLSL
 
 // `tilt:9:rgb`: Tilts order 9: the shortest rotation from z to a normal, with no trigonometry; bands 1
-// and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with
+// and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
 // (-n.x, -n.y, n.z).
 // n: where the z axis goes, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the tilted coefficients.
 // Operations: 1279 (104 mul, 4 add, 1171 fma) and 1 inverse square root or reciprocal; 77 constants,
 //     93 live values.
-// Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at
-//     10, 5.5e-1 at 15, 2e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 5.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
+//     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[81] sh9_tilt_rgb(vec3 n, vec3[81] c) {
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
-// after Krivanek et al. 2005, lf3 by three parity shears).
+// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
-// Error: f32 rounding at most 1.5e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at
-//     10, 1.2e0 at 15, 6.8e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
+//     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh10_lf3_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor1:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
-// Error: f32 rounding at most 5.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at
-//     10, 2.4e0 at 15, 5e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+//     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh10_taylor1_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
     let t0 = 1.7320508 * beta;
     let t1 = 1.2247449 * beta;

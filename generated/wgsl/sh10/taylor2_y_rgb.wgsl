@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor2:10:rgb`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor2;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1026 (54 mul, 0 add, 972 fma); 54 constants, 108 live values.
-// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at
-//     10, 2e0 at 15, 7.6e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
+//     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
+//     without bound beyond.
 fn sh10_taylor2_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     let t0 = 0.5 * beta;
     let t1 = 0.8660254 * beta;

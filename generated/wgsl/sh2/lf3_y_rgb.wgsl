@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:2:rgb`: Rotates order 2 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 14 (3 mul, 0 add, 11 fma); 4 constants, 3 live values.
-// Error: f32 rounding at most 2.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at
-//     10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
+//     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
+//     grows without bound beyond.
 fn sh2_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

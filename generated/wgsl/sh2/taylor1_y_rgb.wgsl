@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor1:2:rgb`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at
-//     10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
+//     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
+//     grows without bound beyond.
 fn sh2_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     return array<vec3<f32>, 4>(
         c[0],

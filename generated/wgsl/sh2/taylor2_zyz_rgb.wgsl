@@ -3,15 +3,16 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `rotate:2:taylor2:rgb`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 37 (13 mul, 0 add, 24 fma); 1 constants, 5 live values.
-// Error: f32 rounding at most 2.9e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at
-//     10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
+//     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+//     grows without bound beyond.
 fn sh2_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     let t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     let t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor2:3`: Rotates order 3 about y by a small angle, approximately (bands from 1: taylor2; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 19 (3 mul, 0 add, 16 fma); 3 constants, 9 live values.
-// Error: f32 rounding at most 2.4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at
-//     10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
+//     band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows
+//     without bound beyond.
 fn sh3_taylor2_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = 0.5 * beta;
     let t1 = 0.8660254 * beta;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor15:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 44 (19 mul, 0 add, 25 fma); 12 constants, 18 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
-//     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+//     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh4_taylor15_y(beta: f32, c: array<f32, 16>) -> array<f32, 16> {
     let t0 = beta * beta;
     let t1 = 1.0 - 0.5 * t0;

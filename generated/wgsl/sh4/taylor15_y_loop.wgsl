@@ -3,14 +3,14 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor15:4:loop`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 76 (32 mul, 0 add, 44 fma); 32 constants, 16 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured). Method error, the worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at
-//     10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
+//     worst of 128 measured, 1.4e-7; not proven). Method error, the worst band's in spectral norm:
+//     1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH4_TAYLOR15_Y_LOOP_DY_SUB_DIAG = array<f32, 16>(
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

@@ -3,15 +3,16 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `rotate:4:taylor2`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1:
-// taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (40 mul, 2 add, 66 fma); 8 constants, 28 live values.
-// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at
-//     10, 8e-2 at 15, 3.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
+//     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh4_taylor2_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 16>) -> array<f32, 16> {
     let t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     let t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:5:rgb`: Rotates order 5 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 177 (25 mul, 0 add, 152 fma); 16 constants, 28 live values.
-// Error: f32 rounding at most 5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at
-//     10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+//     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh5_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor15:5:rgb`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 187 (78 mul, 1 add, 108 fma); 21 constants, 28 live values.
-// Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at
-//     10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+//     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh5_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
     let t0 = beta * beta;
     let t1 = 1.0 - 0.5 * t0;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:6:rgb`: Rotates order 6 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 272 (37 mul, 0 add, 235 fma); 20 constants, 40 live values.
-// Error: f32 rounding at most 7.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at
-//     10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
+//     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh6_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

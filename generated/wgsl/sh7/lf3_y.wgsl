@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:7`: Rotates order 7 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
-// after Krivanek et al. 2005, lf3 by three parity shears).
+// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 171 (51 mul, 0 add, 120 fma); 26 constants, 54 live values.
-// Error: f32 rounding at most 7.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at
-//     10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
+//     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh7_lf3_y(beta: f32, c: array<f32, 49>) -> array<f32, 49> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

@@ -3,16 +3,17 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `tilt:7:rgb`: Tilts order 7: the shortest rotation from z to a normal, with no trigonometry; bands 1
-// and 2 exactly, the others by three shears that are regular at n = z. The inverse is the same with
+// and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
 // (-n.x, -n.y, n.z).
 // n: where the z axis goes, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the tilted coefficients.
 // Operations: 737 (70 mul, 4 add, 663 fma) and 1 inverse square root or reciprocal; 45 constants, 59
 //     live values.
-// Error: f32 rounding at most 8.7e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at
-//     10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
+//     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh7_tilt_rgb(n: vec3<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
     let t0 = c[1] * n.y + c[3] * n.x;
     let t1 = 1.0 / (n.z + 1.0);

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `lf3:8:rgb`: Rotates order 8 about y by a small angle, approximately (bands from 1: lf3; Taylor
-// forms after Krivanek et al. 2005, lf3 by three parity shears).
+// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 522 (67 mul, 0 add, 455 fma); 33 constants, 70 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at
-//     10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
+//     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh8_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = beta * beta;
     let t1 = (0.5 + 0.041666668 * t0) * beta;

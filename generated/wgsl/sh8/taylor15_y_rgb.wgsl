@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor15:8:rgb`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor15;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 530 (206 mul, 1 add, 323 fma); 48 constants, 70 live values.
-// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at
-//     10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
+//     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh8_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = beta * beta;
     let t1 = 1.0 - 0.5 * t0;

@@ -3,14 +3,15 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `taylor1:8:rgb`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor1;
-// Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 313 (19 mul, 0 add, 294 fma); 19 constants, 62 live values.
-// Error: f32 rounding at most 5.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at
-//     10, 1.6e0 at 15, 3.6e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+//     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh8_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = 1.7320508 * beta;
     let t1 = 1.2247449 * beta;

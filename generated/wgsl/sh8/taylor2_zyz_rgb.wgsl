@@ -3,15 +3,16 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `rotate:8:taylor2:rgb`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1344 (396 mul, 2 add, 946 fma); 36 constants, 88 live values.
-// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 3.8e-2 at 5, 3e-1 at
-//     10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
+//     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
+//     without bound beyond.
 fn sh8_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     let t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -3,15 +3,16 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `rotate:9:taylor1:rgb`: Rotates order 9 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1329 (485 mul, 2 add, 842 fma); 25 constants, 104 live values.
-// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at
-//     10, 2e0 at 15, 4.3e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 8.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.6e-7). Method error, the
+//     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh9_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     let t1 = c[3] * cs[1].x - c[1] * cs[1].y;

@@ -3,15 +3,16 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 // `rotate:9:taylor2:rgb`: Rotates order 9 by z, y, z with a small y angle, approximately (bands from
-// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 by three parity shears).
+// 1: taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
 // cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
 // beta: the angle about y in radians, small.
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1734 (506 mul, 2 add, 1226 fma); 46 constants, 108 live values.
-// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured). Method error, the worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at
-//     10, 1.5e0 at 15, 5.7e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.8e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.3e-7). Method error, the
+//     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh9_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     let t1 = c[3] * cs[1].x - c[1] * cs[1].y;
