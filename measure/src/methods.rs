@@ -80,6 +80,7 @@ pub fn label(name: &str) -> &'static str {
         "taylor15" => "Taylor 1.5",
         "taylor2" => "Taylor 2",
         "lf3" => "LF3",
+        "lf5" => "LF5",
         "exact" => "exact",
         _ => "other",
     }
@@ -92,6 +93,7 @@ pub fn formula(name: &str) -> &'static str {
         "taylor15" => "≈ L²/4 (l = 1: L³/6)",
         "taylor2" => "L³/6",
         "lf3" => "L³/24, l odd: (l³ − l) β³/24",
+        "lf5" => "(7 − 3√5) L³/96, l odd: (l³ − l) β³",
         "exact2+lf3" | "tilt" => "as LF3, 0 for l ≤ 2",
         "exact" => "0",
         _ => "none",
@@ -106,6 +108,7 @@ fn law(name: &str, l: usize, beta: f64) -> f64 {
         ("taylor1", _) => wide.powi(2) / 2.0,
         ("taylor15", 2..) => wide.powi(2) / 4.0,
         ("taylor15" | "taylor2", _) => wide.powi(3) / 6.0,
+        ("lf5", _) => law("lf3", l, beta) * 24.0 * (7.0 - 3.0 * 5f64.sqrt()) / 96.0,
         ("lf3", 1) => 0.0,
         ("lf3", _) if l % 2 == 1 => ((l * l * l - l) as f64) * beta.powi(3) / 24.0,
         ("lf3", _) => wide.powi(3) / 24.0,
@@ -144,7 +147,7 @@ pub fn kernels(way: Way, order: usize) -> [Kernel; 2] {
     let approximate = match way {
         Way::Uniform(small) => about_y(order, &vec![small; order - 1]),
         Way::ExactThenLf3 => about_y(order, &vec![Small::Lf3; order - 1]),
-        Way::Tilt => tilt::tilt(order),
+        Way::Tilt => tilt::tilt(order, &Small::Lf3.from_band_3(order), false),
     };
     [approximate, rotate::rotate_y(order)]
 }
