@@ -4,6 +4,7 @@
 
 use crate::accuracy::{self, round_up};
 use crate::catalog::{self, Row};
+use crate::choose::{self, Budget, Norm, Turn};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::emit::dialect::Target;
 use crate::emit::{Constants, Function, Module};
@@ -11,7 +12,7 @@ use crate::graph::Kind;
 use crate::kernels::y_rotation::Small;
 use crate::listing::Cost;
 use crate::names::{self, Use};
-use crate::scene::{Located, Order, Rotation, Scene, Turn, Wanted};
+use crate::scene::{Located, Order, Rotation, Scene, Wanted};
 use crate::spec::{Family, Method, Spec};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -77,7 +78,7 @@ pub struct Rival {
     pub special: usize,
     /// total + [`SPECIAL_WEIGHT`] · special.
     pub price: usize,
-    /// The method's error at the largest angle, a spectral norm.
+    /// The method's error at the largest angle, by its law, in the norm that the scene asks for.
     pub method_error: f64,
     /// The error of f32 rounding.
     pub rounding_f32: f64,
@@ -99,6 +100,8 @@ pub struct Chosen {
     pub method_error: Option<f64>,
     /// The error that the scene allows.
     pub max_error: Option<f64>,
+    /// What the error is the error of.
+    pub norm: Option<Norm>,
     /// Why this one.
     pub reason: String,
     /// All methods that were weighed, cheapest first; none for a kernel that the scene names.
@@ -166,34 +169,33 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
 /// The methods that turn a signal as the scene asks, exact ones first, and those that are listed only to say why not.
 fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static str>)> {
     let exact = Family::Rotate(Spec::default_method(order, rgb));
-    let families = match kind {
-        Turn::Tilt => vec![
-            (Family::Tilt(Small::Lf3.from_band_3(order)), None),
-            (Family::Tilt(Small::Lf5.from_band_3(order)), None),
-            (exact, None),
-            (Family::Rotate(Method::Align), Some("leaves the spin about the normal open")),
-        ],
-        Turn::Y => vec![(Family::RotateY, None)],
-        Turn::Zyz => vec![(exact, None), (Family::Rotate(Method::Euler), None)],
+    let all = |make: &dyn Fn(Vec<Small>) -> Family, why| -> Vec<(Family, Option<&'static str>)> {
+        Small::ALL.map(|(method, _)| (make(vec![method; order - 1]), why)).to_vec()
     };
-    let why = (kind == Turn::Tilt).then_some("takes angles, which a normal gives by trigonometry only, none at n = z");
-    let small = Small::ALL.map(|(method, _)| (small(kind, vec![method; order - 1]), why));
-    families
-        .into_iter()
-        .chain(small)
-        .map(|(family, why)| {
-            let mut spec = Spec::new(family, order);
-            spec.rgb = rgb;
-            (spec, why)
-        })
-        .collect()
-}
-
-fn small(kind: Turn, methods: Vec<Small>) -> Family {
-    match kind {
-        Turn::Y => Family::SmallY(methods),
-        Turn::Tilt | Turn::Zyz => Family::Rotate(Method::Small(methods)),
-    }
+    let families = match kind {
+        Turn::Tilt => {
+            let why = "takes angles, which a normal gives by trigonometry only, none at n = z";
+            let mut families = vec![
+                (Family::Tilt(Small::Lf3.from_band_3(order)), None),
+                (exact, None),
+                (Family::Rotate(Method::Align), Some("leaves the spin about the normal open")),
+            ];
+            if order > 3 {
+                families.insert(1, (Family::Tilt(Small::Lf5.from_band_3(order)), None));
+            }
+            [families, all(&|methods| Family::Rotate(Method::Small(methods)), Some(why))].concat()
+        }
+        Turn::Y => [vec![(Family::RotateY, None)], all(&Family::SmallY, None)].concat(),
+        Turn::Zyz => {
+            let families = vec![(exact, None), (Family::Rotate(Method::Euler), None)];
+            [families, all(&|methods| Family::Rotate(Method::Small(methods)), None)].concat()
+        }
+        Turn::Quaternion => {
+            let small = |(method, _): (Small, _)| (Family::RotateSmall(method.from_band_3(order)), None);
+            [vec![(exact, None)], Small::ALL.map(small).to_vec()].concat()
+        }
+    };
+    families.into_iter().map(|(family, why)| (Spec { rgb, ..Spec::new(family, order) }, why)).collect()
 }
 
 /// An error with two digits, rounded up.
@@ -219,22 +221,29 @@ fn percent(share: f64) -> String {
 struct Contest<'a> {
     rotation: &'a Rotation,
     order: usize,
+    budget: Budget,
     entries: Vec<(Function, Rival)>,
 }
 
 impl<'a> Contest<'a> {
-    fn new(rotation: &'a Rotation, order: usize) -> Self {
-        let mut contest = Self { rotation, order, entries: vec![] };
+    fn new(rotation: &'a Rotation, order: usize, energy: &[f64]) -> Self {
+        let budget = Budget {
+            max_angle: rotation.max_angle.value.to_radians(),
+            error: rotation.max_error.value,
+            norm: rotation.norm.value,
+            energy: energy.to_vec(),
+        };
+        let mut contest = Self { rotation, order, budget, entries: vec![] };
         let (specs, why): (Vec<_>, Vec<_>) = candidates(rotation.kind, order, rotation.rgb).into_iter().unzip();
         for (function, why) in catalog::build(&specs).into_iter().zip(why) {
             contest.enter(function, why);
         }
-        if let Some(spec) = contest.mixture() {
-            for function in catalog::build(&[spec]) {
-                contest.enter(function, None);
-            }
+        let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|(known, _)| known.spec == *spec);
+        let mixtures: Vec<Spec> = contest.mixtures().into_iter().filter(|spec| !known(&contest, spec)).collect();
+        for function in catalog::build(&mixtures) {
+            contest.enter(function, None);
         }
-        contest.entries.sort_by_key(|(_, rival)| rival.price);
+        contest.entries.sort_by(|(_, a), (_, b)| a.price.cmp(&b.price).then(a.method_error.total_cmp(&b.method_error)));
         contest
     }
 
@@ -242,7 +251,7 @@ impl<'a> Contest<'a> {
         let (spec, built) = (&function.spec, &function.built);
         let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
         let cost = built.code.cost(spec.channels());
-        let method_error = accuracy::method_error(spec, degrees.to_radians());
+        let method_error = self.budget.predict(spec);
         let rounding_f32 = built.accuracy.rounding_f32;
         let limit = spec.max_angle().filter(|limit| degrees.to_radians() > *limit);
         let refused = match (why, limit) {
@@ -266,27 +275,14 @@ impl<'a> Contest<'a> {
         self.entries.push((function, rival));
     }
 
-    /// For each band the cheapest small-angle method that keeps the error there, unless all bands agree or one has none.
-    fn mixture(&self) -> Option<Spec> {
-        let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
-        let mut methods: Vec<(usize, Small, Vec<f64>)> = Vec::new();
-        for (function, rival) in &self.entries {
-            let (Family::SmallY(list) | Family::Rotate(Method::Small(list))) = &function.spec.family else {
-                continue;
-            };
-            let angle = degrees.to_radians();
-            if self.rotation.kind == Turn::Tilt || function.spec.max_angle().is_some_and(|limit| angle > limit) {
-                return None;
-            }
-            let errors = accuracy::band_errors(&function.spec, &[angle]).remove(0);
-            methods.push((rival.price, list[0], errors.iter().map(|error| error + rival.rounding_f32).collect()));
-        }
-        methods.sort_by_key(|(price, ..)| *price);
-        let best =
-            |l: usize| methods.iter().find(|(_, _, errors)| errors[l] <= max_error).map(|(_, method, _)| *method);
-        let list: Vec<Small> = (1..self.order).map(best).collect::<Option<_>>()?;
-        let mixed = list.iter().any(|method| *method != list[0]);
-        mixed.then(|| Spec { rgb: self.rotation.rgb, ..Spec::new(small(self.rotation.kind, list), self.order) })
+    /// Mixtures of methods by band that leave room for the rounding of those that were entered.
+    fn mixtures(&self) -> Vec<Spec> {
+        let approximate = self.entries.iter().filter(|(function, _)| function.spec.max_angle().is_some());
+        let rounding = approximate.map(|(_, rival)| rival.rounding_f32).fold(0.0, f64::max);
+        let budget = Budget { error: self.budget.error - rounding, ..self.budget.clone() };
+        let mut specs = choose::mixtures(self.rotation.kind, self.order, &budget);
+        specs.iter_mut().for_each(|spec| spec.rgb = self.rotation.rgb);
+        specs
     }
 
     /// The cheapest method that keeps the error, and all of them with the reasons.
@@ -313,6 +309,7 @@ impl<'a> Contest<'a> {
                 Turn::Tilt => "tilt z to a normal",
                 Turn::Y => "turn about y",
                 Turn::Zyz => "turn about z, y and z",
+                Turn::Quaternion => "turn by a quaternion whose y angle is bounded",
             },
             self.rotation.max_angle.value,
         );
@@ -330,6 +327,7 @@ impl<'a> Contest<'a> {
             max_angle: Some(self.rotation.max_angle.value),
             method_error: Some(self.entries[best].1.method_error),
             max_error: Some(max_error.value),
+            norm: Some(self.budget.norm),
             reason,
             rivals: self.entries.into_iter().map(|(_, rival)| rival).collect(),
         };
@@ -454,6 +452,7 @@ impl Plan {
                 max_angle,
                 method_error: max_angle.map(error),
                 max_error: None,
+                norm: None,
                 reason: match wanted.spec.value.split(':').nth(1) {
                     Some("environment") => "named by the scene, at the order of its environment".to_owned(),
                     _ => "named by the scene".to_owned(),
@@ -468,7 +467,15 @@ impl Plan {
     fn take_rotations(&mut self, scene: &Scene) -> Result<(), Diagnostic> {
         for rotation in &scene.rotations {
             let order = number_of(&rotation.order, self.environment.as_ref())?;
-            let (function, mut chosen) = Contest::new(rotation, order).decide()?;
+            let energy = match (rotation.norm.value, self.environment.as_ref()) {
+                (Norm::Signal, None) => {
+                    let help = "add an `[environment]` with its map, or take `max` or `mean`";
+                    let message = "the scene has no environment whose energy could weigh the bands";
+                    return Err(Diagnostic::at(&rotation.norm.place, message, help));
+                }
+                (_, environment) => environment.map_or(&[][..], |environment| &environment.energy),
+            };
+            let (function, mut chosen) = Contest::new(rotation, order, energy).decide()?;
             let known = self.module.functions.iter();
             if known.into_iter().any(|known| (&known.spec, &known.name) == (&function.spec, &function.name)) {
                 chosen.reason += ", and there already";
@@ -788,7 +795,8 @@ impl fmt::Display for Plan {
             f.write_str(&table(&rows))?;
             writeln!(
                 f,
-                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special; errors are of the worst band's norm, at the largest angle."
+                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special; errors are {}, at the largest angle.",
+                chosen.norm.unwrap_or_default().meaning()
             )?;
         }
         Ok(())

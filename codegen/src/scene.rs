@@ -20,14 +20,18 @@
 //! max_angle = 15                      # optional, in degrees: the method must take it
 //!
 //! [[rotation]]                        # an error budget instead of a method
-//! kind = "tilt"                       # z to a normal; or "y", about y by an angle; or "zyz", any three angles
+//! kind = "tilt"                       # z to a normal; or "y", about y by an angle; or "zyz", any three angles; or
+//!                                     # "quaternion", any rotation whose y angle is bounded
 //! order = "environment"               # or a number
 //! max_angle = 15                      # the largest tilt, or angle about y, in degrees
 //! max_error = 0.05                    # of a band's norm, the worst band
+//! norm = "max"                        # the worst signal's error, if left out; or "mean", a random one's; or "signal",
+//!                                     # that of the environment's energies, against all of it
 //! rgb = true
 //! name = "bump"                       # optional
 //! ```
 
+use crate::choose::{Norm, Turn};
 use crate::diagnostic::{Diagnostic, Place, Source};
 use crate::emit::dialect::Target;
 use crate::files;
@@ -70,18 +74,6 @@ pub enum Light {
     Irradiance,
 }
 
-/// Which rotation a scene does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Turn {
-    /// The shortest one from z to a normal.
-    Tilt,
-    /// About y.
-    Y,
-    /// About z, y and z: any rotation, its y angle bounded.
-    Zyz,
-}
-
 /// The environment of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
@@ -117,8 +109,10 @@ pub struct Rotation {
     pub order: Located<Order>,
     /// The largest angle in degrees.
     pub max_angle: Located<f64>,
-    /// The largest error of any band, as a spectral norm.
+    /// The largest error.
     pub max_error: Located<f64>,
+    /// What it is the error of.
+    pub norm: Located<Norm>,
     /// Whether the signal has three channels.
     pub rgb: bool,
     /// A name that replaces the spec's own.
@@ -192,6 +186,7 @@ struct RotationTable {
     order: Spanned<Order>,
     max_angle: Spanned<f64>,
     max_error: Spanned<f64>,
+    norm: Option<Spanned<Norm>>,
     #[serde(default)]
     rgb: bool,
     name: Option<Spanned<String>>,
@@ -350,6 +345,10 @@ impl Scene {
                 kind: table.kind,
                 order: locate.at(table.order),
                 max_angle: locate.angle(table.max_angle)?,
+                norm: match table.norm {
+                    Some(norm) => locate.at(norm),
+                    None => Located { value: Norm::Max, place: locate.at(table.max_error.clone()).place },
+                },
                 max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
                 rgb: table.rgb,
                 name: table.name.map(|name| locate.at(name)),
