@@ -9,6 +9,7 @@ use crate::kernels::{rotate, tilt};
 use crate::listing::Listing;
 use crate::samples;
 use crate::spec::{Family, MAX_ORDER, Method, Spec};
+use half::f16;
 
 /// The tilts in degrees at which a file's head says the method's error.
 pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
@@ -25,8 +26,8 @@ const SEED: u64 = 0x0005_a0a1;
 /// What is promised of a kernel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Accuracy {
-    /// The f32 rounding error that is promised, in the measure of `relative_to`: the proven one where there is a proof,
-    /// else [`MARGIN`] times the measured one.
+    /// The rounding error that is promised of f32, or of f16 for a kernel of that precision, in the measure of
+    /// `relative_to`: the proven one where there is a proof, else [`MARGIN`] times the measured one.
     pub rounding_f32: f64,
     /// Whether it is proven, for IEEE arithmetic, contracted or not.
     pub proven: bool,
@@ -162,10 +163,11 @@ impl Accuracy {
             Code::Loop(_) if spec.order <= MAX_ORDER => LOOP_SAMPLES,
             Code::Loop(_) => LONG_LOOP_SAMPLES,
         };
-        let worst = [Contraction::Separate, Contraction::Fused]
-            .map(|contraction| rounding::<f32>(spec, code, SEED, samples, contraction))
-            .into_iter()
-            .fold(0.0, larger);
+        let measure = |contraction| match spec.half {
+            true => rounding::<f16>(spec, code, SEED, samples, contraction),
+            false => rounding::<f32>(spec, code, SEED, samples, contraction),
+        };
+        let worst = [Contraction::Separate, Contraction::Fused].map(measure).into_iter().fold(0.0, larger);
         let method = match spec.max_angle().is_some() && spec.order <= MAX_ORDER {
             true => {
                 let errors = method_errors(spec, &ANGLES.map(f64::to_radians));
@@ -173,7 +175,8 @@ impl Accuracy {
             }
             false => vec![],
         };
-        let bound = bound::of(spec, code);
+        // What is proven is proven of f32.
+        let bound = if spec.half { None } else { bound::of(spec, code) };
         Self {
             rounding_f32: round_up(bound.as_ref().map_or(worst * MARGIN, bound::Bound::value)),
             proven: bound.is_some(),

@@ -230,14 +230,12 @@ mod tests {
         let limit = |spec: &str| Limit {
             spec: spec.to_owned(),
             target: Target::Wgsl,
-            size: 6000,
-            what: "statements",
-            limit: 5000,
+            why: "6000 statements, and 5000 is the most".to_owned(),
             help: "take a lower order".to_owned(),
         };
         let error = located_limit(&plan, limit("eval:3").into()).to_string();
         assert!(
-            error.starts_with("Builder::spec:1:1: `eval:3` is too long for wgsl: 6000 statements, and 5000"),
+            error.starts_with("Builder::spec:1:1: `eval:3` cannot be printed for wgsl: 6000 statements, and 5000"),
             "{error}"
         );
         assert!(matches!(located_limit(&plan, limit("eval:4").into()), Error::Generate(_)));

@@ -97,7 +97,7 @@ fn of_order(order: usize) -> Vec<Spec> {
 /// Why a set of kernels could not be generated.
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
-    /// A kernel is too long for a target.
+    /// A kernel cannot be printed for a target.
     #[error(transparent)]
     Limit(#[from] Limit),
     /// A validator refused a text.
@@ -122,7 +122,10 @@ pub fn build(specs: &[Spec]) -> Vec<Function> {
 /// Prints and validates one module in one language.
 pub fn file(module: &Module, target: Target, path: String) -> Result<File, GenerateError> {
     let text = match target {
-        Target::Rust => module.rust_alone(),
+        Target::Rust => {
+            module.check_rust()?;
+            module.rust_alone()
+        }
         _ => module.shader(target)?,
     };
     validate(target, &path, &text)?;
@@ -176,7 +179,8 @@ impl Row {
 pub fn markdown(rows: &[Row]) -> String {
     let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition or a fused \
                     multiply-add is one operation; an inverse\nsquare root or a reciprocal (special) is counted apart. \
-                    Rounding is in f32, relative to what each file's head says.\n\n\
+                    Rounding is in f32, relative to what each file's head says: proven, but for loops and `zhf`, \
+                    where it is measured, times a margin.\n\n\
                     | spec | total | mul | add | fma | special | constants | live | f32 rounding |\n\
                     |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();

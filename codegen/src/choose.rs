@@ -30,6 +30,19 @@ pub enum Turn {
     Quaternion,
 }
 
+/// Which numbers a kernel works in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// f32.
+    #[default]
+    F32,
+    /// f16, in WGSL alone.
+    F16,
+    /// f16 where the error that is allowed has room for its rounding.
+    Auto,
+}
+
 /// What an error is the error of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]

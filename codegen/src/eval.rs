@@ -1,8 +1,9 @@
-//! The interpreter: runs a [`Listing`] in f32 or f64, operation by operation, so that what the printers write can be
+//! The interpreter: runs a [`Listing`] in f16, f32 or f64, operation by operation, so that what the printers write can be
 //! checked against it bit for bit.
 
 use crate::listing::{Listing, Op, Operand, Sign};
 use crate::sh::exact::Exact;
+use half::f16;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -50,20 +51,46 @@ macro_rules! number {
             fn nearest(value: &Exact) -> Self {
                 value.$to()
             }
+            #[inline]
             fn from_f64(value: f64) -> Self {
                 value as $float
             }
+            #[inline]
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }
+            #[inline]
             fn root(self) -> Self {
                 self.sqrt()
             }
+            #[inline]
             fn fused(self, b: Self, c: Self) -> Self {
                 self.mul_add(b, c)
             }
         }
     };
+}
+
+impl Number for f16 {
+    const ONE: Self = Self::ONE;
+    const ZERO: Self = Self::ZERO;
+    const TINY: Self = Self::ZERO;
+    const UNIT_ROUNDOFF: f64 = 1.0 / 2048.0;
+    fn nearest(value: &Exact) -> Self {
+        Self::from_f64(value.to_f64())
+    }
+    fn from_f64(value: f64) -> Self {
+        Self::from_f64(value)
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    fn root(self) -> Self {
+        Self::from_f64(f64::from(self).sqrt())
+    }
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self::from_f64(f64::from(self) * f64::from(b) + f64::from(c))
+    }
 }
 
 number!(f32, to_f32, 1e-15, f32::EPSILON as f64 / 2.0);

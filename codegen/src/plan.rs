@@ -4,7 +4,7 @@
 
 use crate::accuracy::{self, round_up};
 use crate::catalog::{self, Row};
-use crate::choose::{self, Budget, Norm, Turn};
+use crate::choose::{self, Budget, Norm, Precision, Turn};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::emit::dialect::Target;
 use crate::emit::{Constants, Function, Module};
@@ -22,6 +22,9 @@ use std::fmt;
 /// quarter as many units for them (AMD's RDNA; NVIDIA's compute capability 7 and 8.0: 16 against 64 a cycle), some an
 /// eighth.
 pub const SPECIAL_WEIGHT: usize = 4;
+
+/// How many f16 operations a GPU does while it does one in f32, where it packs two (AMD's RDNA, Apple's, Arm's Mali).
+pub const HALF_SHARE: usize = 2;
 
 /// What a kernel weighs when methods are compared.
 pub fn price(cost: Cost) -> usize {
@@ -82,6 +85,9 @@ pub struct Rival {
     pub method_error: f64,
     /// The error of f32 rounding.
     pub rounding_f32: f64,
+    /// Why it does not do what is asked, if so.
+    #[serde(skip)]
+    pub barred: Option<&'static str>,
     /// Whether it may be chosen.
     pub admissible: bool,
     /// Why it was chosen or not.
@@ -243,6 +249,7 @@ impl<'a> Contest<'a> {
         for function in catalog::build(&mixtures) {
             contest.enter(function, None);
         }
+        contest.narrow();
         contest.entries.sort_by(|(_, a), (_, b)| a.price.cmp(&b.price).then(a.method_error.total_cmp(&b.method_error)));
         contest
     }
@@ -266,13 +273,31 @@ impl<'a> Contest<'a> {
             takes: takes.collect(),
             total: cost.total,
             special: cost.special,
-            price: price(cost),
+            price: if spec.half { price(cost).div_ceil(HALF_SHARE) } else { price(cost) },
             method_error,
             rounding_f32,
+            barred: why,
             admissible: refused.is_none(),
             verdict: refused.unwrap_or_else(|| "keeps the error".to_owned()),
         };
         self.entries.push((function, rival));
+    }
+
+    /// Every kernel again in f16, or there alone, if the scene says so.
+    fn narrow(&mut self) {
+        let precision = self.rotation.precision.value;
+        if precision == Precision::F32 {
+            return;
+        }
+        let halves = self.entries.iter().filter(|(function, _)| function.spec.takes_half());
+        let (specs, why): (Vec<Spec>, Vec<_>) =
+            halves.map(|(function, rival)| (Spec { half: true, ..function.spec.clone() }, rival.barred)).unzip();
+        if precision == Precision::F16 {
+            self.entries.clear();
+        }
+        for (function, why) in catalog::build(&specs).into_iter().zip(why) {
+            self.enter(function, why);
+        }
     }
 
     /// Mixtures of methods by band that leave room for the rounding of those that were entered.
@@ -291,6 +316,11 @@ impl<'a> Contest<'a> {
         let Some(best) = self.entries.iter().position(|(_, rival)| rival.admissible) else {
             let error = |rival: &Rival| rival.method_error + rival.rounding_f32;
             let exact = self.entries.iter().map(|(_, rival)| rival).min_by(|a, b| error(a).total_cmp(&error(b)));
+            if self.entries.is_empty() {
+                let help = "take `auto` or `f32`, or the kind `tilt`, `y` or `zyz`";
+                let place = &self.rotation.precision.place;
+                return Err(Diagnostic::at(place, "no kernel of this kind works in f16", help));
+            }
             let message = format!("no method keeps an error of {}", max_error.value);
             let help = exact.map_or_else(String::new, |rival| {
                 format!("allow {} at least: that is how far `{}` errs in f32", short(error(rival)), rival.spec)
@@ -350,6 +380,14 @@ fn check_angle(wanted: &Wanted, spec: &Spec) -> Result<(), Diagnostic> {
     };
     let help = format!("`{exact}:{}` takes every angle, or let a `[[rotation]]` with a `max_error` choose", spec.order);
     Err(Diagnostic::at(&angle.place, message, help))
+}
+
+/// Refuses f16 where a language is wanted that has none.
+fn check_half(scene: &Scene, place: &Place) -> Result<(), Diagnostic> {
+    match scene.targets[..] == [Target::Wgsl] {
+        true => Ok(()),
+        false => Err(Diagnostic::at(place, "only WGSL has f16", "write `targets = [\"wgsl\"]`, or leave f16 out")),
+    }
 }
 
 fn check_name(name: &Located<String>, purpose: Use) -> Result<(), Diagnostic> {
@@ -442,6 +480,9 @@ impl Plan {
                 return Err(Diagnostic::at(&wanted.spec.place, format!("`{spec}` stands twice"), "leave one out"));
             }
             check_angle(wanted, spec)?;
+            if spec.half {
+                check_half(scene, &wanted.spec.place)?;
+            }
         }
         for (wanted, mut function) in scene.kernels.iter().zip(catalog::build(specs)) {
             function.name = wanted.name.as_ref().map(|name| name.value.clone());
@@ -467,6 +508,9 @@ impl Plan {
     fn take_rotations(&mut self, scene: &Scene) -> Result<(), Diagnostic> {
         for rotation in &scene.rotations {
             let order = number_of(&rotation.order, self.environment.as_ref())?;
+            if rotation.precision.value != Precision::F32 {
+                check_half(scene, &rotation.precision.place)?;
+            }
             let energy = match (rotation.norm.value, self.environment.as_ref()) {
                 (Norm::Signal, None) => {
                     let help = "add an `[environment]` with its map, or take `max` or `mean`";
@@ -795,7 +839,7 @@ impl fmt::Display for Plan {
             f.write_str(&table(&rows))?;
             writeln!(
                 f,
-                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special; errors are {}, at the largest angle.",
+                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special, in f16 by {HALF_SHARE}; errors are {}, at the largest angle.",
                 chosen.norm.unwrap_or_default().meaning()
             )?;
         }

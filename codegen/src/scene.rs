@@ -27,11 +27,12 @@
 //! max_error = 0.05                    # of a band's norm, the worst band
 //! norm = "max"                        # the worst signal's error, if left out; or "mean", a random one's; or "signal",
 //!                                     # that of the environment's energies, against all of it
+//! precision = "f32"                   # if left out; or "f16" (WGSL alone), or "auto": f16 where the error allows it
 //! rgb = true
 //! name = "bump"                       # optional
 //! ```
 
-use crate::choose::{Norm, Turn};
+use crate::choose::{Norm, Precision, Turn};
 use crate::diagnostic::{Diagnostic, Place, Source};
 use crate::emit::dialect::Target;
 use crate::files;
@@ -113,6 +114,8 @@ pub struct Rotation {
     pub max_error: Located<f64>,
     /// What it is the error of.
     pub norm: Located<Norm>,
+    /// Which numbers it may work in.
+    pub precision: Located<Precision>,
     /// Whether the signal has three channels.
     pub rgb: bool,
     /// A name that replaces the spec's own.
@@ -187,6 +190,7 @@ struct RotationTable {
     max_angle: Spanned<f64>,
     max_error: Spanned<f64>,
     norm: Option<Spanned<Norm>>,
+    precision: Option<Spanned<Precision>>,
     #[serde(default)]
     rgb: bool,
     name: Option<Spanned<String>>,
@@ -247,6 +251,17 @@ impl Locator {
     fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
         let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
         Located { value: spanned.into_inner(), place }
+    }
+
+    /// A value that may be left out, which then stands at another's place.
+    fn or_default<T: Default, U>(&self, value: Option<Spanned<T>>, place: &Spanned<U>) -> Located<T> {
+        match value {
+            Some(value) => self.at(value),
+            None => {
+                let place = Place { source: Arc::clone(&self.0), span: place.span() };
+                Located { value: T::default(), place }
+            }
+        }
     }
 
     /// A number within bounds, of which the lower may be excluded.
@@ -345,10 +360,8 @@ impl Scene {
                 kind: table.kind,
                 order: locate.at(table.order),
                 max_angle: locate.angle(table.max_angle)?,
-                norm: match table.norm {
-                    Some(norm) => locate.at(norm),
-                    None => Located { value: Norm::Max, place: locate.at(table.max_error.clone()).place },
-                },
+                norm: locate.or_default(table.norm, &table.max_error),
+                precision: locate.or_default(table.precision, &table.max_error),
                 max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
                 rgb: table.rgb,
                 name: table.name.map(|name| locate.at(name)),

@@ -10,6 +10,8 @@ use std::str::FromStr;
 pub const MIN_ORDER: usize = 2;
 /// The largest order of an unrolled kernel: beyond it, text grows past what shader compilers take.
 pub const MAX_ORDER: usize = 16;
+/// The largest order of a kernel in f16.
+pub const MAX_HALF_ORDER: usize = 10;
 /// The largest order of a kernel in loop form.
 pub const MAX_LOOP_ORDER: usize = 64;
 
@@ -108,6 +110,8 @@ pub struct Spec {
     pub rgb: bool,
     /// Unrolled or a loop.
     pub form: Form,
+    /// Whether it works in f16 instead of f32: WGSL only, with `enable f16`.
+    pub half: bool,
 }
 
 /// Why a text is no spec.
@@ -255,7 +259,7 @@ impl Family {
 impl Spec {
     /// A spec of all bands, one channel, unrolled.
     pub fn new(family: Family, order: usize) -> Self {
-        Self { order, family, bands: (0..order).collect(), rgb: false, form: Form::Unrolled }
+        Self { order, family, bands: (0..order).collect(), rgb: false, form: Form::Unrolled, half: false }
     }
 
     /// The same for three channels.
@@ -276,6 +280,18 @@ impl Spec {
     /// How many channels the signal has.
     pub fn channels(&self) -> usize {
         if self.rgb { 3 } else { 1 }
+    }
+
+    /// Whether the kernel works in f16: not where a quaternion's or a normal's angles are kept defined by a number that f16
+    /// does not hold, where lobes are inverted, and in loops.
+    pub fn takes_half(&self) -> bool {
+        let family = match &self.family {
+            Family::Rotate(method) => !matches!(method, Method::Zyz | Method::Zxzxz | Method::Align),
+            Family::Angles | Family::RotateSmall(_) | Family::RotateAdaptive(_) => false,
+            Family::Zhf | Family::ZhfWeights | Family::ZhfTailored => false,
+            _ => true,
+        };
+        family && self.form == Form::Unrolled && self.order <= MAX_HALF_ORDER
     }
 
     /// Whether all bands exist.
@@ -320,6 +336,9 @@ impl Spec {
         }
         if self.form == Form::Loop {
             name += "_loop";
+        }
+        if self.half {
+            name += "_half";
         }
         name
     }
@@ -372,6 +391,9 @@ impl fmt::Display for Spec {
         }
         if self.form == Form::Loop {
             write!(f, ":loop")?;
+        }
+        if self.half {
+            write!(f, ":f16")?;
         }
         Ok(())
     }
@@ -512,6 +534,7 @@ impl FromStr for Spec {
                 "rgb" if spec.rgb => return Err(option.error("`rgb` stands twice".to_owned(), "leave one out")),
                 "rgb" => spec.rgb = true,
                 "loop" => spec.form = Form::Loop,
+                "f16" => spec.half = true,
                 _ if option.text.starts_with("bands=") => {
                     spec.bands = parse_bands(option, &option.text["bands=".len()..], order)?;
                 }
@@ -519,7 +542,7 @@ impl FromStr for Spec {
                     let known = method_names();
                     let first = name.split('+').next().unwrap_or(name);
                     if !known.contains(&first) {
-                        let all = [known, vec!["rgb", "loop"]].concat();
+                        let all = [known, vec!["rgb", "loop", "f16"]].concat();
                         return Err(option.error(format!("`{name}` is no method of `rotate`"), hint(name, &all)));
                     }
                     method = Some(match METHODS.iter().find(|(_, known)| *known == name) {
@@ -528,7 +551,7 @@ impl FromStr for Spec {
                     });
                 }
                 name => {
-                    let known = ["rgb", "loop", "bands=0+1+2"];
+                    let known = ["rgb", "loop", "f16", "bands=0+1+2"];
                     return Err(option.error(format!("`{name}` is no option of `{}`", head.text), hint(name, &known)));
                 }
             }
@@ -597,6 +620,16 @@ impl Spec {
             return Err(whole.error(
                 format!("`{}` has no loop form", whole.text),
                 "`basis`, `rotate` and `taylor15` have one: leave `loop` out",
+            ));
+        }
+        if self.half && !self.takes_half() {
+            return Err(whole.error(
+                format!("`{}` does not work in f16", whole.text),
+                format!(
+                    "a quaternion's angles, a zonal factorisation and loops need f32, and orders end at {MAX_HALF_ORDER}; \
+                     `rotate:{}:angles:f16` takes angles that were made in f32",
+                    order.min(MAX_HALF_ORDER)
+                ),
             ));
         }
         if self.form == Form::Unrolled && order > MAX_ORDER {

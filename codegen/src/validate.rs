@@ -33,7 +33,7 @@ pub fn validate(target: Target, file: &str, text: &str) -> Result<(), Invalid> {
 
 fn check(module: &naga::Module, text: &str) -> Result<(), String> {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
-    Validator::new(ValidationFlags::all(), Capabilities::empty())
+    Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16)
         .validate(module)
         .map(|_| ())
         .map_err(|error| error.emit_to_string(text))

@@ -286,7 +286,7 @@ fn argument(shape: Shape, kind: Kind, channels: &[Vec<f32>]) -> Value {
 
 /// Runs a kernel's text and the interpreter on the same numbers.
 fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
-    let dialect = Dialect { target, rgb };
+    let dialect = Dialect { target, rgb, half: false };
     let text = text(kernel, dialect, "kernel");
     let language = match target {
         Target::Wgsl => Language::Wgsl,
@@ -384,7 +384,7 @@ fn every_operation_is_printed_as_it_is_run() {
 #[test]
 fn taylor15_reads_the_same_in_every_language() {
     let kernel = taylor15_loop(2);
-    let body = |target| print(&kernel, Dialect { target, rgb: true }, "SH_TAYLOR");
+    let body = |target| print(&kernel, Dialect { target, rgb: true, half: false }, "SH_TAYLOR");
     let wgsl = [
         "var r: array<vec3<f32>, 4>;",
         "let half_square = 0.5 * beta * beta;",

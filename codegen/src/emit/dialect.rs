@@ -1,9 +1,11 @@
 //! What the three languages write differently: types, components, literals, the few operations with a name of their
 //! own. Everything else about a kernel's text is the same in all of them.
 
+use crate::eval::Number;
 use crate::graph::Kind;
 use crate::kernel::{Param, Shape};
 use crate::sh::exact::Exact;
+use half::f16;
 use std::fmt;
 use std::str::FromStr;
 
@@ -65,34 +67,42 @@ pub struct Dialect {
     pub target: Target,
     /// Whether the signal is a vector of three in a shader. Rust is generic over it.
     pub rgb: bool,
+    /// Whether numbers are f16, in WGSL.
+    pub half: bool,
 }
 
 impl Dialect {
+    /// The name of a floating-point type of WGSL.
+    fn float(self) -> &'static str {
+        if self.half { "f16" } else { "f32" }
+    }
+
     /// The type of one number of this kind.
     pub fn number(self, kind: Kind) -> &'static str {
         match (self.target, kind, self.rgb) {
             (Target::Rust, Kind::Scalar, _) => "T",
             (Target::Rust, Kind::Signal, _) => "V",
+            (Target::Wgsl, Kind::Signal, true) if self.half => "vec3<f16>",
             (Target::Wgsl, Kind::Signal, true) => "vec3<f32>",
             (Target::Glsl, Kind::Signal, true) => "vec3",
-            (Target::Wgsl, ..) => "f32",
+            (Target::Wgsl, ..) => self.float(),
             (Target::Glsl, ..) => "float",
         }
     }
 
     /// The type of a parameter or a result.
     pub fn type_of(self, shape: Shape, kind: Kind) -> String {
-        let number = self.number(kind);
+        let (number, float) = (self.number(kind), self.float());
         match self.target {
             Target::Wgsl => match shape {
                 Shape::Scalar => number.to_owned(),
-                Shape::Vec3 => "vec3<f32>".to_owned(),
-                Shape::Vec4 => "vec4<f32>".to_owned(),
-                Shape::Mat3 => "mat3x3<f32>".to_owned(),
-                Shape::Pair => "vec2<f32>".to_owned(),
-                Shape::Pairs(n) => format!("array<vec2<f32>, {n}>"),
+                Shape::Vec3 => format!("vec3<{float}>"),
+                Shape::Vec4 => format!("vec4<{float}>"),
+                Shape::Mat3 => format!("mat3x3<{float}>"),
+                Shape::Pair => format!("vec2<{float}>"),
+                Shape::Pairs(n) => format!("array<vec2<{float}>, {n}>"),
                 Shape::Array(n) => format!("array<{number}, {n}>"),
-                Shape::Vectors(n) => format!("array<vec3<f32>, {n}>"),
+                Shape::Vectors(n) => format!("array<vec3<{float}>, {n}>"),
             },
             Target::Glsl => match shape {
                 Shape::Scalar => number.to_owned(),
@@ -171,6 +181,7 @@ impl Dialect {
     pub fn literal(self, value: &Exact) -> String {
         match self.target {
             Target::Rust => rust_literal(value),
+            _ if self.half => format!("{:?}h", f16::nearest(value).to_f32()),
             _ => shader_literal(value.to_f32()),
         }
     }

@@ -232,8 +232,10 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
         false => format!("{MARGIN} times the worst of {samples} measured, {measured:e}; not proven"),
     };
     let mut text = format!(
-        "Error: f32 rounding at most {:e} of {}, {domain} ({why}).",
-        accuracy.rounding_f32, accuracy.relative_to
+        "Error: {} rounding at most {:e} of {}, {domain} ({why}).",
+        if spec.half { "f16" } else { "f32" },
+        accuracy.rounding_f32,
+        accuracy.relative_to
     );
     if !accuracy.method.is_empty() {
         let at: Vec<String> =
@@ -242,6 +244,9 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
             " Method error, the worst band's in spectral norm: {} degrees; it grows without bound beyond.",
             at.join(", ")
         );
+    }
+    if spec.half {
+        text += " Numbers beyond 65504 are infinite in f16, and those below 6e-5 lose digits.";
     }
     if spec.max_angle().is_some() && accuracy.method.is_empty() {
         text += " Method error: about (l beta)^2 / 4 in band l while l beta is below 1.";

@@ -61,18 +61,14 @@ pub struct Module {
 
 /// Why a kernel cannot be printed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{spec}` is too long for {target}: {size} {what}, and {limit} is the most that compilers take; {help}")]
+#[error("`{spec}` cannot be printed for {target}: {why}; {help}")]
 pub struct Limit {
     /// The kernel.
     pub spec: String,
     /// The language.
     pub target: Target,
-    /// How many there are.
-    pub size: usize,
-    /// Of what.
-    pub what: &'static str,
-    /// How many there may be.
-    pub limit: usize,
+    /// What stands in the way.
+    pub why: String,
     /// What to do.
     pub help: String,
 }
@@ -193,8 +189,22 @@ impl Function {
         self.name.clone().unwrap_or_else(|| self.spec.name())
     }
 
+    /// Refuses f16 where there is none.
+    fn check_half(&self, target: Target) -> Result<(), Limit> {
+        match self.spec.half && target != Target::Wgsl {
+            false => Ok(()),
+            true => Err(Limit {
+                spec: self.spec.to_string(),
+                target,
+                why: "only WGSL has f16".to_owned(),
+                help: "leave `f16` out, or name `wgsl` as the only target".to_owned(),
+            }),
+        }
+    }
+
     fn shader(&self, target: Target) -> Result<FunctionText, Limit> {
-        let dialect = Dialect { target, rgb: self.spec.rgb };
+        self.check_half(target)?;
+        let dialect = Dialect { target, rgb: self.spec.rgb, half: self.spec.half };
         let name = self.shader_name();
         let mut text = self.frame(dialect, name, &self.spec);
         let lines = |listing: &Listing| {
@@ -227,9 +237,7 @@ impl Function {
         Limit {
             spec: self.spec.to_string(),
             target,
-            size,
-            what,
-            limit,
+            why: format!("{size} {what}, and {limit} is the most that compilers take"),
             help: "take a lower order, or another method".to_owned(),
         }
     }
@@ -272,7 +280,7 @@ impl Function {
     }
 
     fn rust(&self, name: String) -> FunctionText {
-        let dialect = Dialect { target: Target::Rust, rgb: false };
+        let dialect = Dialect { target: Target::Rust, rgb: false, half: false };
         let mut text = self.frame(dialect, name, &Built::base(&self.spec));
         match &self.built.code {
             Code::Straight(listing) => {
@@ -356,7 +364,7 @@ impl Function {
     }
 
     fn wrapper(&self, generic: &str, name: String) -> WrapperText {
-        let plain = Dialect { target: Target::Rust, rgb: false };
+        let plain = Dialect { target: Target::Rust, rgb: false, half: false };
         let rgb = |text: String| text.replace('V', "[T; 3]");
         let params = self.built.code.params();
         let arguments: Vec<String> = params
@@ -381,7 +389,7 @@ impl Function {
 }
 
 impl Constants {
-    fn text(&self, target: Target) -> String {
+    fn text(&self, target: Target, half: bool) -> String {
         let name = self.name.to_uppercase();
         let doc = docs::wrap(&docs::ascii(&self.doc), 0).join(match target {
             Target::Rust => "\n/// ",
@@ -389,15 +397,16 @@ impl Constants {
         });
         let count = self.values.len();
         let number = |x: f64| dialect::shader_literal(x as f32);
+        let float = if half { "f16" } else { "f32" };
         let row = |v: &[f64; 3]| match target {
-            Target::Wgsl => format!("    vec3<f32>({}, {}, {})", number(v[0]), number(v[1]), number(v[2])),
+            Target::Wgsl => format!("    vec3<{float}>({}, {}, {})", number(v[0]), number(v[1]), number(v[2])),
             Target::Glsl => format!("    vec3({}, {}, {})", number(v[0]), number(v[1]), number(v[2])),
             Target::Rust => format!("    [{}, {}, {}]", number(v[0]), number(v[1]), number(v[2])),
         };
         let rows: Vec<String> = self.values.iter().map(row).collect();
         let rows = rows.join(",\n");
         match target {
-            Target::Wgsl => format!("// {doc}\nconst {name} = array<vec3<f32>, {count}>(\n{rows}\n);"),
+            Target::Wgsl => format!("// {doc}\nconst {name} = array<vec3<{float}>, {count}>(\n{rows}\n);"),
             Target::Glsl => format!("// {doc}\nconst vec3[{count}] {name} = vec3[{count}](\n{rows}\n);"),
             Target::Rust => format!("/// {doc}\npub const {name}: [[f32; 3]; {count}] = [\n{rows},\n];"),
         }
@@ -415,13 +424,16 @@ impl Module {
         let mut context = Context::new();
         context.insert("head", &head(&self.origin));
         context.insert("guard", &format!("ZONAL_{}_GLSL", self.name.to_uppercase()));
+        context.insert("half", &self.functions.iter().any(|function| function.spec.half));
         context.insert("tables", &self.tables(target));
         context.insert("functions", &functions?);
         Ok(render(target.name(), &context))
     }
 
     fn tables(&self, target: Target) -> Vec<String> {
-        self.constants.iter().map(|constants| constants.text(target)).collect()
+        // Numbers for kernels of f16 alone are f16 themselves.
+        let half = !self.functions.is_empty() && self.functions.iter().all(|function| function.spec.half);
+        self.constants.iter().map(|constants| constants.text(target, half)).collect()
     }
 
     /// The Rust items of the module's functions and constants, without what they stand on.
@@ -460,6 +472,15 @@ impl Module {
 
     fn rust_head(&self) -> String {
         head(&self.origin).iter().map(|line| format!("// {line}\n")).collect()
+    }
+
+    /// Whether all functions can be printed as Rust.
+    ///
+    /// # Errors
+    ///
+    /// If one works in f16.
+    pub fn check_rust(&self) -> Result<(), Limit> {
+        self.functions.iter().try_for_each(|function| function.check_half(Target::Rust))
     }
 
     /// A Rust file that stands alone: `real`, then a module for each order, then the constants.

@@ -25,7 +25,7 @@ pub fn file(function: &Function, target: Target) -> String {
 }
 
 fn dialect(function: &Function, target: Target) -> Dialect {
-    Dialect { target, rgb: function.spec.rgb }
+    Dialect { target, rgb: function.spec.rgb, half: function.spec.half }
 }
 
 /// How many channels a number of this kind has in the function's text.
