@@ -45,6 +45,8 @@ pub mod kernel;
 pub mod kernels;
 pub mod listing;
 pub mod names;
+#[cfg(feature = "picture")]
+pub mod picture;
 pub mod plan;
 pub mod program;
 pub mod samples;
