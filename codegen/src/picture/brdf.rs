@@ -25,6 +25,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::environment;
+use crate::sh::index::band_degree;
 use crate::spec::{MAX_ORDER, MIN_ORDER};
 
 /// The sharpest and the dullest exponent of `phong`.
@@ -287,17 +288,29 @@ impl Table {
             Brdf::Phong { exponent } => exponent.sqrt().recip(),
             Brdf::Ward { alpha: [a, b] } => a.min(b),
         };
-        let steps = if width.is_infinite() { 1 } else { (7 * order).max((7.0 / width).ceil() as usize) };
+        let steps =
+            if width.is_infinite() { 1 } else { (7 * order).max((7.0 / width).ceil() as usize).next_multiple_of(2) };
         let elevations = steps + 1;
         let azimuths = if brdf.is_isotropic() { 1 } else { 2 * steps };
         let mut table = Self { order, elevations, azimuths, values: vec![] };
-        let stride = table.stride();
-        let row = |i: usize| {
-            let mut values = brdf.coefficients(table.view(i / azimuths, i % azimuths), order);
-            values.resize(stride, 0.0);
-            values.into_iter().map(|v| v as f32).collect::<Vec<_>>()
+        // Views of the first quarter; the others are mirror images.
+        let quarter = azimuths / 4;
+        let entry = |i: usize| brdf.coefficients(table.view(i / (quarter + 1), i % (quarter + 1)), order);
+        let found: Vec<_> = (0..elevations * (quarter + 1)).into_par_iter().map(entry).collect();
+        let mirrored = |elevation: usize, azimuth: usize| {
+            let half = if 2 * azimuth > azimuths { azimuths - azimuth } else { azimuth };
+            let (place, behind) = if half > quarter { (azimuths / 2 - half, true) } else { (half, false) };
+            let mut values = found[elevation * (quarter + 1) + place].clone();
+            if half != azimuth {
+                negate(&mut values, |m| m < 0);
+            }
+            if behind {
+                negate(&mut values, |m| (m < 0) != (m % 2 != 0));
+            }
+            values.resize(table.stride(), 0.0);
+            values.into_iter().map(|v| v as f32)
         };
-        table.values = (0..elevations * azimuths).into_par_iter().flat_map_iter(row).collect();
+        table.values = (0..elevations * azimuths).flat_map(|i| mirrored(i / azimuths, i % azimuths)).collect();
         table
     }
 
@@ -336,6 +349,12 @@ impl Table {
         }
         sums
     }
+}
+
+/// Negates the coefficients of some degrees m: those of sin mφ mirror y; those of sin mφ with even m and cos mφ with odd
+/// m mirror x.
+fn negate(signal: &mut [f64], which: impl Fn(isize) -> bool) {
+    signal.iter_mut().enumerate().filter(|(i, _)| which(band_degree(*i).1)).for_each(|(_, value)| *value = -*value);
 }
 
 /// Turns a signal about z by an angle in radians.
