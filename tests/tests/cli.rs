@@ -97,6 +97,35 @@ fn orders_out_of_range_are_refused() {
 }
 
 #[test]
+fn what_no_picture_can_be_made_of_is_refused() {
+    let brdf = |table: &str, place: &str, parts: &[&str]| {
+        refused(&format!("name = \"a\"\n[brdf]\n{table}\n"), place, parts);
+    };
+    brdf("kind = \"phnog\"", "3:8", &["unknown variant `phnog`", "did you mean `phong`?"]);
+    brdf("exponent = 2", "2:1", &["missing field `kind`"]);
+    brdf("kind = \"phong\"", "3:8", &["needs its `exponent`", "add `exponent = 20`"]);
+    brdf("kind = \"phong\"\nexponent = 0", "4:12", &["an exponent of 0 is out of range", "from 1 to 1000"]);
+    brdf("kind = \"lambert\"\nexponent = 3", "4:12", &["has no `exponent`", "leave it out"]);
+    brdf("kind = \"ward\"\nalpha = [0.2, nan]", "4:9", &["a roughness of NaN is out of range", "from 0.05 to 1"]);
+    brdf("kind = \"ward\"\nalpha = [0.2]", "4:9", &["expected a number or two"]);
+    let picture = |line: &str, column: &str, parts: &[&str]| {
+        let scene = format!("name = \"a\"\n[picture]\nmesh = \"sphere\"\n{line}\n");
+        refused(&scene, &format!("4:{column}"), parts);
+    };
+    picture("nromals = \"a.png\"", "1", &["`nromals`", "did you mean `normals`?"]);
+    picture("size = [0, 540]", "8", &["0 by 540 pixels is out of range", "from 1 to 4096"]);
+    picture("size = [960, 5400000000]", "8", &["960 by 5400000000 pixels is out of range"]);
+    picture("size = [960, -1]", "14", &["integer `-1`"]);
+    picture("order = 17", "9", &["order 17 is out of range: orders are 2 to 16"]);
+    picture("strength = inf", "12", &["a strength of inf is out of range", "from 0 to 10"]);
+    picture("elevation = 90", "13", &["an elevation in degrees of 90 is out of range"]);
+    picture("distance = 1", "12", &["a distance in radii of the object of 1 is out of range"]);
+    picture("field = 180", "9", &["a field of view in degrees of 180 is out of range"]);
+    picture("exposure = 1e9", "12", &["an exposure in stops of 1000000000 is out of range"]);
+    refused("name = \"a\"\n[picture]\nsize = [1, 1]\n", "2:1", &["missing field `mesh`"]);
+}
+
+#[test]
 fn unknown_methods_are_refused() {
     refused(
         "name = \"a\"\n[[kernel]]\nspec = \"rotat:5\"\n",

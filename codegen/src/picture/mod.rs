@@ -2,6 +2,7 @@
 
 pub mod assets;
 pub mod brdf;
+pub mod camera;
 pub mod mesh;
 pub mod normal_map;
 pub mod vector;
