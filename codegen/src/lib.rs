@@ -35,6 +35,8 @@ pub mod built;
 pub mod catalog;
 pub mod code;
 pub mod diagnostic;
+#[cfg(feature = "cli")]
+pub mod drawn;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;

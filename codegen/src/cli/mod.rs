@@ -5,14 +5,13 @@ mod vectors;
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressFinish};
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
-use std::fmt;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 use zonal_codegen::builder::Error;
 use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::drawn::draw;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::spec::{Spec, family_names};
 
@@ -162,66 +161,6 @@ fn out_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 /// A spec that stands on the command line.
 fn spec_of(text: &str) -> Result<Spec, Failure> {
     text.parse().map_err(|error| Diagnostic::of_spec("SPEC", text, error).into())
-}
-
-/// A diagnostic as miette draws it.
-struct Drawn<'a> {
-    diagnostic: &'a Diagnostic,
-    source: Option<NamedSource<String>>,
-}
-
-impl<'a> Drawn<'a> {
-    fn new(diagnostic: &'a Diagnostic) -> Self {
-        let source =
-            diagnostic.place.as_ref().map(|place| NamedSource::new(&place.source.name, place.source.text.clone()));
-        Self { diagnostic, source }
-    }
-}
-
-impl fmt::Display for Drawn<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.diagnostic.message)
-    }
-}
-
-impl fmt::Debug for Drawn<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Drawn<'_> {}
-
-impl miette::Diagnostic for Drawn<'_> {
-    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
-        (!self.diagnostic.help.is_empty()).then(|| Box::new(&self.diagnostic.help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let place = self.diagnostic.place.as_ref()?;
-        // Of a fault that spans lines the first is enough.
-        let line = place.text().lines().next().unwrap_or("").len();
-        let label = LabeledSpan::underline((place.span.start, line));
-        Some(Box::new(std::iter::once(label)))
-    }
-}
-
-fn draw(diagnostic: &Diagnostic) -> String {
-    let mut theme = match io::stderr().is_terminal() {
-        true => GraphicalTheme::default(),
-        false => GraphicalTheme::none(),
-    };
-    (theme.characters.underline, theme.characters.underbar) = ('^', '^');
-    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
-    let mut text = String::new();
-    match handler.render_report(&mut text, &Drawn::new(diagnostic)) {
-        Ok(()) => text,
-        Err(_) => format!("{diagnostic}\n"),
-    }
 }
 
 /// Runs the command and says how it ended: 0, 1 for what went wrong, 2 for arguments that make no sense.
