@@ -22,6 +22,9 @@ const ROUNDING: f64 = 0.75;
 /// The most triangles of a file.
 const MAX_TRIANGLES: usize = 1 << 20;
 
+/// How many numbers [`Mesh::interleaved`] has of a vertex.
+pub const STRIDE: usize = 12;
+
 /// Triangles, ready for a vertex buffer. See the [module](self) for its space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -126,6 +129,14 @@ impl Mesh {
             return fault("holds no triangle of any size".to_owned(), "export the mesh with its faces");
         }
         Ok(faces.mesh())
+    }
+
+    /// Every vertex as [`STRIDE`] numbers: position, normal, tangent, texture coordinates.
+    pub fn interleaved(&self) -> Vec<f32> {
+        let vertex = |i: usize| {
+            [&self.positions[i][..], &self.normals[i], &self.tangents[i], &self.uvs[i]].into_iter().flatten().copied()
+        };
+        (0..self.positions.len()).flat_map(vertex).collect()
     }
 
     /// The number of a vertex, which is the same for vertices that are equal once rounded.
@@ -393,6 +404,7 @@ mod tests {
             let count = mesh.positions.len();
             assert_eq!([mesh.normals.len(), mesh.tangents.len(), mesh.uvs.len()], [count; 3], "{name}");
             assert_eq!(mesh.indices.len() % 3, 0, "{name}");
+            assert_eq!(mesh.interleaved().len(), count * STRIDE, "{name}");
             assert!(mesh.indices.iter().all(|&i| (i as usize) < count), "{name}");
             // Rounding bulges a surface beyond its own vertices by a little.
             let radius = mesh.positions.iter().map(|&p| length(wide(p))).fold(0.0, f64::max);

@@ -5,6 +5,7 @@ pub mod brdf;
 pub mod camera;
 pub mod mesh;
 pub mod normal_map;
+pub mod shade;
 pub mod vector;
 
 /// Why a file is no mesh or no normal map, as one line: the file, what is wrong, what to do.
