@@ -117,6 +117,7 @@ fn what_no_picture_can_be_made_of_is_refused() {
     picture("size = [960, 5400000000]", "8", &["960 by 5400000000 pixels is out of range"]);
     picture("size = [960, -1]", "14", &["integer `-1`"]);
     picture("order = 17", "9", &["order 17 is out of range: orders are 2 to 16"]);
+    picture("method = \"tlit\"", "10", &["unknown variant `tlit`", "did you mean `tilt`?"]);
     picture("strength = inf", "12", &["a strength of inf is out of range", "from 0 to 10"]);
     picture("elevation = 90", "13", &["an elevation in degrees of 90 is out of range"]);
     picture("distance = 1", "12", &["a distance in radii of the object of 1 is out of range"]);

@@ -139,6 +139,7 @@ impl Brdf {
 
     /// f(view, light) · max(0, light.z): the share of the radiance from `light` that a steradian sends to `view`. Both
     /// are unit vectors; 0 if one is below the surface.
+    #[inline]
     pub fn value(&self, view: [f64; 3], light: [f64; 3]) -> f64 {
         if light[2] <= 0.0 || view[2] < 0.0 {
             return 0.0;

@@ -3,6 +3,7 @@
 use super::{Diagnostic, Located, Locator, Order};
 use crate::picture::brdf::{Brdf, BrdfError};
 use crate::picture::camera::Camera;
+use crate::picture::shade::Method;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
@@ -22,7 +23,7 @@ pub struct Picture {
     pub size: [usize; 2],
     /// How coefficients get from a normal's frame to the surface's; without it, as the scene's first rotation of the
     /// kind `tilt` was planned, exactly if there is none.
-    pub method: Option<Located<String>>,
+    pub method: Option<Method>,
     /// The number of bands; the environment's without it.
     pub order: Option<Located<Order>>,
     /// Where it is taken from.
@@ -62,7 +63,7 @@ pub(super) struct PictureTable {
     normals: Option<Spanned<String>>,
     strength: Option<Spanned<f64>>,
     size: Option<Spanned<[u64; 2]>>,
-    method: Option<Spanned<String>>,
+    method: Option<Method>,
     order: Option<Spanned<Order>>,
     azimuth: Option<Spanned<f64>>,
     elevation: Option<Spanned<f64>>,
@@ -139,7 +140,7 @@ pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, 
         normals: table.normals.map(|normals| locate.at(normals)),
         strength: number(table.strength, "a strength", [0.0, 10.0], 1.0)?,
         size,
-        method: table.method.map(|method| locate.at(method)),
+        method: table.method,
         order: table.order.map(|order| locate.at(order)),
         camera,
         exposure: number(table.exposure, "an exposure in stops", [-20.0, 20.0], 0.0)?,
