@@ -1,6 +1,7 @@
 //! The command line: its arguments, and how what goes wrong is shown.
 
 mod commands;
+mod explore;
 mod vectors;
 
 use clap::{Parser, Subcommand};
@@ -89,6 +90,21 @@ enum Command {
         #[arg(long, default_value_t = 1)]
         seed: u64,
     },
+    /// Writes a page that shows the kernels at work, and serves it to this machine.
+    ///
+    /// A normal-mapped object under an environment map, in WebGL2 or WebGPU: the chosen way to turn coefficients beside
+    /// the exact one and their difference, with costs, errors and times.
+    Explore {
+        /// The folder to write to, instead of `zonal-out/explorer`.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// The port on 127.0.0.1; 0 takes one that is free.
+        #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "no_serve")]
+        port: u16,
+        /// Only writes.
+        #[arg(long)]
+        no_serve: bool,
+    },
     /// Writes the standard catalogue, or checks it.
     Catalog {
         /// Writes nothing; fails if a file is stale, missing or orphaned.
@@ -172,6 +188,7 @@ pub fn main() -> ExitCode {
         Command::Show { spec, target } => commands::show(&spec, &target),
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
+        Command::Explore { out, port, no_serve } => explore::explore(out, port, !no_serve),
         Command::Catalog { check, dir } => commands::catalog(&dir, check),
     };
     match result {
