@@ -27,17 +27,17 @@ pub struct Canvas {
 /// The weight of a line of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Text {
-    /// 20 pixels high, bold.
+    /// 24 pixels high, bold.
     Title,
-    /// 16 pixels high.
+    /// 20 pixels high.
     Line,
 }
 
 impl Text {
     fn font(self) -> (FontWeight, RasterHeight) {
         match self {
-            Self::Title => (FontWeight::Bold, RasterHeight::Size20),
-            Self::Line => (FontWeight::Regular, RasterHeight::Size16),
+            Self::Title => (FontWeight::Bold, RasterHeight::Size24),
+            Self::Line => (FontWeight::Regular, RasterHeight::Size20),
         }
     }
 

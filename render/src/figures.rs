@@ -6,6 +6,7 @@ use crate::subject::Subject;
 use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::environment::Projection;
 use zonal_codegen::picture::brdf::Table;
 use zonal_codegen::picture::shade::Method;
 
@@ -119,8 +120,7 @@ pub fn convergence(
     let expected = expected(&subject.brdf, &few, &subject.light(DEPTH), DEPTH);
     let mean = mean_radiance(&truth.frame);
     let row = |order: usize| {
-        let (table, light) = (Table::new(&subject.brdf, order), subject.light(order));
-        let frame = stage.frame(subject.shading(order, Method::Exact), &table, &light, false)?;
+        let (frame, _) = drawn(stage, subject, &Inputs::new(subject, order), Method::Exact, None, false)?;
         Ok(Row { order, errors: Errors::of(&frame, &truth.frame), expected: expected[order - 1] / mean })
     };
     orders.map(row).collect()
@@ -160,7 +160,21 @@ pub struct Figures {
     pub pictures: Vec<Picture>,
 }
 
-/// Draws a subject by a method and measures it against the exact kernel's frame, or itself if there is none.
+/// A subject's reflectance and light as its shaders read them, whatever the method.
+#[derive(Clone, Debug)]
+pub struct Inputs {
+    table: Table,
+    light: Projection,
+}
+
+impl Inputs {
+    /// Those of an order.
+    pub fn new(subject: &Subject, order: usize) -> Self {
+        Self { table: Table::new(&subject.brdf, order), light: subject.light(order) }
+    }
+}
+
+/// Draws a subject by a method and measures it against the exact kernel's frame, if there is one already.
 ///
 /// # Errors
 ///
@@ -168,12 +182,13 @@ pub struct Figures {
 pub fn drawn(
     stage: &Stage,
     subject: &Subject,
+    inputs: &Inputs,
     method: Method,
     exact: Option<&Frame>,
+    timed: bool,
 ) -> Result<(Frame, Picture), Diagnostic> {
-    let order = subject.order;
-    let (table, light) = (Table::new(&subject.brdf, order), subject.light(order));
-    let frame = stage.frame(subject.shading(order, method), &table, &light, true)?;
+    let order = inputs.table.order;
+    let frame = stage.frame(subject.shading(order, method), &inputs.table, &inputs.light, timed)?;
     let picture = Picture {
         method,
         spec: method.spec(order).map(|spec| spec.to_string()),
@@ -193,6 +208,7 @@ pub fn percent(share: f64) -> String {
         v if v >= 1.0 => format!("{v:.1} %"),
         v if v >= 0.1 => format!("{v:.2} %"),
         v if v >= 0.01 => format!("{v:.3} %"),
+        v if v >= 0.001 => format!("{v:.4} %"),
         v => format!("{v:.0e} %"),
     }
 }
@@ -214,7 +230,7 @@ mod tests {
 
     #[test]
     fn percents_have_two_digits() {
-        let texts = [0.0, 0.00001, 0.000_123, 0.004_56, 0.078_9, 0.123, 4.0].map(percent);
-        assert_eq!(texts, ["0 %", "1e-3 %", "0.012 %", "0.46 %", "7.9 %", "12 %", "400 %"]);
+        let texts = [0.0, 0.000_001, 0.000_012_3, 0.000_123, 0.004_56, 0.078_9, 0.123, 4.0].map(percent);
+        assert_eq!(texts, ["0 %", "1e-4 %", "0.0012 %", "0.012 %", "0.46 %", "7.9 %", "12 %", "400 %"]);
     }
 }

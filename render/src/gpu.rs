@@ -106,8 +106,8 @@ impl Gpu {
                 entry(4, fragment, texture(false)),
             ],
         });
-        let name = match info.driver_info.is_empty() {
-            true => info.name,
+        let name = match info.driver_info.contains(&info.driver) {
+            true => format!("{}, {}", info.name, info.driver_info),
             false => format!("{}, {} {}", info.name, info.driver, info.driver_info),
         };
         Ok(Self { device, queue, layout, pipelines: Mutex::default(), limits, name })

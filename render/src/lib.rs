@@ -10,6 +10,7 @@ pub mod canvas;
 pub mod figures;
 pub mod gpu;
 pub mod reference;
+pub mod report;
 pub mod strip;
 pub mod subject;
 pub mod tone;

@@ -77,7 +77,7 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     );
     for picture in &figures.pictures {
         let name = picture.spec.as_deref().unwrap_or("no rotation");
-        let errors = match arguments.compare {
+        let errors = match arguments.compare && picture.method != Method::Exact {
             true => format!(", error: mean {}, worst {}", percent(picture.errors.mean), percent(picture.errors.worst)),
             false => String::new(),
         };
@@ -95,7 +95,7 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     let sidecar = output.with_extension("json");
     let name = |place: &Path| place.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let (folder, names) = (output.parent().unwrap_or(Path::new("")), [name(&output), name(&sidecar)]);
-    files::write_bytes(folder, &[(&names[0], &canvas.png()), (&names[1], (json + "\n").as_bytes())])
+    files::write_below(folder, &[(&names[0], canvas.png().as_slice()), (&names[1], (json + "\n").as_bytes())])
         .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
     bar.finish_and_clear();
     let [width, height] = canvas.size;

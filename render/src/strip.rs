@@ -2,7 +2,7 @@
 //! figures under it.
 
 use crate::canvas::{BRIGHT, Canvas, GROUND, MUTED, Text, difference, false_colour, shown};
-use crate::figures::{Figures, Picture, drawn, percent, pixel_errors};
+use crate::figures::{Figures, Inputs, Picture, drawn, percent, pixel_errors};
 use crate::gpu::{Gpu, Stage};
 use crate::subject::Subject;
 use crate::tone;
@@ -13,9 +13,9 @@ use zonal_codegen::picture::shade::Method;
 /// Between tiles and around them.
 const GAP: usize = 12;
 /// The room for a tile's title.
-const TITLE: usize = 28;
+const TITLE: usize = 34;
 /// The height of a line of text.
-const LINE: usize = 20;
+const LINE: usize = 24;
 /// How many lines stand under a tile.
 const LINES: usize = 3;
 
@@ -32,7 +32,8 @@ pub fn single(
 ) -> Result<(Canvas, Figures), Diagnostic> {
     bar.set_length(2);
     let stage = stage(gpu, subject, samples, bar)?;
-    let (frame, picture) = drawn(&stage, subject, subject.method, None)?;
+    let inputs = Inputs::new(subject, subject.order);
+    let (frame, picture) = drawn(&stage, subject, &inputs, subject.method, None, true)?;
     bar.inc(1);
     let exposure = tone::exposure(&frame, subject.exposure);
     let canvas = shown(&frame, samples, exposure, &subject.camera, &subject.map);
@@ -72,9 +73,10 @@ pub fn compared(
 ) -> Result<(Canvas, Figures), Diagnostic> {
     bar.set_length(4);
     let stage = stage(gpu, subject, samples, bar)?;
+    let inputs = Inputs::new(subject, subject.order);
     let draw = |method: Method, exact: Option<&_>| {
         bar.set_message(method.name());
-        let result = drawn(&stage, subject, method, exact);
+        let result = drawn(&stage, subject, &inputs, method, exact, true);
         bar.inc(1);
         result
     };
@@ -98,16 +100,21 @@ pub fn compared(
     let lefts: [usize; 4] = std::array::from_fn(|i| GAP + i * (width + GAP));
     let below = |line: usize| GAP + TITLE + height + GAP / 2 + line * LINE;
     for (left, (title, tile)) in lefts.into_iter().zip(&tiles) {
-        canvas.write([left, GAP - 2], title, Text::Title, BRIGHT);
+        canvas.write([left, GAP - 2], cut(title, Text::Title, width), Text::Title, BRIGHT);
         canvas.put([left, GAP + TITLE], tile);
     }
     for (i, picture) in [(0, &of_exact), (1, &of_chosen), (3, &of_none)] {
         for (line, (text, colour)) in lines(picture).iter().enumerate() {
-            canvas.write([lefts[i], below(line)], text, Text::Line, *colour);
+            canvas.write([lefts[i], below(line)], cut(text, Text::Line, width), Text::Line, *colour);
         }
     }
     legend(&mut canvas, [lefts[2], below(0)], width, scale, subject.method);
     Ok((canvas, figures(gpu, subject, samples, vec![of_exact, of_chosen, of_none])))
+}
+
+/// As much of a text of ASCII as a tile is wide.
+fn cut(text: &str, weight: Text, width: usize) -> &str {
+    text.get(..width / weight.width()).unwrap_or(text)
 }
 
 /// What stands under a picture.
@@ -134,14 +141,15 @@ fn legend(canvas: &mut Canvas, [left, top]: [usize; 2], width: usize, scale: f64
     let right = (left + width).saturating_sub(end.len() * Text::Line.width());
     canvas.write([left, top + LINE], "0", Text::Line, BRIGHT);
     canvas.write([right, top + LINE], &end, Text::Line, BRIGHT);
-    canvas.write([left, top + 2 * LINE], &format!("{method} - exact, of the mean radiance"), Text::Line, MUTED);
+    let what = format!("{method} - exact, of the mean radiance");
+    canvas.write([left, top + 2 * LINE], cut(&what, Text::Line, width), Text::Line, MUTED);
 }
 
-/// The end of the false colours: all but one in a thousand errors lie below it; 1, 2 or 5 times a power of ten.
+/// The end of the false colours: all but one in a hundred errors lie below it; 1, 2 or 5 times a power of ten.
 fn scale_of(errors: &[Option<f64>]) -> f64 {
     let mut errors: Vec<f64> = errors.iter().flatten().copied().collect();
     errors.sort_by(f64::total_cmp);
-    let high = errors.get((errors.len() * 999 / 1000).saturating_sub(1)).copied().unwrap_or(0.0).max(1e-6);
+    let high = errors.get((errors.len() * 99 / 100).saturating_sub(1)).copied().unwrap_or(0.0).max(1e-6);
     let power = 10f64.powf(high.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|digit| digit * power).find(|&end| end >= high).unwrap_or(10.0 * power)
 }

@@ -58,7 +58,7 @@ impl Subject {
     ///
     /// # Errors
     ///
-    /// If the scene has no picture or no light, a file is at fault, or the scene's own tilt cannot be drawn.
+    /// If the scene has no picture or no light, or a file is at fault.
     pub fn new(scene: &Scene, instead: Instead) -> Result<Self, Diagnostic> {
         let missing =
             |what: &str, help: &str| Diagnostic::at(&scene.name.place, format!("the scene has no {what}"), help);
@@ -96,7 +96,7 @@ impl Subject {
                 let plan = Plan::new(scene)?;
                 let found = plan.environment.as_ref().map(|environment| environment.order);
                 let order = order.or(found).ok_or_else(|| missing("`order`", "write one in `[picture]`"))?;
-                (order, method.map_or_else(|| planned_method(scene, &plan), Ok)?)
+                (order, method.unwrap_or_else(|| planned_method(scene, &plan)))
             }
         };
         Ok(Self {
@@ -125,22 +125,15 @@ impl Subject {
     }
 }
 
-/// How the scene's first rotation of the kind `tilt` was planned.
-fn planned_method(scene: &Scene, plan: &Plan) -> Result<Method, Diagnostic> {
+/// How the scene's first rotation of the kind `tilt` was planned: only `tilt` and the exact kernel take a normal and no
+/// angle. Exactly, if there is none.
+fn planned_method(scene: &Scene, plan: &Plan) -> Method {
     // The plan lists the kernels that the scene names, then its rotations.
-    let chosen = scene.rotations.iter().zip(&plan.kernels[scene.kernels.len()..]);
-    let Some((rotation, chosen)) = chosen.into_iter().find(|(rotation, _)| rotation.kind == Turn::Tilt) else {
-        return Ok(Method::Exact);
-    };
-    let spec: Option<Spec> = chosen.row.spec.parse().ok();
-    let method = spec.and_then(|spec| {
-        let same = |method: &Method| method.spec(spec.order).is_some_and(|known| known.family == spec.family);
-        let exact = matches!(&spec.family, Family::Rotate(_)) && chosen.method_error.is_none_or(|error| error < 1e-12);
-        Method::ALL.into_iter().find(same).or(exact.then_some(Method::Exact))
-    });
-    method.ok_or_else(|| {
-        let message = format!("this was planned as `{}`, which pictures are not drawn with", chosen.row.spec);
-        let names = Method::ALL.map(Method::name).join(", ");
-        Diagnostic::at(&rotation.order.place, message, format!("write a `method` in `[picture]`: {names}"))
-    })
+    let mut chosen = scene.rotations.iter().zip(&plan.kernels[scene.kernels.len()..]);
+    let tilt = chosen.find(|(rotation, _)| rotation.kind == Turn::Tilt);
+    let spec: Option<Spec> = tilt.and_then(|(_, chosen)| chosen.row.spec.parse().ok());
+    match spec {
+        Some(Spec { family: Family::Tilt, .. }) => Method::Tilt,
+        _ => Method::Exact,
+    }
 }

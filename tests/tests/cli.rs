@@ -514,3 +514,29 @@ fn a_catalogue_is_checked_and_never_eats_other_files() {
     let message = fails(&folder, &["catalog", "--dir", "."]);
     assert!(message.contains("zonal did not write its `notes.txt`"), "{message}");
 }
+
+#[test]
+fn the_renderer_is_found_and_what_it_says_is_passed_on() {
+    let folder = Folder::new();
+    // Alone in a folder, so that no renderer is beside it.
+    let alone = folder.path("zonal");
+    std::fs::copy(zonal(), &alone).expect("copied");
+    let run = |path: &std::path::Path, arguments: &[&str]| {
+        Command::new(&alone).env("PATH", path).args(arguments).output().expect("the command starts")
+    };
+    let output = run(&folder.path("nowhere"), &["render", "a.toml"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    for part in ["`zonal-render` is neither", "cargo install zonal-render", "cargo render"] {
+        assert!(message.contains(part), "{message}");
+    }
+    if cfg!(unix) {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::create_dir(folder.path("bin")).expect("a folder");
+        let other = folder.put("bin/zonal-render", "#!/bin/sh\necho \"drawn $*\"\nexit 3\n");
+        std::fs::set_permissions(&other, std::fs::Permissions::from_mode(0o755)).expect("permitted");
+        let output = run(other.parent().expect("a folder"), &["render", "a.toml", "--compare", "-o", "b.png", "--help"]);
+        assert_eq!(String::from_utf8_lossy(&output.stdout), "drawn a.toml --compare -o b.png --help\n");
+        assert_eq!(output.status.code(), Some(3));
+    }
+}

@@ -2,10 +2,12 @@
 
 mod commands;
 mod explore;
+mod render;
 mod vectors;
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressFinish};
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -105,6 +107,13 @@ enum Command {
         #[arg(long)]
         no_serve: bool,
     },
+    /// Draws the picture of a scene, or a comparison: `zonal render --help`.
+    #[command(disable_help_flag = true)]
+    Render {
+        /// What `zonal-render` takes.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
     /// Writes the standard catalogue, or checks it.
     Catalog {
         /// Writes nothing; fails if a file is stale, missing or orphaned.
@@ -120,6 +129,8 @@ enum Command {
 enum Failure {
     /// Something is wrong, and this says what.
     Shown(Diagnostic),
+    /// Another program told what is wrong, and ended with this code.
+    Told(u8),
     /// Nobody reads the output any more.
     Closed,
 }
@@ -189,10 +200,12 @@ pub fn main() -> ExitCode {
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Explore { out, port, no_serve } => explore::explore(out, port, !no_serve),
+        Command::Render { arguments } => render::render(&arguments),
         Command::Catalog { check, dir } => commands::catalog(&dir, check),
     };
     match result {
         Ok(()) | Err(Failure::Closed) => ExitCode::SUCCESS,
+        Err(Failure::Told(code)) => ExitCode::from(code),
         Err(Failure::Shown(diagnostic)) => {
             // If even this cannot be printed, the exit code still tells.
             let _ = write!(io::stderr(), "{}", draw(&diagnostic));
