@@ -80,7 +80,7 @@ pub fn write(folder: &Path, files: &[File]) -> Result<usize, FileError> {
 ///
 /// # Errors
 ///
-/// As [`write`].
+/// As [`write()`].
 pub fn write_below(folder: &Path, files: &[(&str, &[u8])]) -> Result<usize, FileError> {
     if let Some((path, _)) = files.iter().find(|(path, _)| !stays_inside(path)) {
         return Err(FileError::Outside((*path).to_owned()));

@@ -70,14 +70,8 @@ impl Truth {
     /// # Errors
     ///
     /// If the device fails, or no pixel shows the object.
-    pub fn new(
-        stage: &Stage,
-        subject: &Subject,
-        size: [usize; 2],
-        points: usize,
-        bar: &ProgressBar,
-    ) -> Result<Self, Diagnostic> {
-        let surfaces = stage.surfaces()?;
+    pub fn new(stage: &Stage, points: usize, bar: &ProgressBar) -> Result<Self, Diagnostic> {
+        let (subject, surfaces) = (stage.subject, stage.surfaces()?);
         let all: Vec<&Surface> = surfaces.iter().flatten().collect();
         if all.is_empty() {
             let help = "move the camera: `azimuth`, `elevation` and `distance` in `[picture]`";
@@ -86,7 +80,7 @@ impl Truth {
         let step = all.len().div_ceil(points.max(1));
         let views = all.iter().step_by(step).map(|surface| surface.modulated().1).collect();
         bar.set_length(all.len().div_ceil(step) as u64);
-        let frame = Lights::of(&subject.map).frame(&subject.brdf, size, &surfaces, step, || bar.inc(1));
+        let frame = Lights::of(&subject.map).frame(&subject.brdf, stage.size, &surfaces, step, || bar.inc(1));
         Ok(Self { frame, views })
     }
 }
@@ -110,17 +104,13 @@ const DEPTH: usize = 40;
 /// # Errors
 ///
 /// If a shader is too long or the device fails.
-pub fn convergence(
-    stage: &Stage,
-    subject: &Subject,
-    truth: &Truth,
-    orders: impl Iterator<Item = usize>,
-) -> Result<Vec<Row>, Diagnostic> {
+pub fn convergence(stage: &Stage, truth: &Truth, orders: impl Iterator<Item = usize>) -> Result<Vec<Row>, Diagnostic> {
+    let subject = stage.subject;
     let few: Vec<[f64; 3]> = truth.views.iter().step_by(truth.views.len().div_ceil(200)).copied().collect();
     let expected = expected(&subject.brdf, &few, &subject.light(DEPTH), DEPTH);
     let mean = mean_radiance(&truth.frame);
     let row = |order: usize| {
-        let (frame, _) = drawn(stage, subject, &Inputs::new(subject, order), Method::Exact, None, false)?;
+        let (frame, _) = drawn(stage, &Inputs::new(subject, order), Method::Exact, None, false)?;
         Ok(Row { order, errors: Errors::of(&frame, &truth.frame), expected: expected[order - 1] / mean })
     };
     orders.map(row).collect()
@@ -181,14 +171,13 @@ impl Inputs {
 /// If the shader is too long or the device fails.
 pub fn drawn(
     stage: &Stage,
-    subject: &Subject,
     inputs: &Inputs,
     method: Method,
     exact: Option<&Frame>,
     timed: bool,
 ) -> Result<(Frame, Picture), Diagnostic> {
     let order = inputs.table.order;
-    let frame = stage.frame(subject.shading(order, method), &inputs.table, &inputs.light, timed)?;
+    let frame = stage.frame(stage.subject.shading(order, method), &inputs.table, &inputs.light, timed)?;
     let picture = Picture {
         method,
         spec: method.spec(order).map(|spec| spec.to_string()),

@@ -35,8 +35,10 @@ pub struct Gpu {
 #[derive(Debug)]
 pub struct Stage<'a> {
     gpu: &'a Gpu,
-    subject: &'a Subject,
-    size: [usize; 2],
+    /// What is drawn.
+    pub subject: &'a Subject,
+    /// The width and the height.
+    pub size: [usize; 2],
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     camera: wgpu::Buffer,

@@ -21,9 +21,14 @@ use zonal_render::subject::{Instead, Subject};
 /// How many pixels are summed by brute force for `--reference`.
 const POINTS: usize = 4000;
 
+/// What the help ends with.
+const NOTES: &str = "The figures are printed, and lie beside the picture as JSON. Errors are shares of the mean radiance \
+                     and are measured before the tone curve, which is Reinhard's (2002) for each channel with white at 4, \
+                     after the exposure that takes the object's log-average luminance to 0.3; then sRGB.";
+
 /// Draws the picture of a scene with its generated kernels, on a GPU or a software adapter.
 #[derive(Parser)]
-#[command(name = "zonal-render", version, after_help = "The figures are printed, and lie beside the picture as JSON.")]
+#[command(name = "zonal-render", version, after_help = NOTES)]
 struct Arguments {
     /// The scene, a TOML file with the tables `[environment]`, `[brdf]` and `[picture]`.
     scene: PathBuf,
@@ -114,9 +119,9 @@ fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<String, 
     bar.set_position(0);
     bar.set_message("brute force");
     let stage = Stage::new(gpu, subject, subject.size)?;
-    let truth = Truth::new(&stage, subject, subject.size, POINTS, bar)?;
+    let truth = Truth::new(&stage, POINTS, bar)?;
     bar.set_message("orders 2 to 10");
-    let rows = convergence(&stage, subject, &truth, 2..=10)?;
+    let rows = convergence(&stage, &truth, 2..=10)?;
     let mut text = format!(
         "  The exact kernel against brute force: {} pixels, all {} texels, shares of the mean radiance\n\n",
         truth.views.len(),

@@ -131,3 +131,67 @@ pub fn expected(brdf: &Brdf, views: &[[f64; 3]], light: &Projection, bands: usiz
     errors.reverse();
     errors
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+    use zonal_codegen::samples::Random;
+
+    fn surface(random: &mut Random) -> Surface {
+        let [x, y, z] = random.unit::<3>();
+        let view = random.unit::<3>();
+        Surface { frame: random.unit(), normal: [x, y, z.abs()], view: [view[0], view[1], view[2].abs()] }
+    }
+
+    #[test]
+    fn the_frame_of_the_normal_is_the_shortest_turn_away() {
+        let mut random = Random::new(3);
+        for _ in 0..100 {
+            let surface = surface(&mut random);
+            let ([x, y, z], view) = surface.modulated();
+            let own = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| turned(surface.frame, axis));
+            let world = |v: [f64; 3]| add(add(own[0].map(|c| c * v[0]), v[1], own[1]), v[2], own[2]);
+            for (a, b) in [(z, world(surface.normal)), (cross(x, y), z)] {
+                assert!((0..3).all(|i| (a[i] - b[i]).abs() < 1e-12), "{a:?} {b:?}");
+            }
+            // The shortest turn has the smallest angle: its trace is 1 + 2 cos, with the cosine that of the normals.
+            let trace = dot(x, own[0]) + dot(y, own[1]) + dot(z, own[2]);
+            assert!((trace - 1.0 - 2.0 * surface.normal[2]).abs() < 1e-12);
+            assert!((dot(view, view) - 1.0).abs() < 1e-12 && view[2] >= 0.0);
+        }
+    }
+
+    #[test]
+    fn a_lambertian_surface_gets_the_irradiance_of_the_map() {
+        let mut random = Random::new(4);
+        let texels = (0..64 * 32).map(|_| [1.0 + random.signed(), 1.0, 1.0 + random.signed()]).collect();
+        let map = Map { width: 64, height: 32, texels };
+        let irradiance = map.project(64).irradiance();
+        let lights = Lights::of(&map);
+        for _ in 0..20 {
+            let surface = surface(&mut random);
+            let found = lights.radiance(&Brdf::Lambert, &surface);
+            let expected = irradiance.evaluate(surface.modulated().0[2]).map(|v| v / PI);
+            // Texels of 5.6 degrees at their centres change band 2 by 0.2 %; noise lies in all bands.
+            assert!((0..3).all(|i| (found[i] / expected[i] - 1.0).abs() < 5e-3), "{found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn one_texel_gives_the_reflectance_itself() {
+        let mut random = Random::new(5);
+        let mut map = Map { width: 64, height: 32, texels: vec![[0.0; 3]; 64 * 32] };
+        map.texels[5 * 64 + 40] = [1.0, 2.0, 0.0];
+        let lights = Lights::of(&map);
+        let brdf = Brdf::Ward { alpha: [0.3, 0.6] };
+        for _ in 0..50 {
+            let surface = surface(&mut random);
+            let (axes, view) = surface.modulated();
+            let light = axes.map(|axis| dot(axis, map.direction(40, 5)));
+            let expected = brdf.value(view, light) * map.solid_angle(5);
+            let [r, g, b] = lights.radiance(&brdf, &surface);
+            assert!((r - expected).abs() <= 1e-12 * expected && (g - 2.0 * r).abs() <= 1e-12 * r && b == 0.0);
+        }
+    }
+}

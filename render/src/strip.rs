@@ -33,7 +33,7 @@ pub fn single(
     bar.set_length(2);
     let stage = stage(gpu, subject, samples, bar)?;
     let inputs = Inputs::new(subject, subject.order);
-    let (frame, picture) = drawn(&stage, subject, &inputs, subject.method, None, true)?;
+    let (frame, picture) = drawn(&stage, &inputs, subject.method, None, true)?;
     bar.inc(1);
     let exposure = tone::exposure(&frame, subject.exposure);
     let canvas = shown(&frame, samples, exposure, &subject.camera, &subject.map);
@@ -76,7 +76,7 @@ pub fn compared(
     let inputs = Inputs::new(subject, subject.order);
     let draw = |method: Method, exact: Option<&_>| {
         bar.set_message(method.name());
-        let result = drawn(&stage, subject, &inputs, method, exact, true);
+        let result = drawn(&stage, &inputs, method, exact, true);
         bar.inc(1);
         result
     };

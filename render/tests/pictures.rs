@@ -35,7 +35,7 @@ fn the_exact_picture_is_the_brute_force_sum_under_the_first_bands_of_the_light()
         let size = [60, 50];
         let stage = Stage::new(&gpu, &subject, size).unwrap_or_else(|error| panic!("{error}"));
         let inputs = Inputs::new(&subject, order);
-        let (frame, _) = drawn(&stage, &subject, &inputs, Method::Exact, None, false).unwrap_or_else(|e| panic!("{e}"));
+        let (frame, _) = drawn(&stage, &inputs, Method::Exact, None, false).unwrap_or_else(|e| panic!("{e}"));
         let surfaces = stage.surfaces().unwrap_or_else(|error| panic!("{error}"));
         let covered = |pixels: &[Option<[f64; 3]>]| pixels.iter().map(Option::is_some).collect::<Vec<_>>();
         let lights = Lights::of_bands(&subject.light(order), 64);

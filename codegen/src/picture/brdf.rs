@@ -267,7 +267,7 @@ pub struct Table {
     /// The number of azimuths of the view from 0, periodic. 1 for an isotropic reflectance: its views are at azimuth 0,
     /// and what is found is turned by the azimuth about z.
     pub azimuths: usize,
-    /// At [elevation][azimuth][coefficient], `stride` numbers a view, of which those from `order`² on are 0.
+    /// By elevation, then azimuth, then coefficient, `stride` numbers a view, of which those from `order`² on are 0.
     pub values: Vec<f32>,
 }
 
