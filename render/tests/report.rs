@@ -56,8 +56,8 @@ fn the_page_is_what_is_measured_and_the_papers_claim_holds() {
     let help = "docs/PICTURES.md is stale; run `UPDATE=1 cargo test -p zonal-render --test report`";
     assert_eq!(words, old_words, "{help}");
     for (new, old) in numbers.iter().zip(&old_numbers) {
-        // Two digits are printed; another driver rasterises a few edge pixels otherwise, which moves a mean by a little.
-        assert!((new - old).abs() <= 0.06 * new.abs().max(old.abs()), "{help}: {new} stands as {old}");
+        // Two digits are printed, of which another driver may change the last: it rasterises a few edge pixels otherwise.
+        assert!((new - old).abs() <= 0.12 * new.abs().max(old.abs()), "{help}: {new} stands as {old}");
     }
 
     let tilt = METHODS.iter().position(|method| *method == Method::Tilt).expect("one of them");
