@@ -1,6 +1,6 @@
 // The page: its controls, what they mean for the pictures, and the figures that it shows.
 
-import { bandNorms, camera, lean, lightOf, measure, percent, predict } from "./figures.js";
+import { bandNorms, camera, duration, lean, levelOf, lightOf, measure, percent, predict } from "./figures.js";
 import * as webgl2 from "./webgl.js";
 import * as webgpu from "./webgpu.js";
 
@@ -11,12 +11,14 @@ const panels = ["chosen", "exact", "difference"].map($);
 const contexts = panels.map((panel) => panel.getContext("2d"));
 
 /** Where the first view is from. */
-const VIEW = { azimuth: -55, elevation: 22, distance: 4.1 };
+const VIEW = { azimuth: -60, elevation: 20, distance: 3.7 };
 const FIRST = {
-  method: "tilt", order: 5, mesh: "teapot", brdf: "ward:0.4", normals: "0003", strength: 0.7, light: "courtyard", exposure: 0,
-  api: "webgpu", resolution: 1, rotate: 0, ...VIEW,
+  method: "tilt", order: 5, mesh: "teapot", brdf: "ward:0.4", normals: "0015", strength: 0.35, light: "interior", exposure: 0,
+  api: "webgpu", resolution: 0, rotate: 0, ...VIEW,
 };
-/** A picture that takes longer, in milliseconds, is drawn coarser while it moves. */
+/** Pictures that take less than this, in milliseconds, are drawn finer by themselves. */
+const FAST = 3;
+/** Pictures that take longer are drawn coarser while they move. */
 const SLOW = 40;
 
 /** All choices, also those in the address after `#`. */
@@ -52,6 +54,7 @@ let waiting = [];
 /** What was measured of each method since anything else was changed. */
 let measured = new Map();
 let milliseconds = { chosen: 0, exact: 0 };
+let fast = false;
 
 const row = (list, id) => index[list].find((entry) => entry.id === id);
 const bands = () => index.orders.at(-1);
@@ -132,13 +135,17 @@ async function apply() {
     shown = {
       target, choices: wanted, programs: { chosen, exact }, light: lightOf(coefficients, bands()),
       reflectance: once(`norms ${brdf.id}`, () => bandNorms(new Float32Array(table), 4 * Math.ceil(bands() ** 2 / 4), bands())),
-      leans: lean(normals.slopes, wanted.strength),
+      normals: normalData, leans: null, generation: mine,
     };
+    shown.unit = shown.light.mean;
+    lookAtLeans();
     describe();
     document.body.dataset.state = "busy";
     touch();
   } catch (error) {
-    if (mine === generation) say(error.message);
+    if (mine !== generation) return;
+    say(error.message);
+    document.body.dataset.state = "failed";
   }
 }
 
@@ -147,7 +154,7 @@ async function apply() {
 /** The size of a picture in pixels, and how many samples a pixel has along a side. */
 function size() {
   const coarse = moving && milliseconds.chosen + milliseconds.exact > SLOW ? 0.5 : 1;
-  const scale = Number(state.resolution) * coarse;
+  const scale = (state.resolution || (fast ? 2 : 1)) * coarse;
   const side = Math.max(16, Math.round(panels[0].clientWidth * Math.min(devicePixelRatio, 2) * Math.min(scale, 1)));
   return { width: Math.min(side, 1200), height: Math.min(side, 1200), samples: scale > 1 ? 2 : 1 };
 }
@@ -155,8 +162,8 @@ function size() {
 function frame() {
   const { light, programs } = shown;
   return {
-    ...size(), programs, camera: camera(state), strength: Number(state.strength), unit: light.mean,
-    exposure: (0.55 * 2 ** Number(state.exposure)) / light.mean, ramp: index.ramp.map(colour),
+    ...size(), programs, camera: camera(state), strength: Number(state.strength), unit: shown.unit,
+    exposure: (0.95 * 2 ** Number(state.exposure)) / light.mean, ramp: index.ramp.map(colour),
   };
 }
 
@@ -206,7 +213,7 @@ function tick(now) {
     rest = performance.now() + (state.rotate ? 600 : 120);
     if (moving) $("time-note").textContent = `one frame every ${Math.max(passed, 1).toFixed(0)} ms while it moves`;
     work(draw);
-  } else if (settled !== settling && performance.now() > rest) {
+  } else if (settled !== settling && shown.generation === generation && performance.now() > rest) {
     work(settle);
   }
 }
@@ -228,10 +235,19 @@ async function settle() {
   moving = dragging;
   const now = await draw();
   const [chosen, exact] = await backend.read();
-  const result = measure(chosen, exact, now.unit);
+  const result = measure(chosen, exact);
+  if (Math.abs(result.unit / now.unit - 1) > 0.01) {
+    // The scale of the false colours is only known now.
+    shown.unit = result.unit || now.unit;
+    await draw();
+  }
   milliseconds = { chosen: await timed("chosen", now), exact: await timed("exact", now) };
   settled = mine;
-  if (mine !== settling) return;
+  if (!state.resolution && !fast && milliseconds.chosen + milliseconds.exact < FAST) {
+    fast = true;
+    touch();
+  }
+  if (mine !== settling || shown?.generation !== generation) return;
   measured.set(shown.choices.method, result);
   report(result, now);
   document.body.dataset.state = "ready";
@@ -244,22 +260,32 @@ async function settle() {
 
 const kernelOf = (method, order) => method.kernels[order] ?? { total: 0, special: 0, name: null };
 
+/** How far the normals lean that are seen: filtered as they are from this far, at worst as they are from close by. */
+function lookAtLeans() {
+  const { normals, choices } = shown;
+  const now = size();
+  const level = Math.min(levelOf(normals.width, now.width * now.samples, state.distance), normals.levels.length - 1);
+  const of = (i) => once(`lean ${choices.normals} ${choices.strength} ${i}`, () => lean(normals.levels[i], choices.strength));
+  shown.leans = { rms: of(level).rms, most: of(0).most };
+}
+
 /** What is known of a method before it is drawn. */
 function expected(method) {
-  const { choices, leans, reflectance, light } = shown;
+  const { choices, leans, reflectance, light, unit } = shown;
   const size = index.degrees * bands();
   const at = index.methods.findIndex(({ id }) => id === method);
   return predict({
-    errors: errors.subarray(at * size, (at + 1) * size), order: choices.order, bands: bands(), leans, reflectance, light,
+    errors: errors.subarray(at * size, (at + 1) * size),
+    typical: errors.subarray((index.methods.length + at) * size, (index.methods.length + at + 1) * size),
+    order: choices.order, bands: bands(), leans, reflectance, light, unit,
   });
 }
 
 function describe() {
-  const { choices, leans } = shown;
+  const { choices } = shown;
   const { order } = choices;
   const method = row("methods", choices.method);
   const [kernel, exact] = [kernelOf(method, order), kernelOf(row("methods", "exact"), order)];
-  const plan = expected(choices.method);
   const special = kernel.special ? ` and ${kernel.special} special` : "";
   const share = Math.round(100 * (1 - kernel.total / exact.total));
   $("chosen-name").textContent = method.label;
@@ -269,9 +295,6 @@ function describe() {
   $("operations-note").textContent = kernel.name
     ? `${kernel.name}${special}${share ? `; ${share} % fewer than exact` : ""}`
     : "nothing is turned";
-  $("predicted").textContent = percent(plan.mean);
-  $("predicted-note").textContent = `mean, estimated; worst at most ${percent(plan.worst)}. `
-    + `Normals lean by ${leans.rms.toFixed(0)}° rms, ${leans.most.toFixed(0)}° at most`;
   $("law").textContent = method.law;
   $("source").href = `shaders/${programName(choices.method, order, choices.brdf)}.${backend.api === "webgpu" ? "wgsl" : "frag"}`;
   $("source").textContent = `Shader of this picture (${backend.api === "webgpu" ? "WGSL" : "GLSL"})`;
@@ -286,7 +309,12 @@ function table() {
     if (method.id === choices.method) line.setAttribute("aria-current", "true");
     const head = document.createElement("th");
     head.scope = "row";
-    head.textContent = method.label.split(":")[0];
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = method.label.split(":")[0];
+    button.setAttribute("aria-label", `Choose ${method.label}`);
+    button.addEventListener("click", () => choose("method", method.id));
+    head.append(button);
     const got = measured.get(method.id);
     const cells = [
       kernelOf(method, choices.order).total,
@@ -300,18 +328,25 @@ function table() {
     line.append(head, ...cells);
     return line;
   });
-  $("methods").tBodies[0].replaceChildren(...rows);
+  const body = $("methods").tBodies[0];
+  const focused = [...body.rows].findIndex((line) => line.contains(document.activeElement));
+  body.replaceChildren(...rows);
+  body.rows[focused]?.querySelector("button").focus();
 }
 
 function report(result, now) {
-  const { choices } = shown;
+  lookAtLeans();
+  const { choices, leans } = shown;
   const plan = expected(choices.method);
   const kernel = kernelOf(row("methods", choices.method), choices.order);
-  figures = { ...choices, ...result, predicted: plan, operations: kernel.total, milliseconds, adapter: backend.adapter, api: backend.api, width: now.width };
+  figures = { ...state, ...result, predicted: plan, operations: kernel.total, milliseconds, adapter: backend.adapter, api: backend.api, width: now.width };
+  const bound = plan.worst > 10 ? "nothing bounds the worst" : `worst at most ${percent(plan.worst)}`;
+  $("predicted").textContent = percent(plan.mean);
+  $("predicted-note").textContent = `mean, estimated; ${bound}. Normals lean by ${leans.rms.toFixed(0)}° rms, ${leans.most.toFixed(0)}° at most`;
   $("measured").textContent = percent(result.mean);
   $("measured-note").textContent = `mean; worst ${percent(result.worst)}, of ${result.pixels.toLocaleString("en")} pixels`;
-  $("time").textContent = `${milliseconds.chosen.toPrecision(2)} ms`;
-  $("time-note").textContent = `exact ${milliseconds.exact.toPrecision(2)} ms; ${now.width * now.samples} × ${now.height * now.samples}`;
+  $("time").textContent = duration(milliseconds.chosen);
+  $("time-note").textContent = `exact ${duration(milliseconds.exact)}; ${now.width * now.samples} × ${now.height * now.samples}`;
   table();
   const method = row("methods", choices.method).label;
   const text = `${method}, order ${choices.order}: ${kernel.total} operations, mean error ${percent(result.mean)}, worst ${percent(result.worst)}.`;
@@ -331,13 +366,14 @@ async function measureAll() {
 
 function say(text) {
   $("message").textContent = text;
-  if (!backend) document.body.dataset.state = "failed";
 }
 
 // ---- graphics ----
 
 /** Opens the wanted interface, or the other one with a message. */
 async function connect(wanted) {
+  generation++;
+  document.body.dataset.state = "loading";
   const order = [wanted, ...Object.keys(APIS).filter((api) => api !== wanted)];
   const reasons = [];
   const old = backend;
@@ -350,7 +386,11 @@ async function connect(wanted) {
       reasons.push(error.message);
     }
   }
-  if (backend === old) return say([...reasons, "Nothing can be drawn."].join(" "));
+  if (backend === old) {
+    say([...reasons, "Nothing can be drawn."].join(" "));
+    document.body.dataset.state = "failed";
+    return;
+  }
   shown = null;
   old?.close();
   state.api = backend.api;
@@ -407,7 +447,7 @@ function recall() {
   within("exposure", -4, 4);
   within("elevation", -85, 85);
   within("distance", 2.2, 9);
-  if (![0.5, 1, 2].includes(state.resolution)) state.resolution = FIRST.resolution;
+  if (![0, 0.5, 1, 2].includes(state.resolution)) state.resolution = FIRST.resolution;
 }
 
 function orbit(sideways, upwards) {
@@ -456,7 +496,6 @@ function listen() {
   $("rotate").addEventListener("change", () => choose("rotate", $("rotate").checked ? 1 : 0));
   $("api").addEventListener("change", () => {
     settling++;
-    document.body.dataset.state = "loading";
     connect($("api").value);
   });
   $("reset").addEventListener("click", first);
@@ -505,6 +544,7 @@ async function start() {
     index = await load("data/index.json", "json");
     [lights, errors] = (await Promise.all([bytes("data/lights.bin"), bytes("data/errors.bin")])).map((b) => new Float32Array(b));
   } catch (error) {
+    document.body.dataset.state = "failed";
     return say(error.message);
   }
   const options = { method: "methods", mesh: "meshes", brdf: "brdfs", normals: "normals", light: "maps" };

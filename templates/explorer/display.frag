@@ -56,7 +56,7 @@ void main() {
             vec4 e = texelFetch(exact, at, 0);
             vec4 c = texelFetch(chosen, at, 0);
             if (panel == 2) {
-                float error = length(c.rgb - e.rgb) / sqrt(3.0) / unit;
+                float error = length(c.rgb - e.rgb) / unit;
                 sum += e.a < 0.5 ? vec3(0.105, 0.133, 0.172) : false_colour(error);
             } else if (e.a < 0.5) {
                 sum += background((vec2(at) + 0.5) / float(samples));

@@ -60,7 +60,7 @@ fn fragment(@builtin(position) place: vec4<f32>) -> @location(0) vec4<f32> {
             let e = textureLoad(exact, at, 0);
             let c = textureLoad(chosen, at, 0);
             if (panel == 2) {
-                let error = length(c.rgb - e.rgb) / sqrt(3.0) / display.unit;
+                let error = length(c.rgb - e.rgb) / display.unit;
                 sum += select(false_colour(error), vec3<f32>(0.105, 0.133, 0.172), e.a < 0.5);
             } else if (e.a < 0.5) {
                 sum += background((vec2<f32>(at) + 0.5) / f32(display.samples));

@@ -5,6 +5,10 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 
 /** The field of view in degrees, across the picture, which is square. */
 const FIELD = 32;
+/** How many repetitions of a normal map lie on a unit length of most objects. */
+const REPEATS = 0.5;
+/** The least z of a normal in the shaders. */
+const LEAST_Z = 0.0175;
 
 /**
  * The camera around the origin, z up: `azimuth` from +x towards +y and `elevation` in degrees. Gives where the eye is,
@@ -31,10 +35,22 @@ export function camera({ azimuth, elevation, distance }) {
   return { eye, clip, right: right.map((x) => x * slope), up: up.map((x) => x * slope), back };
 }
 
-/** The rms and the largest lean of a normal map in degrees, at a strength. */
-export function lean(slopes, strength) {
-  const degrees = slopes.map((slope) => (Math.atan(strength * slope) * 180) / Math.PI);
-  return { rms: Math.sqrt(degrees.reduce((sum, x) => sum + x * x, 0) / degrees.length), most: degrees.at(-1) };
+/** The rms and the largest lean in degrees of the normals of a texture's level, (n + 1)/2 in RGBA, at a strength. */
+export function lean(texels, strength) {
+  let [sum, most] = [0, 0];
+  for (let i = 0; i < texels.length; i += 4) {
+    const [x, y, z] = [0, 1, 2].map((k) => texels[i + k] / 127.5 - 1);
+    const degrees = (Math.atan((strength * Math.hypot(x, y)) / Math.max(z, LEAST_Z)) * 180) / Math.PI;
+    sum += degrees * degrees;
+    most = Math.max(most, degrees);
+  }
+  return { rms: Math.sqrt(sum / (texels.length / 4)), most };
+}
+
+/** Which level of a normal map of `width` texels is seen at the nearest point, roughly. */
+export function levelOf(width, pixels, distance) {
+  const across = 2 * (distance - 1) * Math.tan((FIELD * Math.PI) / 360);
+  return Math.max(0, Math.floor(Math.log2((width * REPEATS * across) / pixels)));
 }
 
 /** The error of each band at a lean in degrees, between the whole degrees of a method's table. */
@@ -60,43 +76,49 @@ export function bandNorms(values, stride, bands) {
   return { most: Array.from(most, Math.sqrt), rms: Array.from(sum, (x) => Math.sqrt(x / count)) };
 }
 
-/** The norm of each band of the light in R, G and B together, over √3, and its mean radiance. */
+/** The norm of each band of the light in R, G and B together, and its mean radiance. A radiance is the norm of R, G and B. */
 export function lightOf(coefficients, bands) {
   const norms = Array.from({ length: bands }, (_, l) => {
     let square = 0;
     for (let i = 3 * l * l; i < 3 * (l + 1) * (l + 1); i++) square += coefficients[i] ** 2;
-    return Math.sqrt(square / 3);
+    return Math.sqrt(square);
   });
-  return { norms, mean: (coefficients[0] + coefficients[1] + coefficients[2]) / 3 / Math.sqrt(4 * Math.PI) };
+  return { norms, mean: norms[0] / Math.sqrt(4 * Math.PI) };
 }
 
 /**
- * What to expect of a picture, in units of the light's mean radiance. `worst` is a bound, by Cauchy and Schwarz in each
+ * What to expect of a picture, in shares of its mean radiance `unit`. `worst` is a bound, by Cauchy and Schwarz in each
  * band at the largest lean; `mean` is an estimate: in band l the error and the light are as good as independent, so that
- * their product is 1/√(2l + 1) of the bound, and bands add up as squares; at the rms lean.
+ * their product is 1/√(2l + 1) of that of their norms, and bands add up as squares; at the rms lean. `kernel` is the worst
+ * band's error at the rms and at the largest lean.
  */
-export function predict({ errors, order, bands, leans, reflectance, light }) {
-  const [typical, most] = [leans.rms, leans.most].map((degrees) => bandErrors(errors, bands, degrees).slice(0, order));
+export function predict({ errors, typical, order, bands, leans, reflectance, light, unit }) {
+  const [rms, most] = [leans.rms, leans.most].map((degrees) => bandErrors(errors, bands, degrees).slice(0, order));
+  const usual = bandErrors(typical, bands, leans.rms);
   let [square, worst] = [0, 0];
   for (let l = 1; l < order; l++) {
-    square += (typical[l] * reflectance.rms[l] * light.norms[l]) ** 2 / (2 * l + 1);
+    square += (usual[l] * reflectance.rms[l] * light.norms[l]) ** 2 / (2 * l + 1);
     worst += most[l] * reflectance.most[l] * light.norms[l];
   }
-  return { mean: Math.sqrt(square) / light.mean, worst: worst / light.mean, kernel: [typical, most].map((all) => Math.max(...all)) };
+  return { mean: Math.sqrt(square) / unit, worst: worst / unit, kernel: [rms, most].map((all) => Math.max(...all)) };
 }
 
-/** The mean and the worst error of a picture's pixels that show the object: the rms of R, G and B over `unit`. */
-export function measure(chosen, exact, unit) {
-  let [sum, worst, pixels] = [0, 0, 0];
+/**
+ * The mean and the worst error of a picture, over the pixels that show the object, in shares of the exact picture's mean
+ * radiance, which is `unit`.
+ */
+export function measure(chosen, exact) {
+  const norm = (r, g, b) => Math.sqrt(r * r + g * g + b * b);
+  let [sum, worst, radiance, pixels] = [0, 0, 0, 0];
   for (let i = 0; i < exact.length; i += 4) {
     if (exact[i + 3] < 0.5) continue;
-    const [r, g, b] = [chosen[i] - exact[i], chosen[i + 1] - exact[i + 1], chosen[i + 2] - exact[i + 2]];
-    const error = Math.sqrt((r * r + g * g + b * b) / 3) / unit;
+    const error = norm(chosen[i] - exact[i], chosen[i + 1] - exact[i + 1], chosen[i + 2] - exact[i + 2]);
     sum += error;
     worst = error > worst || Number.isNaN(error) ? error : worst;
+    radiance += norm(exact[i], exact[i + 1], exact[i + 2]);
     pixels++;
   }
-  return { mean: pixels ? sum / pixels : 0, worst, pixels };
+  return pixels ? { mean: sum / radiance, worst: (worst * pixels) / radiance, unit: radiance / pixels, pixels } : { mean: 0, worst: 0, unit: 0, pixels };
 }
 
 /** A share as a person reads it. */
@@ -106,3 +128,6 @@ export function percent(share) {
   if (value < 1e-3) return "< 0.001 %";
   return `${value >= 100 ? Math.round(value).toLocaleString("en") : value.toPrecision(2)} %`;
 }
+
+/** Milliseconds as a person reads them. */
+export const duration = (milliseconds) => `${milliseconds < 10 ? milliseconds.toPrecision(2) : Math.round(milliseconds)} ms`;

@@ -535,8 +535,86 @@ fn the_renderer_is_found_and_what_it_says_is_passed_on() {
         std::fs::create_dir(folder.path("bin")).expect("a folder");
         let other = folder.put("bin/zonal-render", "#!/bin/sh\necho \"drawn $*\"\nexit 3\n");
         std::fs::set_permissions(&other, std::fs::Permissions::from_mode(0o755)).expect("permitted");
-        let output = run(other.parent().expect("a folder"), &["render", "a.toml", "--compare", "-o", "b.png", "--help"]);
+        let output =
+            run(other.parent().expect("a folder"), &["render", "a.toml", "--compare", "-o", "b.png", "--help"]);
         assert_eq!(String::from_utf8_lossy(&output.stdout), "drawn a.toml --compare -o b.png --help\n");
         assert_eq!(output.status.code(), Some(3));
     }
+}
+
+#[test]
+fn the_explorer_refuses_a_port_that_is_taken_and_a_folder_that_cannot_be() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let port = taken.local_addr().expect("an address").port().to_string();
+    let folder = Folder::new();
+    let message = fails(&folder, &["explore", "--port", &port]);
+    assert!(message.contains(&format!("cannot serve on port {port} of 127.0.0.1")), "{message}");
+    assert!(message.contains("name another with `--port`"), "{message}");
+    folder.put("file", "in the way");
+    let message = fails(&folder, &["explore", "--no-serve", "--out", "file/page"]);
+    assert!(message.contains("cannot create `file/page`") && message.contains("may be written"), "{message}");
+    for arguments in [["--port", "99999"], ["--port", "http"]] {
+        let Run { code, err, .. } = folder.run([&["explore"], &arguments[..]].concat());
+        assert_eq!(code, Some(2), "{err}");
+        assert!(err.contains("invalid value"), "{err}");
+    }
+}
+
+/// The answer of a server to a request line: its status, its content type and its body.
+fn answer(address: &str, request: &str) -> (String, String, Vec<u8>) {
+    use std::io::Write;
+    let mut stream = std::net::TcpStream::connect(address).expect("the server listens");
+    write!(stream, "{request} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n").expect("sent");
+    let mut bytes = Vec::new();
+    stream.read_to_end(&mut bytes).expect("answered");
+    let end = bytes.windows(4).position(|window| window == b"\r\n\r\n").expect("a head");
+    let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
+    let content = head.lines().find_map(|line| line.strip_prefix("Content-Type: ")).unwrap_or("").to_owned();
+    (head.split(' ').nth(1).unwrap_or("").to_owned(), content, bytes[end + 4..].to_vec())
+}
+
+#[test]
+fn the_explorer_is_written_and_served() {
+    use std::io::{BufRead, BufReader};
+    let folder = Folder::new();
+    let mut child = Command::new(zonal())
+        .args(["explore", "--out"])
+        .arg(folder.path("page"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("runs");
+    let lines: Vec<String> =
+        BufReader::new(child.stdout.take().expect("a pipe")).lines().take(2).map(|line| line.expect("text")).collect();
+    assert!(lines[0].contains("files in `") && lines[1].ends_with("shows it; end with ctrl-c"), "{lines:?}");
+    let address = lines[1].trim_start_matches("http://").split('/').next().expect("an address").to_owned();
+    assert!(address.starts_with("127.0.0.1:"), "{address} is open to others");
+    for (path, file, content) in [
+        ("/", "index.html", "text/html; charset=utf-8"),
+        ("/style.css", "style.css", "text/css; charset=utf-8"),
+        ("/app.js?again", "app.js", "text/javascript; charset=utf-8"),
+        ("/data/index.json", "data/index.json", "application/json"),
+        ("/data/errors.bin", "data/errors.bin", "application/octet-stream"),
+        ("/shaders/5-tilt-isotropic.wgsl", "shaders/5-tilt-isotropic.wgsl", "text/plain; charset=utf-8"),
+        ("/shaders/5-tilt-isotropic.frag", "shaders/5-tilt-isotropic.frag", "text/plain; charset=utf-8"),
+    ] {
+        let (status, found, body) = answer(&address, &format!("GET {path}"));
+        assert_eq!((status.as_str(), found.as_str()), ("200", content), "{path}");
+        assert!(body == std::fs::read(folder.path("page").join(file)).expect("written"), "{path} is served otherwise");
+    }
+    for (request, status) in [
+        ("GET /../index.html", "404"),
+        ("GET /Cargo.toml", "404"),
+        ("GET //", "200"),
+        ("POST /", "405"),
+        ("HEAD /", "200"),
+    ] {
+        assert_eq!(answer(&address, request).0, status, "{request}");
+    }
+    child.kill().expect("stopped");
+    let end = child.wait_with_output().expect("ends");
+    assert_eq!(String::from_utf8_lossy(&end.stderr), "");
+    // Writing it again changes nothing: the page has no date and no path in it.
+    let Run { code, out, .. } = folder.run(["explore", "--no-serve", "--out", "page"]);
+    assert!(code == Some(0) && out.contains(" 0 of them changed"), "{out}");
 }

@@ -85,12 +85,15 @@ impl Method {
     pub fn band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
         match self.spec(order) {
             Some(spec) => accuracy::band_errors(&spec, angles),
-            // The eigenvalues of the rotation that is left out are e^{imβ}: the farthest from 1 within |m| ≤ l.
-            None => {
-                let distance = |m: usize, angle: f64| 2.0 * (0.5 * m as f64 * angle).sin().abs();
-                let band = |l: usize, angle: f64| (0..=l).map(|m| distance(m, angle)).fold(0.0, f64::max);
-                angles.iter().map(|&angle| (0..order).map(|l| band(l, angle)).collect()).collect()
-            }
+            None => left_out(order, angles, |shares| shares.iter().copied().fold(0.0, f64::max).sqrt()),
+        }
+    }
+
+    /// The same as a root mean square over all signals.
+    pub fn typical_band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
+        match self.spec(order) {
+            Some(spec) => accuracy::typical_band_errors(&spec, angles),
+            None => left_out(order, angles, |shares| (shares.iter().sum::<f64>() / shares.len() as f64).sqrt()),
         }
     }
 
@@ -114,6 +117,14 @@ impl FromStr for Method {
         let found = Self::ALL.into_iter().find(|method| method.name() == text);
         found.ok_or_else(|| format!("`{text}` is no way to turn coefficients; {}", spec::hint(text, &names)))
     }
+}
+
+/// What leaving a rotation out does to each band: its eigenvalues are e^{imβ}, and `norm` is given the squares of their
+/// distances from 1.
+fn left_out(order: usize, angles: &[f64], norm: fn(&[f64]) -> f64) -> Vec<Vec<f64>> {
+    let square = |m: isize, angle: f64| 4.0 * (0.5 * m as f64 * angle).sin().powi(2);
+    let band = |l: isize, angle: f64| norm(&(-l..=l).map(|m| square(m, angle)).collect::<Vec<f64>>());
+    angles.iter().map(|&angle| (0..order as isize).map(|l| band(l, angle)).collect()).collect()
 }
 
 /// The exact rotation from a quaternion.
@@ -345,6 +356,7 @@ mod tests {
         let program = Program::<f64>::new(&Listing::new(&crate::kernels::rotate::rotate_y(order)));
         for angle in [0.1f64, 0.5, 1.0, 1.5] {
             let errors = &Method::None.band_errors(order, &[angle])[0];
+            let typical = &Method::None.typical_band_errors(order, &[angle])[0];
             for l in 1..order {
                 let columns: Vec<Vec<f64>> = (l * l..(l + 1) * (l + 1))
                     .map(|j| {
@@ -356,6 +368,8 @@ mod tests {
                     .collect();
                 let norm = accuracy::spectral_norm(&columns);
                 assert!((errors[l] - norm).abs() < 1e-9, "{l} {angle}: {} {norm}", errors[l]);
+                let square = columns.iter().flatten().map(|x| x * x).sum::<f64>() / columns.len() as f64;
+                assert!((typical[l] - square.sqrt()).abs() < 1e-12, "{l} {angle}: {} {square}", typical[l]);
             }
         }
     }

@@ -80,6 +80,7 @@ fn answer(request: Request, assets: &[Asset]) -> std::io::Result<()> {
     let known = TYPES.iter().find(|(name, _)| *name == extension);
     let content = known.map_or("application/octet-stream", |(_, content)| content);
     let response = Response::from_data(bytes.as_slice())
+        .with_chunked_threshold(usize::MAX)
         .with_header(header("Content-Type", content))
         .with_header(header("Cache-Control", "no-cache"));
     request.respond(response)

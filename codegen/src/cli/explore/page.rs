@@ -57,7 +57,7 @@ const NORMALS: [(&str, &str); 4] = [
 const METHODS: [(Method, &str, &str); 5] = [
     (Method::Exact, "Exact", "no error but rounding"),
     (Method::Tilt, "Tilt", "bands 1 and 2 exact, band l errs by (lβ)³/24"),
-    (Method::Lf3, "Lifted shears (lf3)", "band l errs by (lβ)³/24"),
+    (Method::Lf3, "Shears (lf3)", "band l errs by (lβ)³/24"),
     (Method::Taylor15, "Taylor 1.5", "band l errs by about (lβ)²/4"),
     (Method::None, "None: simplified normal mapping", "band l errs by about lβ, for nothing is turned"),
 ];
@@ -70,8 +70,6 @@ const RAMP: [&str; 9] =
 const ORDER: usize = *ORDERS.end();
 /// Errors are given for every whole degree below this.
 const DEGREES: usize = 90;
-/// Slopes of a normal map are given at so many ranks, from the smallest to the largest.
-const RANKS: usize = 65;
 
 fn failed(error: AssetError) -> Failure {
     Diagnostic::nowhere(error.to_string(), "").into()
@@ -188,11 +186,12 @@ fn methods(functions: &[Function]) -> Vec<Value> {
         .collect()
 }
 
-/// For each method, for each degree, the error of each band.
+/// For each method, for each degree, the error of each band at worst; then all of that again as a root mean square.
 fn errors() -> Vec<f32> {
     let angles: Vec<f64> = (0..DEGREES).map(|degrees| (degrees as f64).to_radians()).collect();
-    let of = |(method, ..): &(Method, &str, &str)| method.band_errors(ORDER, &angles);
-    METHODS.par_iter().flat_map_iter(of).flatten_iter().map(|error| error as f32).collect()
+    let all = METHODS.par_iter().map(|(method, ..)| method.band_errors(ORDER, &angles));
+    let typical = METHODS.par_iter().map(|(method, ..)| method.typical_band_errors(ORDER, &angles));
+    all.chain(typical).flatten_iter().flatten_iter().map(|error| error as f32).collect()
 }
 
 fn brdfs() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
@@ -248,11 +247,9 @@ fn normals() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
             "flat" => NormalMap::flat(),
             path => NormalMap::from_bytes(path, carried(path)).map_err(failed)?,
         };
-        let slopes = map.slopes();
-        let ranks: Vec<f64> = (0..RANKS).map(|i| slopes[(slopes.len() - 1) * i / (RANKS - 1)]).collect();
         let file = format!("data/normals-{}.bin", stem(path));
         let row = json!({
-            "id": stem(path), "label": label, "width": map.width, "height": map.height, "slopes": ranks, "file": file,
+            "id": stem(path), "label": label, "width": map.width, "height": map.height, "file": file,
         });
         rows.push(row);
         files.push((file, map.levels().into_iter().flatten().flatten().collect()));
