@@ -26,7 +26,7 @@ async function* messages(stream) {
         lengths = [head.readUInt32LE(0), head.readUInt32LE(4)];
       }
       if (!lengths || size < lengths[0] + lengths[1]) break;
-      const head = JSON.parse(take(lengths[0]).toString());
+      const head = take(lengths[0]);
       yield { head, body: take(lengths[1]) };
       lengths = null;
     }
@@ -41,36 +41,35 @@ function answer(head, body = Buffer.alloc(0)) {
   return new Promise((written) => process.stdout.write(Buffer.concat([lengths, text, body]), written));
 }
 
-let inputs = Buffer.alloc(0);
-let outputs = Buffer.alloc(0);
+/** What the page fetches and what it sends: texts and numbers are too long for the pipe to the page. */
+const exchange = { "/job": Buffer.alloc(0), "/inputs": Buffer.alloc(0), "/outputs": Buffer.alloc(0) };
 
 async function routes(request, response) {
-  if (request.url === "/inputs") {
-    response.writeHead(200, { "content-type": "application/octet-stream", "cache-control": "no-store" }).end(inputs);
-    return true;
-  }
-  if (request.url === "/outputs") {
+  if (!(request.url in exchange)) return false;
+  if (request.method === "POST") {
     const parts = [];
     for await (const part of request) parts.push(part);
-    outputs = Buffer.concat(parts);
+    exchange[request.url] = Buffer.concat(parts);
     response.writeHead(204).end();
-    return true;
+  } else {
+    const head = { "content-type": "application/octet-stream", "cache-control": "no-store" };
+    response.writeHead(200, head).end(exchange[request.url]);
   }
-  return false;
+  return true;
 }
 
 const server = await serve(fileURLToPath(new URL("bench", import.meta.url)), routes);
 const browser = await launch();
 const { page, errors } = await open(browser, `${server.url}/`);
-const call = (name, argument) =>
-  page.evaluate(async ([name, argument]) => (await import("/bench.js"))[name](argument), [name, argument]);
+const call = (name) => page.evaluate(async (name) => (await import("/bench.js"))[name](), name);
 await answer({ version: browser.version(), ...(await call("names")) });
 for await (const { head, body } of messages(process.stdin)) {
-  inputs = body;
-  const error = await call("run", head).then(() => null, (error) => error.message);
-  const said = errors.splice(0);
-  if (error ?? said[0]) await answer({ error: [error, ...said].filter(Boolean).join("\n") });
-  else await answer({}, outputs);
+  exchange["/job"] = head;
+  exchange["/inputs"] = body;
+  const thrown = await call("run").then(() => [], (error) => [error.message]);
+  const error = [...thrown, ...errors.splice(0)].join("\n");
+  if (error) await answer({ error });
+  else await answer({}, exchange["/outputs"]);
 }
 await browser.close();
 await server.close();

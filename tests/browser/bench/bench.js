@@ -1,6 +1,6 @@
 // Runs one shader text over many inputs, as WebGPU or as WebGL2. A job names the text, how many cases there are, and how
-// many vectors of four numbers a case takes and gives. Its numbers are fetched from the server and what comes out is sent
-// back there, so that no number is ever written as text. Whatever a compiler refuses is thrown with its message.
+// many vectors of four numbers a case takes and gives. It is fetched from the server with its numbers, and what comes out
+// is sent back there, so that no number is ever written as text. What a compiler refuses is thrown with its message.
 
 const FLOATS = 4;
 const BYTES = 4 * FLOATS;
@@ -99,9 +99,12 @@ function webgl2(job, numbers) {
   return result.buffer;
 }
 
-/** Runs a job. */
-export async function run(job) {
-  const numbers = await (await fetch("/inputs")).arrayBuffer();
+/** Runs the job that the server has. */
+export async function run() {
+  const [job, numbers] = await Promise.all([
+    fetch("/job").then((answer) => answer.json()),
+    fetch("/inputs").then((answer) => answer.arrayBuffer()),
+  ]);
   const result = await { wgsl: webgpu, glsl: webgl2 }[job.language](job, numbers);
   await fetch("/outputs", { method: "POST", body: result });
 }
