@@ -264,8 +264,8 @@ const kernelOf = (method, order) => method.kernels[order] ?? { total: 0, special
 function lookAtLeans() {
   const { normals, choices } = shown;
   const now = size();
-  const level = Math.min(levelOf(normals.width, now.width * now.samples, state.distance), normals.levels.length - 1);
-  const of = (i) => once(`lean ${choices.normals} ${choices.strength} ${i}`, () => lean(normals.levels[i], choices.strength));
+  const level = Math.min(levelOf(index.repeats * normals.width, now.width * now.samples, state.distance), normals.levels.length - 1);
+  const of = (i) => once(`lean ${choices.normals} ${choices.strength} ${i}`, () => lean(normals.levels[i], choices.strength, index.leastZ));
   shown.leans = { rms: of(level).rms, most: of(0).most };
 }
 

@@ -5,10 +5,6 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 
 /** The field of view in degrees, across the picture, which is square. */
 const FIELD = 32;
-/** How many repetitions of a normal map lie on a unit length of most objects. */
-const REPEATS = 0.5;
-/** The least z of a normal in the shaders. */
-const LEAST_Z = 0.0175;
 
 /**
  * The camera around the origin, z up: `azimuth` from +x towards +y and `elevation` in degrees. Gives where the eye is,
@@ -35,22 +31,28 @@ export function camera({ azimuth, elevation, distance }) {
   return { eye, clip, right: right.map((x) => x * slope), up: up.map((x) => x * slope), back };
 }
 
-/** The rms and the largest lean in degrees of the normals of a texture's level, (n + 1)/2 in RGBA, at a strength. */
-export function lean(texels, strength) {
+/**
+ * The rms and the largest lean in degrees of the normals of a texture's level, (n + 1)/2 in RGBA, at a strength. Shaders
+ * take z for `leastZ` where it is less.
+ */
+export function lean(texels, strength, leastZ) {
   let [sum, most] = [0, 0];
   for (let i = 0; i < texels.length; i += 4) {
     const [x, y, z] = [0, 1, 2].map((k) => texels[i + k] / 127.5 - 1);
-    const degrees = (Math.atan((strength * Math.hypot(x, y)) / Math.max(z, LEAST_Z)) * 180) / Math.PI;
+    const degrees = (Math.atan((strength * Math.hypot(x, y)) / Math.max(z, leastZ)) * 180) / Math.PI;
     sum += degrees * degrees;
     most = Math.max(most, degrees);
   }
   return { rms: Math.sqrt(sum / (texels.length / 4)), most };
 }
 
-/** Which level of a normal map of `width` texels is seen at the nearest point, roughly. */
-export function levelOf(width, pixels, distance) {
+/**
+ * Which level of a normal map is seen at the nearest point, roughly: of `texels` a unit length, on a picture of so many
+ * pixels, from so far.
+ */
+export function levelOf(texels, pixels, distance) {
   const across = 2 * (distance - 1) * Math.tan((FIELD * Math.PI) / 360);
-  return Math.max(0, Math.floor(Math.log2((width * REPEATS * across) / pixels)));
+  return Math.max(0, Math.floor(Math.log2((texels * across) / pixels)));
 }
 
 /** The error of each band at a lean in degrees, between the whole degrees of a method's table. */

@@ -12,7 +12,7 @@ use std::io::Cursor;
 use tobj::LoadOptions;
 
 /// How many repetitions of a normal map lie on a unit length, where a file has no texture coordinates.
-const REPEATS: f64 = 0.5;
+pub const REPEATS: f64 = 0.5;
 /// Edges where faces meet at a larger angle stay sharp, where a file has no normals.
 const CREASE_DEGREES: f64 = 60.0;
 /// Each triangle of a file without normals is cut into the square of this, and rounded.

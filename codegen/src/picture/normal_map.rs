@@ -8,8 +8,9 @@ use std::io::Cursor;
 
 /// The most pixels along a side.
 const MAX_SIZE: u32 = 4096;
-/// The least z of a normal: 89 degrees. What leans further, or below the horizon, is brought up to it.
-const LEAST_Z: f64 = 0.0175;
+/// The least z of a normal: 89 degrees. What leans further, or below the horizon, is brought up to it, here and where a
+/// shader has filtered the normals of a texture.
+pub const LEAST_Z: f64 = 0.0175;
 
 /// Normals in tangent space: x along the tangent, y along the bitangent, z out of the surface.
 #[derive(Clone, Debug, PartialEq)]

@@ -16,9 +16,10 @@
 //!
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.
 
+use super::normal_map::LEAST_Z;
 use crate::accuracy;
 use crate::catalog;
-use crate::emit::dialect::{Dialect, Target};
+use crate::emit::dialect::{Dialect, Target, shader_literal};
 use crate::emit::{Function, Limit, Module, docs, results};
 use crate::graph::Kind;
 use crate::kernel::{Param, Shape};
@@ -164,6 +165,10 @@ fn render(template: &str, context: &Context) -> String {
     templates().render(template, context).expect("the context has what the template names")
 }
 
+fn number(x: f64) -> String {
+    shader_literal(x as f32)
+}
+
 fn kernels(functions: Vec<Function>, name: String, target: Target) -> Result<String, Limit> {
     let specs: Vec<String> = functions.iter().map(|function| format!("`{}`", function.spec)).collect();
     Module { name, origin: specs.join(", "), functions, constants: vec![] }.shader(target)
@@ -197,7 +202,6 @@ impl Shading {
         let chunks = values.chunks(4);
         let last = chunks.len() - 1;
         let rows = chunks.enumerate().map(|(i, row)| format!("{}{}", row.join(", "), if i < last { "," } else { "" }));
-        let number = |x: f64| crate::emit::dialect::shader_literal(x as f32);
         let mut context = Context::new();
         context.insert("head", &self.head());
         context.insert("gbuffer", &false);
@@ -211,6 +215,7 @@ impl Shading {
         context.insert("indices", &(0..size).collect::<Vec<_>>());
         context.insert("texels", &(0..size.div_ceil(4)).collect::<Vec<_>>());
         context.insert("values", &rows.collect::<Vec<_>>());
+        context.insert("least_z", &number(LEAST_Z));
         context.insert("half_pi", &number(0.5 * PI));
         context.insert("two_pi", &number(2.0 * PI));
         Ok(context)
@@ -261,6 +266,7 @@ pub fn wgsl_gbuffer() -> String {
     let mut context = Context::new();
     context.insert("head", &["What is known of a normal-mapped surface before it is shaded."]);
     context.insert("gbuffer", &true);
+    context.insert("least_z", &number(LEAST_Z));
     render("picture/shade.wgsl", &context)
 }
 
@@ -273,12 +279,12 @@ pub fn wgsl_gbuffer() -> String {
 pub fn check(function: &Function, target: Target) -> Result<String, Limit> {
     let dialect = Dialect { target, rgb: false };
     let mut places = 0..;
-    let mut number = || {
+    let mut next = || {
         let place = places.next().unwrap_or(0);
         format!("v{}.{}", place / 4, ["x", "y", "z", "w"][place % 4])
     };
     let mut argument = |param: &Param| {
-        let items: Vec<String> = (0..param.shape.len()).map(|_| number()).collect();
+        let items: Vec<String> = (0..param.shape.len()).map(|_| next()).collect();
         match param.shape {
             Shape::Scalar => items[0].clone(),
             shape => {

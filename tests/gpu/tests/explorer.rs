@@ -3,13 +3,14 @@
 
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::process::Command;
 use zonal_codegen::catalog::{ORDERS, build};
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::picture::shade::{Method, Shading};
 use zonal_codegen::spec::Spec;
 use zonal_gpu_tests::cases::{Cases, tolerance};
-use zonal_gpu_tests::system::missing;
+use zonal_gpu_tests::system::{compile, missing};
 use zonal_tests::command::{Folder, zonal};
 use zonal_tests::repository;
 
@@ -39,6 +40,14 @@ fn the_explorer_shows_what_the_kernels_do() {
     let written = Command::new(zonal()).args(["explore", "--no-serve", "--out"]).arg(page.path("")).output();
     let written = written.expect("the command starts");
     assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
+
+    // WGSL passed naga when it was written; GLSL has no other judge than this and the browser.
+    let files =
+        std::fs::read_dir(page.path("shaders")).expect("the page has shaders").flatten().map(|entry| entry.path());
+    let is_glsl = |path: &PathBuf| path.extension().is_some_and(|kind| kind == "frag" || kind == "vert");
+    let glsl: Vec<PathBuf> = files.filter(is_glsl).collect();
+    assert!(glsl.len() > 2 * Method::ALL.len() * ORDERS.count(), "only {} shaders", glsl.len());
+    compile("glslangValidator", "glslang-tools", &[], &glsl).unwrap_or_else(|error| panic!("{error}"));
 
     let functions = build(&specs());
     let cases: Vec<(&_, Cases)> = functions.iter().map(|function| (function, Cases::new(function))).collect();

@@ -11,8 +11,8 @@ use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::environment::Map;
 use zonal_codegen::picture::brdf::{Brdf, Table};
-use zonal_codegen::picture::mesh::Mesh;
-use zonal_codegen::picture::normal_map::NormalMap;
+use zonal_codegen::picture::mesh::{self, Mesh};
+use zonal_codegen::picture::normal_map::{LEAST_Z, NormalMap};
 use zonal_codegen::picture::shade::{self, Method, Shading};
 use zonal_codegen::picture::{AssetError, assets};
 use zonal_codegen::spec::Spec;
@@ -117,6 +117,8 @@ pub fn assets(bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
         "maps": maps,
         "checks": functions.iter().map(check_of).collect::<Vec<_>>(),
         "degrees": DEGREES,
+        "repeats": mesh::REPEATS,
+        "leastZ": LEAST_Z,
         "ramp": RAMP,
     });
     all.push(("data/index.json".to_owned(), index.to_string().into_bytes()));
