@@ -20,6 +20,8 @@ const FIRST = {
 const FAST = 3;
 /** Pictures that take longer are drawn coarser while they move. */
 const SLOW = 40;
+/** How long a picture moves, in milliseconds, before it is measured again. */
+const GLANCE = 700;
 
 /** All choices, also those in the address after `#`. */
 const state = { ...FIRST };
@@ -30,7 +32,12 @@ const load = (path, kind) => fetch(path).then((answer) => {
 });
 const cached = new Map();
 const once = (key, make) => {
-  if (!cached.has(key)) cached.set(key, make());
+  if (!cached.has(key)) {
+    const made = make();
+    cached.set(key, made);
+    // What failed may be tried again.
+    made.catch?.(() => cached.delete(key));
+  }
   return cached.get(key);
 };
 const shader = (name) => once(name, () => load(`shaders/${name}`, "text"));
@@ -53,6 +60,8 @@ let figures = null;
 let waiting = [];
 /** What was measured of each method since anything else was changed. */
 let measured = new Map();
+/** When a picture that moves was last measured. */
+let glanced = 0;
 let milliseconds = { chosen: 0, exact: 0 };
 let fast = false;
 
@@ -212,10 +221,18 @@ function tick(now) {
     dirty = false;
     rest = performance.now() + (state.rotate ? 600 : 120);
     if (moving) $("time-note").textContent = `one frame every ${Math.max(passed, 1).toFixed(0)} ms while it moves`;
-    work(draw);
+    work(state.rotate && performance.now() > glanced + GLANCE ? glance : draw);
   } else if (settled !== settling && shown.generation === generation && performance.now() > rest) {
     work(settle);
   }
+}
+
+/** Draws and measures the errors of a picture that moves; its time only once it rests. */
+async function glance() {
+  const now = await draw();
+  const result = measure(...(await backend.read()));
+  glanced = performance.now();
+  if (shown?.generation === generation) report(result, now);
 }
 
 /** How long a picture takes, in milliseconds: repeated until the clock can tell. */
@@ -434,6 +451,7 @@ function remember() {
 
 /** Takes over what the address says, as far as it makes sense. */
 function recall() {
+  Object.assign(state, FIRST);
   const lists = { method: "methods", mesh: "meshes", brdf: "brdfs", normals: "normals", light: "maps" };
   for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
     if (!(key in FIRST)) continue;
@@ -527,6 +545,12 @@ function listen() {
     steps[event.key]();
   });
   new ResizeObserver(touch).observe(panels[0]);
+  addEventListener("hashchange", () => {
+    recall();
+    show();
+    settling++;
+    return state.api === backend?.api ? apply() : connect(state.api);
+  });
 }
 
 /** Resolves with the figures once the pictures follow the choices and are measured. */

@@ -157,7 +157,10 @@ export async function open(files) {
 
     /** A program by the name of its shader, compiled once. */
     program(name) {
-      if (!programs.has(name)) programs.set(name, files(`${name}.frag`).then((text) => link(vertex, text)));
+      if (!programs.has(name)) {
+        programs.set(name, files(`${name}.frag`).then((text) => link(vertex, text)));
+        programs.get(name).catch(() => programs.delete(name));
+      }
       return programs.get(name);
     },
 

@@ -182,7 +182,10 @@ export async function open(files) {
     /** A program by the name of its shader, compiled once. */
     program(name) {
       const depthStencil = { format: DEPTH, depthWriteEnabled: true, depthCompare: "less" };
-      if (!programs.has(name)) programs.set(name, pipeline(name, "shade", FLOAT, vertexBuffers, depthStencil));
+      if (!programs.has(name)) {
+        programs.set(name, pipeline(name, "shade", FLOAT, vertexBuffers, depthStencil));
+        programs.get(name).catch(() => programs.delete(name));
+      }
       return programs.get(name);
     },
 

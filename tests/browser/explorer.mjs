@@ -170,8 +170,10 @@ async function controls(page) {
   seen.reset = await act(page, () => page.click("#reset"));
   seen.home = apart(start, await pixels(page, "chosen"));
 
+  const note = await page.textContent("#measured-note");
   await page.check("#rotate");
-  await page.waitForTimeout(900);
+  await page.waitForFunction((old) => document.getElementById("measured-note").textContent !== old, note);
+  await page.waitForTimeout(500);
   await page.uncheck("#rotate");
   seen.rotated = (await ready(page)).azimuth;
   await act(page, () => page.click("#reset"));
@@ -198,6 +200,8 @@ async function controls(page) {
   }
   seen.unreached = ids.filter((id) => !reached.has(id));
 
+  await act(page, () => page.evaluate(() => { location.hash += "&order=3"; }));
+  seen.typed = await page.inputValue("#order");
   seen.address = await page.evaluate(() => location.hash);
   await page.reload();
   await page.waitForFunction(() => document.body.dataset.state === "ready");

@@ -31,14 +31,13 @@ const PAGE: [(&str, &str); 8] = [
 ];
 
 /// The reflectances to choose from.
-const BRDFS: [(&str, &str); 7] = [
+const BRDFS: [(&str, &str); 6] = [
     ("lambert", "Lambert"),
     ("phong:8", "Phong, exponent 8"),
     ("phong:30", "Phong, exponent 30"),
     ("ward:0.4", "Ward, roughness 0.4"),
     ("ward:0.25", "Ward, roughness 0.25"),
     ("ward:0.2:0.6", "Ward, brushed: 0.2 along, 0.6 across"),
-    ("ward:0.6:0.2", "Ward, brushed: 0.6 along, 0.2 across"),
 ];
 
 /// The objects; the two that are no files come first.
