@@ -332,8 +332,8 @@ mod tests {
         {
             let most = texel.iter().copied().fold(0.0, f64::max);
             for (got, want) in back(shared_exponent(texel)).into_iter().zip(texel) {
-                // Half a step of the smallest exponent, or of nine bits under the largest colour.
-                let tolerance = (most / 511.0 / 2.0 * 1.01).max(1.0 / f64::from(1 << 25));
+                // Half a step: of the smallest exponent, or of a largest mantissa from 255.5, rounded up, to 511.
+                let tolerance = (most / 255.5 / 2.0).max(1.0 / f64::from(1 << 25));
                 assert!((got - want.min(65408.0)).abs() <= tolerance, "{texel:?}: {got}");
             }
         }
