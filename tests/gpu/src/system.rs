@@ -1,4 +1,4 @@
-//! What has to be installed: two software Vulkan drivers and the compilers. What is missing is an error that says how to
+//! What has to be installed: two software Vulkan drivers, compilers and Node. What is missing is an error that says how to
 //! get it; nothing is skipped.
 
 use std::path::{Path, PathBuf};
@@ -48,6 +48,10 @@ pub fn environment() -> Result<Vec<(&'static str, String)>, String> {
         VULKAN.iter().map(|driver| Ok(driver.manifest()?.display().to_string())).collect();
     let manifests = manifests?.join(":");
     let mut all = vec![("VK_ICD_FILENAMES", manifests.clone()), ("VK_DRIVER_FILES", manifests)];
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // Mesa only wants to hear of a folder.
+        all.push(("XDG_RUNTIME_DIR", std::env::temp_dir().display().to_string()));
+    }
     all.extend(LAVAPIPE.map(|(name, value)| (name, value.to_owned())));
     Ok(all)
 }
