@@ -283,7 +283,7 @@ function lookAtLeans() {
   const now = size();
   const level = Math.min(levelOf(index.repeats * normals.width, now.width * now.samples, state.distance), normals.levels.length - 1);
   const of = (i) => once(`lean ${choices.normals} ${choices.strength} ${i}`, () => lean(normals.levels[i], choices.strength, index.leastZ));
-  shown.leans = { rms: of(level).rms, most: of(0).most };
+  shown.leans = { ...of(level), most: of(0).most };
 }
 
 /** What is known of a method before it is drawn. */

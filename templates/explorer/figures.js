@@ -32,27 +32,29 @@ export function camera({ azimuth, elevation, distance }) {
 }
 
 /**
- * The rms and the largest lean in degrees of the normals of a texture's level, (n + 1)/2 in RGBA, at a strength. Shaders
+ * The rms and the largest lean in degrees, and the share of each whole degree, of the normals of a texture's level, (n + 1)/2 in RGBA, at a strength. Shaders
  * take z for `leastZ` where it is less.
  */
 export function lean(texels, strength, leastZ) {
   let [sum, most] = [0, 0];
+  const shares = new Float64Array(91);
   for (let i = 0; i < texels.length; i += 4) {
     const [x, y, z] = [0, 1, 2].map((k) => texels[i + k] / 127.5 - 1);
     const degrees = (Math.atan((strength * Math.hypot(x, y)) / Math.max(z, leastZ)) * 180) / Math.PI;
     sum += degrees * degrees;
     most = Math.max(most, degrees);
+    shares[Math.round(degrees)] += 4 / texels.length;
   }
-  return { rms: Math.sqrt(sum / (texels.length / 4)), most };
+  return { rms: Math.sqrt(sum / (texels.length / 4)), most, shares };
 }
 
 /**
- * Which level of a normal map is seen at the nearest point, roughly: of `texels` a unit length, on a picture of so many
- * pixels, from so far.
+ * Which level of a normal map most of the object shows: of `texels` a unit length, on a picture of so many pixels, from so
+ * far; surfaces that are seen aslant add half a level.
  */
 export function levelOf(texels, pixels, distance) {
-  const across = 2 * (distance - 1) * Math.tan((FIELD * Math.PI) / 360);
-  return Math.max(0, Math.floor(Math.log2((texels * across) / pixels)));
+  const across = 2 * distance * Math.tan((FIELD * Math.PI) / 360);
+  return Math.max(0, Math.round(0.5 + Math.log2((texels * across) / pixels)));
 }
 
 /** The error of each band at a lean in degrees, between the whole degrees of a method's table. */
@@ -91,18 +93,21 @@ export function lightOf(coefficients, bands) {
 /**
  * What to expect of a picture, in shares of its mean radiance `unit`. `worst` is a bound, by Cauchy and Schwarz in each
  * band at the largest lean; `mean` is an estimate: in band l the error and the light are as good as independent, so that
- * their product is 1/√(2l + 1) of that of their norms, and bands add up as squares; at the rms lean. `kernel` is the worst
+ * their product is 1/√(2l + 1) of that of their norms, and bands add up as squares; averaged over the leans that are seen. `kernel` is the worst
  * band's error at the rms and at the largest lean.
  */
 export function predict({ errors, typical, order, bands, leans, reflectance, light, unit }) {
   const [rms, most] = [leans.rms, leans.most].map((degrees) => bandErrors(errors, bands, degrees).slice(0, order));
-  const usual = bandErrors(typical, bands, leans.rms);
-  let [square, worst] = [0, 0];
-  for (let l = 1; l < order; l++) {
-    square += (usual[l] * reflectance.rms[l] * light.norms[l]) ** 2 / (2 * l + 1);
-    worst += most[l] * reflectance.most[l] * light.norms[l];
-  }
-  return { mean: Math.sqrt(square) / unit, worst: worst / unit, kernel: [rms, most].map((all) => Math.max(...all)) };
+  let [mean, worst] = [0, 0];
+  leans.shares.forEach((share, degrees) => {
+    if (share === 0) return;
+    const error = bandErrors(typical, bands, degrees);
+    let square = 0;
+    for (let l = 1; l < order; l++) square += (error[l] * reflectance.rms[l] * light.norms[l]) ** 2 / (2 * l + 1);
+    mean += share * Math.sqrt(square);
+  });
+  for (let l = 1; l < order; l++) worst += most[l] * reflectance.most[l] * light.norms[l];
+  return { mean: mean / unit, worst: worst / unit, kernel: [rms, most].map((all) => Math.max(...all)) };
 }
 
 /**

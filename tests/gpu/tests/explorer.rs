@@ -158,10 +158,10 @@ fn methods(seen: &Value) {
         let (mean, worst) = (number(&figures["mean"]), number(&figures["worst"]));
         let (estimate, bound) = (number(&figures["predicted"]["mean"]), number(&figures["predicted"]["worst"]));
         assert!(worst >= mean && worst <= bound, "{method}: a worst error of {worst} over the bound {bound}");
-        // The estimate takes errors and light for independent; a picture of some thousand pixels obeys it within a
-        // small factor, which the filtered normal map widens: the small picture shows less relief than the map has.
+        // The estimate takes errors and light for independent, and one level of the normal map for what is seen: on
+        // several scenes it was 2 to 6 times too high, more on a picture as small as this.
         let ratio = mean / estimate;
-        assert!(method == Method::Exact || (0.02..3.0).contains(&ratio), "{method}: {mean} against {estimate}");
+        assert!(method == Method::Exact || (0.05..1.5).contains(&ratio), "{method}: {mean} against {estimate}");
     }
     let mean = |method: Method| number(&seen["methods"][method.name()]["mean"]);
     assert_eq!(number(&seen["methods"]["exact"]["worst"]), 0.0, "exact minus exact is not zero");
