@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The whole test command: format, lints, every test, the fixture crate, documentation. It stops at the first failure.
+# The whole test command: packages, format, lints, every test, the fixture crate, documentation. It stops at the first
+# failure, and says before each part how many seconds have gone.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-step() { printf '\n== %s\n' "$1"; }
+step() { printf '\n== %s (%d s)\n' "$1" "$SECONDS"; }
 
 command -v cargo >/dev/null || {
     echo "cargo is missing: install a Rust toolchain from https://rustup.rs, then run this again" >&2
@@ -13,6 +14,8 @@ for part in rustfmt clippy; do
     cargo "${part/rustfmt/fmt}" --version >/dev/null 2>&1 || rustup component add "$part"
 done
 
+step "packages"
+tests/install.sh
 step "format"
 cargo fmt --all --check
 step "lints"
@@ -20,8 +23,7 @@ cargo clippy --quiet --workspace --all-targets --features zonal-codegen/cli -- -
 step "runtime without std"
 cargo check --quiet -p zonal --no-default-features --features libm
 step "tests"
-# The bench on real drivers (tests/gpu) is still being built and is run by hand: cargo test -p zonal-gpu-tests
-cargo test --workspace --exclude zonal-gpu-tests --features zonal-codegen/cli --no-fail-fast
+cargo test --workspace --features zonal-codegen/cli --no-fail-fast
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps --features zonal-codegen/cli
 step "everything passed"

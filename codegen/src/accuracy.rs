@@ -201,6 +201,17 @@ pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
 
 /// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it.
 pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
+    band_norms(spec, angles, spectral_norm)
+}
+
+/// The same as a root mean square: over all signals whose bands have norm one, not for the worst of them.
+pub fn typical_band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
+    band_norms(spec, angles, |columns| {
+        (columns.iter().flatten().map(|x| x * x).sum::<f64>() / columns.len() as f64).sqrt()
+    })
+}
+
+fn band_norms(spec: &Spec, angles: &[f64], norm: fn(&[Vec<f64>]) -> f64) -> Vec<Vec<f64>> {
     let order = spec.order;
     let approximate = match &spec.family {
         Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => about_y(order, methods),
@@ -232,7 +243,7 @@ pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
             let band = |l: usize| -> Vec<Vec<f64>> {
                 columns[..2 * l + 1].iter().map(|column| column[l * l..(l + 1) * (l + 1)].to_vec()).collect()
             };
-            (0..order).map(|l| spectral_norm(&band(l))).collect()
+            (0..order).map(|l| norm(&band(l))).collect()
         })
         .collect()
 }

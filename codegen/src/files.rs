@@ -72,8 +72,18 @@ impl std::fmt::Display for Difference {
 ///
 /// If a path leads out of the folder or the file system refuses.
 pub fn write(folder: &Path, files: &[File]) -> Result<usize, FileError> {
-    if let Some(file) = files.iter().find(|file| !stays_inside(&file.path)) {
-        return Err(FileError::Outside(file.path.clone()));
+    let files: Vec<(&str, &[u8])> = files.iter().map(|file| (file.path.as_str(), file.text.as_bytes())).collect();
+    write_below(folder, &files)
+}
+
+/// The same for files that need not be text: paths below the folder, with `/`, and bytes.
+///
+/// # Errors
+///
+/// As [`write()`].
+pub fn write_below(folder: &Path, files: &[(&str, &[u8])]) -> Result<usize, FileError> {
+    if let Some((path, _)) = files.iter().find(|(path, _)| !stays_inside(path)) {
+        return Err(FileError::Outside((*path).to_owned()));
     }
     let mut staged: Vec<(PathBuf, PathBuf)> = Vec::new();
     let mut result = stage(folder, files, &mut staged);
@@ -86,11 +96,11 @@ pub fn write(folder: &Path, files: &[File]) -> Result<usize, FileError> {
     result.map(|()| staged.len())
 }
 
-fn stage(folder: &Path, files: &[File], staged: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), FileError> {
+fn stage(folder: &Path, files: &[(&str, &[u8])], staged: &mut Vec<(PathBuf, PathBuf)>) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(io_error("create", folder))?;
-    for file in files {
-        let place = folder.join(&file.path);
-        if fs::read(&place).is_ok_and(|text| text == file.text.as_bytes()) {
+    for &(path, bytes) in files {
+        let place = folder.join(path);
+        if fs::read(&place).is_ok_and(|old| old == bytes) {
             continue;
         }
         if place.is_dir() {
@@ -101,7 +111,7 @@ fn stage(folder: &Path, files: &[File], staged: &mut Vec<(PathBuf, PathBuf)>) ->
         let name = place.file_name().unwrap_or_default().to_string_lossy();
         let temporary = parent.join(format!(".{name}.{}.tmp", std::process::id()));
         staged.push((temporary.clone(), place));
-        fs::write(&temporary, &file.text).map_err(io_error("write", &temporary))?;
+        fs::write(&temporary, bytes).map_err(io_error("write", &temporary))?;
     }
     Ok(())
 }

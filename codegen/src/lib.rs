@@ -36,6 +36,8 @@ pub mod catalog;
 pub mod choose;
 pub mod code;
 pub mod diagnostic;
+#[cfg(feature = "cli")]
+pub mod drawn;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;
@@ -47,6 +49,8 @@ pub mod kernels;
 pub mod law;
 pub mod listing;
 pub mod names;
+#[cfg(feature = "picture")]
+pub mod picture;
 pub mod plan;
 pub mod program;
 pub mod samples;

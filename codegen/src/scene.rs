@@ -30,7 +30,29 @@
 //! precision = "f32"                   # if left out; or "f16" (WGSL alone), or "auto": f16 where the error allows it
 //! rgb = true
 //! name = "bump"                       # optional
+//!
+//! [brdf]                              # for pictures, see below; what [`crate::picture`] draws
+//! kind = "ward"                       # or "phong" with an `exponent`, or "lambert" alone
+//! alpha = [0.2, 0.6]                  # the roughness along the tangent and across it, or one number
+//!
+//! [picture]
+//! mesh = "meshes/teapot.obj"          # beside the scene file; or "sphere" or "plane"
+//! normals = "normals/0003.webp"       # optional
+//! strength = 1.0                      # of the normal map: a factor for its slopes; this if left out
+//! size = [960, 540]                   # this if left out
+//! method = "tilt"                     # if left out, what was chosen for the first rotation of the kind "tilt"
+//! order = 5                           # if left out, the environment's
+//! azimuth = 0                         # of the camera, which looks at the middle of the object, in degrees
+//! elevation = 15                      # in degrees
+//! distance = 4                        # in radii of the object
+//! field = 30                          # of view from bottom to top, in degrees
+//! exposure = 0                        # in stops
 //! ```
+//!
+//! Without the feature `picture` of this crate, these last two tables are skipped.
+
+#[cfg(feature = "picture")]
+pub mod picture;
 
 use crate::choose::{Norm, Precision, Turn};
 use crate::diagnostic::{Diagnostic, Place, Source};
@@ -40,6 +62,7 @@ use crate::spec::{self, MAX_ORDER, MIN_ORDER};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
 use serde_spanned::Spanned;
+use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -146,6 +169,12 @@ pub struct Scene {
     pub kernels: Vec<Wanted>,
     /// The rotations by error.
     pub rotations: Vec<Rotation>,
+    /// What the surface reflects.
+    #[cfg(feature = "picture")]
+    pub brdf: Option<crate::picture::brdf::Brdf>,
+    /// What a picture shows.
+    #[cfg(feature = "picture")]
+    pub picture: Option<picture::Picture>,
     /// Where the maps are.
     pub maps: Maps,
 }
@@ -162,6 +191,18 @@ struct Manifest {
     kernel: Vec<KernelTable>,
     #[serde(default)]
     rotation: Vec<RotationTable>,
+    #[cfg_attr(not(feature = "picture"), expect(dead_code))]
+    brdf: Option<tables::Brdf>,
+    #[cfg_attr(not(feature = "picture"), expect(dead_code))]
+    picture: Option<tables::Picture>,
+}
+
+/// What pictures are made from.
+mod tables {
+    #[cfg(feature = "picture")]
+    pub(super) use super::picture::{BrdfTable as Brdf, PictureTable as Picture};
+    #[cfg(not(feature = "picture"))]
+    pub(super) use serde::de::{IgnoredAny as Brdf, IgnoredAny as Picture};
 }
 
 #[derive(Deserialize)]
@@ -292,6 +333,10 @@ impl Scene {
             environment: None,
             kernels: vec![],
             rotations: vec![],
+            #[cfg(feature = "picture")]
+            brdf: None,
+            #[cfg(feature = "picture")]
+            picture: None,
             maps: Maps::Folder(PathBuf::new()),
         }
     }
@@ -367,7 +412,31 @@ impl Scene {
                 name: table.name.map(|name| locate.at(name)),
             });
         }
+        #[cfg(feature = "picture")]
+        {
+            scene.brdf = manifest.brdf.map(|table| picture::brdf(&locate, table)).transpose()?;
+            scene.picture = manifest.picture.map(|table| picture::picture(&locate, table)).transpose()?;
+        }
         Ok(scene)
+    }
+
+    /// The bytes of a file that the scene names, beside the scene or in memory.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be read.
+    pub fn bytes(&self, file: &Located<String>) -> Result<Cow<'static, [u8]>, Diagnostic> {
+        let read = match &self.maps {
+            Maps::Folder(folder) => std::fs::read(folder.join(&file.value)).map(Cow::Owned),
+            Maps::Embedded(files) => match files.iter().find(|(known, _)| *known == file.value) {
+                Some((_, bytes)) => Ok(Cow::Borrowed(*bytes)),
+                None => Err(std::io::ErrorKind::NotFound.into()),
+            },
+        };
+        read.map_err(|error| {
+            let message = format!("{}: cannot be read ({error})", file.value);
+            Diagnostic::at(&file.place, message, "check the path, which is relative to the scene")
+        })
     }
 }
 

@@ -97,6 +97,36 @@ fn orders_out_of_range_are_refused() {
 }
 
 #[test]
+fn what_no_picture_can_be_made_of_is_refused() {
+    let brdf = |table: &str, place: &str, parts: &[&str]| {
+        refused(&format!("name = \"a\"\n[brdf]\n{table}\n"), place, parts);
+    };
+    brdf("kind = \"phnog\"", "3:8", &["unknown variant `phnog`", "did you mean `phong`?"]);
+    brdf("exponent = 2", "2:1", &["missing field `kind`"]);
+    brdf("kind = \"phong\"", "3:8", &["needs its `exponent`", "add `exponent = 20`"]);
+    brdf("kind = \"phong\"\nexponent = 0", "4:12", &["an exponent of 0 is out of range", "from 1 to 1000"]);
+    brdf("kind = \"lambert\"\nexponent = 3", "4:12", &["has no `exponent`", "leave it out"]);
+    brdf("kind = \"ward\"\nalpha = [0.2, nan]", "4:9", &["a roughness of NaN is out of range", "from 0.05 to 1"]);
+    brdf("kind = \"ward\"\nalpha = [0.2]", "4:9", &["expected a number or two"]);
+    let picture = |line: &str, column: &str, parts: &[&str]| {
+        let scene = format!("name = \"a\"\n[picture]\nmesh = \"sphere\"\n{line}\n");
+        refused(&scene, &format!("4:{column}"), parts);
+    };
+    picture("nromals = \"a.png\"", "1", &["`nromals`", "did you mean `normals`?"]);
+    picture("size = [0, 540]", "8", &["0 by 540 pixels is out of range", "from 1 to 4096"]);
+    picture("size = [960, 5400000000]", "8", &["960 by 5400000000 pixels is out of range"]);
+    picture("size = [960, -1]", "14", &["integer `-1`"]);
+    picture("order = 17", "9", &["order 17 is out of range: orders are 2 to 16"]);
+    picture("method = \"tlit\"", "10", &["unknown variant `tlit`", "did you mean `tilt`?"]);
+    picture("strength = inf", "12", &["a strength of inf is out of range", "from 0 to 10"]);
+    picture("elevation = 90", "13", &["an elevation in degrees of 90 is out of range"]);
+    picture("distance = 1", "12", &["a distance in radii of the object of 1 is out of range"]);
+    picture("field = 180", "9", &["a field of view in degrees of 180 is out of range"]);
+    picture("exposure = 1e9", "12", &["an exposure in stops of 1000000000 is out of range"]);
+    refused("name = \"a\"\n[picture]\nsize = [1, 1]\n", "2:1", &["missing field `mesh`"]);
+}
+
+#[test]
 fn unknown_methods_are_refused() {
     refused(
         "name = \"a\"\n[[kernel]]\nspec = \"rotat:5\"\n",
@@ -483,4 +513,108 @@ fn a_catalogue_is_checked_and_never_eats_other_files() {
     assert!(err.contains("run `zonal catalog --dir .`"), "{err}");
     let message = fails(&folder, &["catalog", "--dir", "."]);
     assert!(message.contains("zonal did not write its `notes.txt`"), "{message}");
+}
+
+#[test]
+fn the_renderer_is_found_and_what_it_says_is_passed_on() {
+    let folder = Folder::new();
+    // Alone in a folder, so that no renderer is beside it.
+    let alone = folder.path("zonal");
+    std::fs::copy(zonal(), &alone).expect("copied");
+    let run = |path: &std::path::Path, arguments: &[&str]| {
+        Command::new(&alone).env("PATH", path).args(arguments).output().expect("the command starts")
+    };
+    let output = run(&folder.path("nowhere"), &["render", "a.toml"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    for part in ["`zonal-render` is neither", "cargo install zonal-render", "cargo render"] {
+        assert!(message.contains(part), "{message}");
+    }
+    if cfg!(unix) {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::create_dir(folder.path("bin")).expect("a folder");
+        let other = folder.put("bin/zonal-render", "#!/bin/sh\necho \"drawn $*\"\nexit 3\n");
+        std::fs::set_permissions(&other, std::fs::Permissions::from_mode(0o755)).expect("permitted");
+        let output =
+            run(other.parent().expect("a folder"), &["render", "a.toml", "--compare", "-o", "b.png", "--help"]);
+        assert_eq!(String::from_utf8_lossy(&output.stdout), "drawn a.toml --compare -o b.png --help\n");
+        assert_eq!(output.status.code(), Some(3));
+    }
+}
+
+#[test]
+fn the_explorer_refuses_a_port_that_is_taken_and_a_folder_that_cannot_be() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let port = taken.local_addr().expect("an address").port().to_string();
+    let folder = Folder::new();
+    let message = fails(&folder, &["explore", "--port", &port]);
+    assert!(message.contains(&format!("cannot serve on port {port} of 127.0.0.1")), "{message}");
+    assert!(message.contains("name another with `--port`"), "{message}");
+    folder.put("file", "in the way");
+    let message = fails(&folder, &["explore", "--no-serve", "--out", "file/page"]);
+    assert!(message.contains("cannot create `file/page`") && message.contains("may be written"), "{message}");
+    for arguments in [["--port", "99999"], ["--port", "http"]] {
+        let Run { code, err, .. } = folder.run([&["explore"], &arguments[..]].concat());
+        assert_eq!(code, Some(2), "{err}");
+        assert!(err.contains("invalid value"), "{err}");
+    }
+}
+
+/// The answer of a server to a request line: its status, its content type and its body.
+fn answer(address: &str, request: &str) -> (String, String, Vec<u8>) {
+    use std::io::Write;
+    let mut stream = std::net::TcpStream::connect(address).expect("the server listens");
+    write!(stream, "{request} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n").expect("sent");
+    let mut bytes = Vec::new();
+    stream.read_to_end(&mut bytes).expect("answered");
+    let end = bytes.windows(4).position(|window| window == b"\r\n\r\n").expect("a head");
+    let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
+    let content = head.lines().find_map(|line| line.strip_prefix("Content-Type: ")).unwrap_or("").to_owned();
+    (head.split(' ').nth(1).unwrap_or("").to_owned(), content, bytes[end + 4..].to_vec())
+}
+
+#[test]
+fn the_explorer_is_written_and_served() {
+    use std::io::{BufRead, BufReader};
+    let folder = Folder::new();
+    let mut child = Command::new(zonal())
+        .args(["explore", "--out"])
+        .arg(folder.path("page"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("runs");
+    let lines: Vec<String> =
+        BufReader::new(child.stdout.take().expect("a pipe")).lines().take(2).map(|line| line.expect("text")).collect();
+    assert!(lines[0].contains("files in `") && lines[1].ends_with("shows it; end with ctrl-c"), "{lines:?}");
+    let address = lines[1].trim_start_matches("http://").split('/').next().expect("an address").to_owned();
+    assert!(address.starts_with("127.0.0.1:"), "{address} is open to others");
+    for (path, file, content) in [
+        ("/", "index.html", "text/html; charset=utf-8"),
+        ("/style.css", "style.css", "text/css; charset=utf-8"),
+        ("/app.js?again", "app.js", "text/javascript; charset=utf-8"),
+        ("/data/index.json", "data/index.json", "application/json"),
+        ("/data/errors.bin", "data/errors.bin", "application/octet-stream"),
+        ("/shaders/5-tilt-isotropic.wgsl", "shaders/5-tilt-isotropic.wgsl", "text/plain; charset=utf-8"),
+        ("/shaders/5-tilt-isotropic.frag", "shaders/5-tilt-isotropic.frag", "text/plain; charset=utf-8"),
+    ] {
+        let (status, found, body) = answer(&address, &format!("GET {path}"));
+        assert_eq!((status.as_str(), found.as_str()), ("200", content), "{path}");
+        assert!(body == std::fs::read(folder.path("page").join(file)).expect("written"), "{path} is served otherwise");
+    }
+    for (request, status) in [
+        ("GET /../index.html", "404"),
+        ("GET /Cargo.toml", "404"),
+        ("GET //", "200"),
+        ("POST /", "405"),
+        ("HEAD /", "200"),
+    ] {
+        assert_eq!(answer(&address, request).0, status, "{request}");
+    }
+    child.kill().expect("stopped");
+    let end = child.wait_with_output().expect("ends");
+    assert_eq!(String::from_utf8_lossy(&end.stderr), "");
+    // Writing it again changes nothing: the page has no date and no path in it.
+    let Run { code, out, .. } = folder.run(["explore", "--no-serve", "--out", "page"]);
+    assert!(code == Some(0) && out.contains(" 0 of them changed"), "{out}");
 }

@@ -1,18 +1,20 @@
 //! The command line: its arguments, and how what goes wrong is shown.
 
 mod commands;
+mod explore;
+mod render;
 mod vectors;
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressFinish};
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
-use std::fmt;
-use std::io::{self, IsTerminal, Write};
+use std::ffi::OsString;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 use zonal_codegen::builder::Error;
 use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::drawn::draw;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::spec::{Spec, family_names};
 
@@ -90,6 +92,28 @@ enum Command {
         #[arg(long, default_value_t = 1)]
         seed: u64,
     },
+    /// Writes a page that shows the kernels at work, and serves it to this machine.
+    ///
+    /// A normal-mapped object under an environment map, in WebGL2 or WebGPU: the chosen way to turn coefficients beside
+    /// the exact one and their difference, with costs, errors and times.
+    Explore {
+        /// The folder to write to, instead of `zonal-out/explorer`.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// The port on 127.0.0.1; 0 takes one that is free.
+        #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "no_serve")]
+        port: u16,
+        /// Only writes.
+        #[arg(long)]
+        no_serve: bool,
+    },
+    /// Draws the picture of a scene, or a comparison: `zonal render --help`.
+    #[command(disable_help_flag = true)]
+    Render {
+        /// What `zonal-render` takes.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
     /// Writes the standard catalogue, or checks it.
     Catalog {
         /// Writes nothing; fails if a file is stale, missing or orphaned.
@@ -105,6 +129,8 @@ enum Command {
 enum Failure {
     /// Something is wrong, and this says what.
     Shown(Diagnostic),
+    /// Another program told what is wrong, and ended with this code.
+    Told(u8),
     /// Nobody reads the output any more.
     Closed,
 }
@@ -164,66 +190,6 @@ fn spec_of(text: &str) -> Result<Spec, Failure> {
     text.parse().map_err(|error| Diagnostic::of_spec("SPEC", text, error).into())
 }
 
-/// A diagnostic as miette draws it.
-struct Drawn<'a> {
-    diagnostic: &'a Diagnostic,
-    source: Option<NamedSource<String>>,
-}
-
-impl<'a> Drawn<'a> {
-    fn new(diagnostic: &'a Diagnostic) -> Self {
-        let source =
-            diagnostic.place.as_ref().map(|place| NamedSource::new(&place.source.name, place.source.text.clone()));
-        Self { diagnostic, source }
-    }
-}
-
-impl fmt::Display for Drawn<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.diagnostic.message)
-    }
-}
-
-impl fmt::Debug for Drawn<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Drawn<'_> {}
-
-impl miette::Diagnostic for Drawn<'_> {
-    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
-        (!self.diagnostic.help.is_empty()).then(|| Box::new(&self.diagnostic.help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let place = self.diagnostic.place.as_ref()?;
-        // Of a fault that spans lines the first is enough.
-        let line = place.text().lines().next().unwrap_or("").len();
-        let label = LabeledSpan::underline((place.span.start, line));
-        Some(Box::new(std::iter::once(label)))
-    }
-}
-
-fn draw(diagnostic: &Diagnostic) -> String {
-    let mut theme = match io::stderr().is_terminal() {
-        true => GraphicalTheme::default(),
-        false => GraphicalTheme::none(),
-    };
-    (theme.characters.underline, theme.characters.underbar) = ('^', '^');
-    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_links(false);
-    let mut text = String::new();
-    match handler.render_report(&mut text, &Drawn::new(diagnostic)) {
-        Ok(()) => text,
-        Err(_) => format!("{diagnostic}\n"),
-    }
-}
-
 /// Runs the command and says how it ended: 0, 1 for what went wrong, 2 for arguments that make no sense.
 pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
@@ -233,10 +199,13 @@ pub fn main() -> ExitCode {
         Command::Show { spec, target } => commands::show(&spec, &target),
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
+        Command::Explore { out, port, no_serve } => explore::explore(out, port, !no_serve),
+        Command::Render { arguments } => render::render(&arguments),
         Command::Catalog { check, dir } => commands::catalog(&dir, check),
     };
     match result {
         Ok(()) | Err(Failure::Closed) => ExitCode::SUCCESS,
+        Err(Failure::Told(code)) => ExitCode::from(code),
         Err(Failure::Shown(diagnostic)) => {
             // If even this cannot be printed, the exit code still tells.
             let _ = write!(io::stderr(), "{}", draw(&diagnostic));

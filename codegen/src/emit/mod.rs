@@ -162,7 +162,7 @@ fn head(origin: &str) -> Vec<String> {
 }
 
 /// The expressions of a result, grouped as its shape asks.
-fn results(dialect: Dialect, shape: Shape, kind: Kind, items: &[String]) -> (String, Vec<String>, String) {
+pub(crate) fn results(dialect: Dialect, shape: Shape, kind: Kind, items: &[String]) -> (String, Vec<String>, String) {
     let Some(constructor) = dialect.constructor(shape, kind) else {
         return (String::new(), items.to_vec(), String::new());
     };

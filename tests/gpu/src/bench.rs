@@ -1,16 +1,19 @@
-//! The bench itself: every kernel, as it is or with a corrupted constant, run on the driver of this process and measured.
+//! The bench itself: every kernel, as it is or with a corrupted constant, run on every driver and measured.
 
-use crate::cases::{Cases, INPUTS, tolerance};
-use crate::gpu::Gpu;
+use crate::cases::{Cases, tolerance};
+use crate::devices::{COLUMNS, Devices};
 use crate::{report, wrap};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 use zonal_codegen::catalog::{build, standard};
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::spec::Spec;
 
-/// The order of the kernels that get a corrupted constant.
+/// The order of the kernels that get a corrupted constant, if their family has it.
 const MUTATED_ORDER: usize = 4;
 /// What a corrupted constant is multiplied by.
 const CORRUPTION: f64 = 1.001;
@@ -24,19 +27,21 @@ pub enum Mode {
     Mutated,
 }
 
-/// What was measured of one text on one driver.
+/// What was measured of one text in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The spec.
     pub spec: String,
-    /// The language.
-    pub target: Target,
+    /// The driver and the language.
+    pub column: String,
     /// What was corrupted, if anything was.
     pub change: String,
     /// The largest error.
     pub error: f64,
     /// What it may be.
     pub tolerance: f64,
+    /// How long it took, the comparison included.
+    pub seconds: f64,
 }
 
 impl Row {
@@ -48,7 +53,8 @@ impl Row {
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\t{}\t{}\t{:e}\t{:e}", self.spec, self.target, self.change, self.error, self.tolerance)
+        let Self { spec, column, change, error, tolerance, seconds } = self;
+        write!(f, "{spec}\t{column}\t{change}\t{error:e}\t{tolerance:e}\t{seconds:.3}")
     }
 }
 
@@ -58,12 +64,13 @@ impl FromStr for Row {
     fn from_str(line: &str) -> Result<Self, String> {
         let number = |text: &str| text.parse::<f64>().map_err(|error| format!("{text}: {error}"));
         match line.split('\t').collect::<Vec<_>>()[..] {
-            [spec, target, change, error, tolerance] => Ok(Self {
+            [spec, column, change, error, tolerance, seconds] => Ok(Self {
                 spec: spec.to_owned(),
-                target: target.parse()?,
+                column: column.to_owned(),
                 change: change.to_owned(),
                 error: number(error)?,
                 tolerance: number(tolerance)?,
+                seconds: number(seconds)?,
             }),
             _ => Err(format!("no row: {line}")),
         }
@@ -93,45 +100,61 @@ fn constants(text: &str) -> Vec<std::ops::Range<usize>> {
     found
 }
 
-/// The text with its first, middle or last constant changed, each with a word on what was done.
+/// The text with its first, middle or last constant changed, each with a word on what was done; a text without constants
+/// gets a sum for its first difference.
 fn corrupted(text: &str) -> Vec<(String, String)> {
     let found = constants(text);
     let mut places = vec![0, found.len() / 2, found.len().saturating_sub(1)];
     places.dedup();
-    places.retain(|&place| place < found.len());
     let change = |place: usize| {
-        let range = found[place].clone();
+        let range = found.get(place)?.clone();
         let old = &text[range.clone()];
-        let new = old.parse::<f64>().expect("a constant is a number") * CORRUPTION;
+        let new = old.parse::<f64>().ok()? * CORRUPTION;
         let text = format!("{}{new:?}{}", &text[..range.start], &text[range.end..]);
-        (format!("constant {place}: {old} became {new}"), text)
+        Some((format!("constant {place}: {old} became {new}"), text))
     };
-    places.into_iter().map(change).collect()
+    let sign = || {
+        let code = text.lines().find(|line| !line.starts_with("//") && line.contains(" - "))?;
+        Some((format!("a minus of `{}`", code.trim()), text.replacen(code, &code.replacen(" - ", " + ", 1), 1)))
+    };
+    let changed: Vec<(String, String)> = places.into_iter().filter_map(change).collect();
+    if changed.is_empty() { sign().into_iter().collect() } else { changed }
+}
+
+/// The specs to run: all, or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
+fn specs(mode: Mode) -> Vec<Spec> {
+    let mut specs = standard();
+    if mode == Mode::Mutated {
+        specs.retain(|spec| !spec.rgb);
+        specs.sort_by_key(|spec| spec.order.abs_diff(MUTATED_ORDER));
+        let mut families = BTreeSet::new();
+        specs.retain(|spec| families.insert(report::family(spec)));
+    }
+    specs
 }
 
 fn functions(mode: Mode) -> Vec<Function> {
-    let mut specs = standard();
-    if mode == Mode::Mutated {
-        specs.retain(|spec| spec.order == MUTATED_ORDER && !spec.rgb);
-        specs.dedup_by_key(|spec| report::family(spec));
-    }
-    let mut functions = build(&specs);
+    let mut functions = build(&specs(mode));
     // The longest first, so that the threads end together.
     functions.sort_by_key(|function| std::cmp::Reverse(function.built.code.cost(function.spec.channels()).total));
     functions
 }
 
-/// Runs on as many devices as there are processors, and hands the name of the driver and each row to `report`.
+/// The most threads and browsers at once.
+const MAX_THREADS: usize = 4;
+
+/// Runs on as many devices of each driver as there are processors, and hands lines to `print`: what each driver calls
+/// itself, and every row.
 ///
 /// # Errors
 ///
-/// If there is no device.
-pub fn run(mode: Mode, started: impl Fn(&str) + Sync, report: impl Fn(Row) + Sync) -> Result<(), String> {
+/// If there is no device, or a text is refused.
+pub fn run(mode: Mode, print: impl Fn(&dyn fmt::Display) + Sync) -> Result<(), String> {
     let functions = functions(mode);
     let next = AtomicUsize::new(0);
     let work = || -> Result<(), String> {
-        let gpu = Gpu::open()?;
-        started(&gpu.name);
+        let mut devices = Devices::open()?;
+        COLUMNS.iter().for_each(|column| print(&format!("{}\t{}", column.name(), devices.name(*column))));
         while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
             let cases = Cases::new(function);
             for target in [Target::Wgsl, Target::Glsl] {
@@ -140,18 +163,27 @@ pub fn run(mode: Mode, started: impl Fn(&str) + Sync, report: impl Fn(Row) + Syn
                     Mode::Catalogue => vec![(String::new(), file)],
                     Mode::Mutated => corrupted(&file),
                 };
-                for (change, text) in texts {
-                    let text = wrap::compute(function, target, &text);
-                    let name = function.shader_name();
-                    let got = gpu.run(&name, target, &text, &cases.inputs, wrap::output_len(function), INPUTS);
-                    let (error, tolerance) = (cases.error(&got), tolerance(function));
-                    report(Row { spec: function.spec.to_string(), target, change, error, tolerance });
+                for column in COLUMNS.into_iter().filter(|column| column.target == target) {
+                    for (change, text) in &texts {
+                        let start = Instant::now();
+                        let text = column.wrapped(function, text);
+                        let got = devices.run(column.driver, &cases.job(function, target, &text));
+                        let got = got.map_err(|error| format!("{} of `{}`: {error}", column.name(), function.spec))?;
+                        print(&Row {
+                            spec: function.spec.to_string(),
+                            column: column.name(),
+                            change: change.clone(),
+                            error: cases.error(&got),
+                            tolerance: tolerance(function),
+                            seconds: start.elapsed().as_secs_f64(),
+                        });
+                    }
                 }
             }
         }
         Ok(())
     };
-    let count = std::thread::available_parallelism().map_or(1, usize::from);
+    let count = std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
         threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|_| Err("a kernel failed".to_owned())))
@@ -169,6 +201,7 @@ mod tests {
         assert_eq!(words, ["0.25", "1.5", "2.0"]);
         assert_eq!(corrupted("a = 2.0;").len(), 1);
         assert_eq!(corrupted("a = 2.0;")[0].1, "a = 2.002;");
+        assert_eq!(corrupted("// b - c\na = b - c;")[0].1, "// b - c\na = b + c;");
         assert!(corrupted("a = b;").is_empty());
     }
 
@@ -176,10 +209,11 @@ mod tests {
     fn a_row_reads_back() {
         let row = Row {
             spec: "eval:3".to_owned(),
-            target: Target::Glsl,
+            column: COLUMNS[1].name(),
             change: String::new(),
             error: f64::INFINITY,
             tolerance: 1.5e-7,
+            seconds: 0.25,
         };
         assert_eq!(row.to_string().parse(), Ok(row));
     }

@@ -1,12 +1,14 @@
 //! What a kernel is run on and what it has to give: seeded inputs with the extremes among them, signals that are zero,
-//! huge, small or all of these by band, results of the interpreter in f64, and how far a driver may be from them.
+//! huge, small, subnormal or several of these by band, results of the interpreter in f64, and how far a driver may be from them.
 
-use crate::wrap::{self, ALIGNMENT};
+use crate::job::Job;
+use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use zonal_codegen::accuracy::Measure;
 use zonal_codegen::built::kernel;
 use zonal_codegen::code::Code;
 use zonal_codegen::emit::Function;
+use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::eval::{Contraction, Number};
 use zonal_codegen::graph::Kind;
 use zonal_codegen::kernel::Param;
@@ -15,8 +17,10 @@ use zonal_codegen::samples;
 use zonal_codegen::sh::exact::Exact;
 use zonal_codegen::spec::Family;
 
-/// How many inputs each kernel is run on.
-pub const INPUTS: usize = 2048;
+/// How many inputs a kernel is run on, at least and at most; both are multiples of [`wrap::GROUP`].
+pub const INPUTS: [usize; 2] = [2048, 8192];
+/// How many operations the interpreter does for a kernel, if the number of inputs may be chosen by it.
+const OPERATIONS: usize = 1 << 20;
 /// The first inputs hold the extremes of each parameter.
 const EXTREMES: usize = 16;
 /// So many inputs in a row have one kind of signal; a quarter of them have extreme parameters.
@@ -25,6 +29,10 @@ const BLOCK: usize = 4 * EXTREMES;
 const HUGE: f64 = (1u128 << 100) as f64;
 /// 2^-80, about 8e-25: what a driver loses by flushing subnormal numbers stays far below a rounding.
 const SMALL: f64 = 1.0 / (1u128 << 80) as f64;
+/// 2^-126, the smallest normal number of f32: what a flush to zero may take away.
+const NORMAL: f64 = f32::MIN_POSITIVE as f64;
+/// 2^-130: every item of a signal of norm one becomes subnormal, which a driver may take for zero.
+const SUBNORMAL: f64 = NORMAL / 16.0;
 /// 2^-23, one unit in the last place of a number just above a power of two.
 const ULP: f64 = f32::EPSILON as f64;
 
@@ -96,6 +104,13 @@ pub fn tolerance(function: &Function) -> f64 {
     promised + special + 1.0 / (1u64 << 40) as f64
 }
 
+/// How many inputs a kernel is run on: the more the shorter it is.
+fn inputs(function: &Function) -> usize {
+    let operations = function.built.code.cost(function.spec.channels()).total;
+    let [least, most] = INPUTS;
+    (OPERATIONS / operations.max(1)).next_power_of_two().clamp(least, most)
+}
+
 /// The band of an item of a signal or a result, if its length says so.
 fn band(index: usize, len: usize, order: usize) -> Option<usize> {
     match len {
@@ -109,6 +124,7 @@ fn band(index: usize, len: usize, order: usize) -> Option<usize> {
 fn scale(block: usize, band: Option<usize>) -> f64 {
     const BY_BAND: [f64; 4] = [HUGE, 1.0, 0.0, SMALL];
     match (block % 8, band) {
+        (3, _) => SUBNORMAL,
         (4, _) => 0.0,
         (5, _) => HUGE,
         (6, _) => SMALL,
@@ -120,14 +136,18 @@ fn scale(block: usize, band: Option<usize>) -> f64 {
 /// The inputs of one kernel and the results that they should have.
 #[derive(Debug)]
 pub struct Cases {
-    /// The inputs, each at its offset.
-    pub inputs: Vec<f32>,
+    /// How many there are.
+    count: usize,
+    /// The inputs, each a number of whole vectors.
+    inputs: Vec<f32>,
     /// The results, one after the other, and what each number of them is measured in.
     wanted: Vec<(f64, f64)>,
     /// How many numbers a result has.
     result: usize,
     channels: usize,
     by_band: bool,
+    /// How far the result of a subnormal signal may be off: the item itself and each operation may be flushed.
+    flushed: f64,
 }
 
 impl Cases {
@@ -136,7 +156,8 @@ impl Cases {
         let (built, order) = (&function.built, function.spec.order);
         let params = built.code.params();
         let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
-        let samples = samples::inputs(&function.spec, params, 7, INPUTS, max_angle);
+        let count = inputs(function);
+        let samples = samples::inputs(&function.spec, params, 7, count, max_angle);
         // A loop is held to its unrolled twin, which is the faster to run.
         let runner = match &built.code {
             Code::Straight(_) => built.code.runner::<Wide>(),
@@ -147,7 +168,7 @@ impl Cases {
         let by_band = Measure::of(&function.spec) == Measure::Bands && function.spec.family != Family::Angles;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
-        for case in 0..INPUTS {
+        for case in 0..count {
             let parameters = if case % BLOCK < EXTREMES { case % EXTREMES } else { case };
             // Channels share their parameters and differ in their signals.
             let lists: Vec<Vec<Vec<Wide>>> = (0..channels)
@@ -155,9 +176,10 @@ impl Cases {
                     let list = |(place, param): (usize, &Param)| match param.kind {
                         Kind::Scalar => samples[parameters][place].iter().map(|&x| Wide(x)).collect(),
                         Kind::Signal => {
-                            let signal = samples[(case + channel) % INPUTS][place].iter().enumerate();
+                            let signal = samples[(case + channel) % count][place].iter().enumerate();
                             let len = param.shape.len();
-                            signal.map(|(i, x)| Wide(x * scale(case / BLOCK + channel, band_of(i, len)))).collect()
+                            let scaled = |(i, x): (usize, &f64)| x * scale(case / BLOCK + channel, band_of(i, len));
+                            signal.map(|item| Wide(f64::from(scaled(item) as f32))).collect()
                         }
                     };
                     params.iter().enumerate().map(list).collect()
@@ -169,7 +191,7 @@ impl Cases {
                     inputs.extend(channels.iter().map(|channel| channel[place][i].0 as f32));
                 }
             }
-            inputs.resize(inputs.len().next_multiple_of(ALIGNMENT), 0.0);
+            inputs.resize(inputs.len().next_multiple_of(VECTOR), 0.0);
             let results: Vec<Vec<Wide>> = lists
                 .iter()
                 .map(|lists| {
@@ -185,16 +207,25 @@ impl Cases {
                 wanted.extend(results.iter().enumerate().map(|(channel, result)| (result[i].0, unit(channel))));
             }
         }
-        Self { inputs, wanted, result: shape.len(), channels, by_band }
+        let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
+        Self { count, inputs, wanted, result: shape.len(), channels, by_band, flushed }
+    }
+
+    /// The cases as a job for a device.
+    pub fn job<'a>(&'a self, function: &Function, target: Target, text: &'a str) -> Job<'a> {
+        let (takes, gives) = (wrap::input_vectors(function), wrap::output_vectors(function));
+        Job { target, text, inputs: &self.inputs, count: self.count, takes, gives }
     }
 
     /// The largest error in the kernel's measure: of a band as a whole, or of each number. Not finite if a zero signal
-    /// does not give exact zeros or if anything is not a number.
+    /// does not give exact zeros, if a subnormal one gives anything larger than that, or if anything is not a number.
     pub fn error(&self, got: &[f32]) -> f64 {
         let size = self.result * self.channels;
-        let got = got.chunks(size.next_multiple_of(ALIGNMENT)).flat_map(|result| &result[..size]);
+        let got = got.chunks(size.next_multiple_of(VECTOR)).flat_map(|result| &result[..size]);
         let relative = |(&got, &(want, unit)): (&f32, &(f64, f64))| match (f64::from(got) - want, unit) {
             (0.0, 0.0) => 0.0,
+            (difference, SUBNORMAL) if difference.abs() <= self.flushed => 0.0,
+            (_, SUBNORMAL) => f64::INFINITY,
             (difference, unit) => difference / unit,
         };
         let errors: Vec<f64> = got.zip(&self.wanted).map(relative).collect();

@@ -1,4 +1,4 @@
-//! Runs the bench on the Vulkan driver that the environment names and prints what it measured, a row a text.
+//! Runs the bench on the drivers that the environment names and prints what it measured, a row a text and driver.
 
 use zonal_gpu_tests::bench::{Mode, run};
 
@@ -8,5 +8,5 @@ fn main() -> Result<(), String> {
         Some("mutated") => Mode::Mutated,
         _ => return Err("say `catalogue` or `mutated`".to_owned()),
     };
-    run(mode, |driver| println!("{driver}"), |row| println!("{row}"))
+    run(mode, |line| println!("{line}"))
 }

@@ -1,13 +1,16 @@
 //! Shaders around a generated function, which has neither an entry point nor a version of its own: a compute shader that
-//! calls it once a thread with numbers from a buffer, and a fragment shader for compilers that only look.
+//! calls it once a thread with numbers from a buffer, a fragment shader that calls it for a row of pixels with numbers
+//! from a texture, and one for compilers that only look.
 
 use zonal_codegen::emit::dialect::{Dialect, Target};
 use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::Shape;
+use zonal_codegen::kernel::{Param, Shape};
 
-/// The numbers of every call start at a multiple of so many in a buffer: 256 bytes, as WebGPU asks of offsets.
-pub const ALIGNMENT: usize = 64;
+/// How many cases one workgroup of a compute shader computes.
+pub const GROUP: usize = 64;
+/// How many numbers a vector holds: cases start and end at whole vectors of four.
+pub const VECTOR: usize = 4;
 
 /// The text of the file that holds one function.
 ///
@@ -36,15 +39,16 @@ pub fn channels(function: &Function, kind: Kind) -> usize {
     }
 }
 
-/// How many numbers a call takes.
-pub fn input_len(function: &Function) -> usize {
-    function.built.code.params().iter().map(|param| param.shape.len() * channels(function, param.kind)).sum()
+/// How many vectors of four a call's parameters fill.
+pub fn input_vectors(function: &Function) -> usize {
+    let numbers = |param: &Param| param.shape.len() * channels(function, param.kind);
+    function.built.code.params().iter().map(numbers).sum::<usize>().div_ceil(VECTOR)
 }
 
-/// How many numbers a call returns.
-pub fn output_len(function: &Function) -> usize {
+/// How many vectors of four a call's result fills.
+pub fn output_vectors(function: &Function) -> usize {
     let (shape, kind) = function.built.code.result();
-    shape.len() * channels(function, kind)
+    (shape.len() * channels(function, kind)).div_ceil(VECTOR)
 }
 
 /// A value of this shape, made of numbers that `next` names one after the other.
@@ -67,56 +71,100 @@ fn value(dialect: Dialect, shape: Shape, kind: Kind, next: &mut impl FnMut() -> 
     format!("{}({})", of(shape), parts.join(", "))
 }
 
-/// The function's file and an entry point that calls it once. Its input is all parameters' numbers, the channels of a
-/// number together, padded to whole vectors of four; its result likewise. Each call is a dispatch of its own with other
-/// offsets into the buffers, so that every index is a constant: a software driver compiles that many times faster than
-/// an index by thread. `text` is the file, in WGSL or GLSL.
+/// A call of a function on one case, whose numbers are the vectors `in0_`, `in1_`, …: all parameters one after the
+/// other, the channels of a number together.
+struct Call {
+    /// The type of its result.
+    result: String,
+    /// The call.
+    call: String,
+    /// The components of `result`, four to a vector, padded with zeros.
+    vectors: Vec<String>,
+}
+
+impl Call {
+    fn new(function: &Function, target: Target) -> Self {
+        let dialect = dialect(function, target);
+        let letter = |place: usize| [".x", ".y", ".z", ".w"][place % VECTOR];
+        let mut places = 0..;
+        let mut next = || {
+            let place = places.next().expect("there is always a next number");
+            format!("in{}_{}", place / VECTOR, letter(place))
+        };
+        let params = function.built.code.params();
+        let arguments: Vec<String> =
+            params.iter().map(|param| value(dialect, param.shape, param.kind, &mut next)).collect();
+        let (shape, kind) = function.built.code.result();
+        let channels = channels(function, kind);
+        let number = |place: usize| match (place / channels < shape.len(), channels) {
+            (false, _) => "0.0".to_owned(),
+            (true, 1) => dialect.component("result", shape, place),
+            (true, _) => {
+                format!("{}{}", dialect.component("result", shape, place / channels), letter(place % channels))
+            }
+        };
+        let vector = |i: usize| format!("vec4({})", [0, 1, 2, 3].map(|j| number(VECTOR * i + j)).join(", "));
+        Self {
+            result: dialect.type_of(shape, kind),
+            call: format!("{}({})", function.shader_name(), arguments.join(", ")),
+            vectors: (0..output_vectors(function)).map(vector).collect(),
+        }
+    }
+}
+
+/// One line a vector.
+fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(|i| format!("    {}\n", line(i))).collect()
+}
+
+/// The function's file and a compute shader that calls it, a case a thread. `text` is the file, in WGSL or GLSL.
+///
+/// One dispatch takes all cases: a dispatch a case with constant indices compiles no faster on lavapipe (36 s of processor
+/// time for 128 texts either way, 2048 cases each) and runs slower on SwiftShader, and there every further case costs.
 pub fn compute(function: &Function, target: Target, text: &str) -> String {
-    let dialect = dialect(function, target);
-    let glsl = target == Target::Glsl;
-    let (define, four) = if glsl { ("vec4", "vec4") } else { ("let", "vec4<f32>") };
-    let (input, output) = (input_len(function).div_ceil(4), output_len(function).div_ceil(4));
-    let reads: String = (0..input).map(|i| format!("    {define} in{i}_ = inputs[{i}];\n")).collect();
-    let letter = |place: usize| [".x", ".y", ".z", ".w"][place % 4];
-    let mut places = 0..;
-    let mut next = || {
-        let place = places.next().expect("there is always a next number");
-        format!("in{}_{}", place / 4, letter(place))
-    };
-    let params = function.built.code.params();
-    let arguments: Vec<String> =
-        params.iter().map(|param| value(dialect, param.shape, param.kind, &mut next)).collect();
-    let call = format!("{}({})", function.shader_name(), arguments.join(", "));
-    let (shape, kind) = function.built.code.result();
-    let channels = channels(function, kind);
-    let number = |place: usize| match (place / channels < shape.len(), channels) {
-        (false, _) => "0.0".to_owned(),
-        (true, 1) => dialect.component("result", shape, place),
-        (true, _) => format!("{}{}", dialect.component("result", shape, place / channels), letter(place % channels)),
-    };
-    let writes: String = (0..output)
-        .map(|i| {
-            let numbers = [0, 1, 2, 3].map(|j| number(4 * i + j)).join(", ");
-            format!("    outputs[{i}] = {four}({numbers});\n")
-        })
-        .collect();
-    match glsl {
-        true => format!(
+    let Call { result, call, vectors } = Call::new(function, target);
+    let (takes, gives) = (input_vectors(function), vectors.len());
+    let define = if target == Target::Glsl { "vec4" } else { "let" };
+    let reads = lines(takes, |i| format!("{define} in{i}_ = inputs[at * {takes}u + {i}u];"));
+    let writes = lines(gives, |i| {
+        let vector = &vectors[i];
+        match target {
+            Target::Glsl => format!("outputs[at * {gives}u + {i}u] = {vector};"),
+            _ => format!("outputs[at * {gives}u + {i}u] = vec4<f32>{};", &vector["vec4".len()..]),
+        }
+    });
+    match target {
+        Target::Glsl => format!(
             "#version 450\n{text}\n\
-             layout(local_size_x = 1) in;\n\
-             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[{input}]; }};\n\
-             layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[{output}]; }};\n\
-             void main() {{\n{reads}    {} result = {call};\n{writes}}}\n",
-            dialect.type_of(shape, kind)
+             layout(local_size_x = {GROUP}) in;\n\
+             layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[]; }};\n\
+             layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[]; }};\n\
+             void main() {{\n    uint at = gl_GlobalInvocationID.x;\n{reads}    {result} result = {call};\n{writes}}}\n"
         ),
-        false => format!(
+        _ => format!(
             "{text}\n\
-             @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>, {input}>;\n\
-             @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>, {output}>;\n\
-             @compute @workgroup_size(1)\n\
-             fn main() {{\n{reads}    let result = {call};\n{writes}}}\n"
+             @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;\n\
+             @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;\n\
+             @compute @workgroup_size({GROUP})\n\
+             fn main(@builtin(global_invocation_id) thread: vec3<u32>) {{\n    let at = thread.x;\n{reads}    \
+             let result = {call};\n{writes}}}\n"
         ),
     }
+}
+
+/// The function's GLSL file and a fragment shader for WebGL2 that calls it: a row of pixels is a case, whose inputs are a
+/// row of a texture; a pixel gives one vector of the result.
+pub fn pixels(function: &Function, text: &str) -> String {
+    let Call { result, call, vectors } = Call::new(function, Target::Glsl);
+    let reads = lines(input_vectors(function), |i| format!("vec4 in{i}_ = texelFetch(inputs, ivec2({i}, at.y), 0);"));
+    let gives = vectors.len();
+    format!(
+        "#version 300 es\nprecision highp float;\nprecision highp int;\n{text}\n\
+         uniform highp sampler2D inputs;\nout vec4 colour;\n\
+         void main() {{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n{reads}    {result} result = {call};\n    \
+         vec4 outputs[{gives}] = vec4[{gives}](\n        {}\n    );\n    colour = outputs[at.x];\n}}\n",
+        vectors.join(",\n        ")
+    )
 }
 
 /// A fragment shader in a version of GLSL, from the function's file: the arguments are uniforms, the result is a colour.

@@ -5,6 +5,7 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use zonal_codegen::catalog::{build, standard};
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
@@ -15,6 +16,9 @@ use zonal_gpu_tests::wrap;
 const VERSIONS: [&str; 3] = ["300 es", "330", "450"];
 /// How many files one compiler process takes.
 const BATCH: usize = 64;
+
+/// The catalogue, built once for all tests.
+static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| build(&standard()));
 
 /// An empty folder for one test.
 fn folder(name: &str) -> PathBuf {
@@ -32,7 +36,7 @@ fn all_compile(
     compiler: impl Fn(&[PathBuf]) -> Result<(), String> + Sync,
 ) {
     let folder = folder(name);
-    let files: Vec<PathBuf> = build(&standard())
+    let files: Vec<PathBuf> = FUNCTIONS
         .par_iter()
         .map(|function| {
             let path = folder.join(format!("{}.{extension}", function.shader_name()));

@@ -3,40 +3,44 @@
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use zonal_codegen::catalog::standard;
 use zonal_gpu_tests::bench::Row;
-use zonal_gpu_tests::report::{self, LANGUAGES, Measured};
-use zonal_gpu_tests::system::DRIVERS;
+use zonal_gpu_tests::devices::COLUMNS;
+use zonal_gpu_tests::report::{self, Measured};
 
-fn measure(mode: &str) -> Vec<Measured> {
-    let worker = env!("CARGO_BIN_EXE_zonal-gpu-worker");
-    DRIVERS.map(|driver| report::measure(worker, driver, mode).unwrap_or_else(|error| panic!("{error}"))).into()
+/// Each run of the bench takes all processors: one at a time.
+static BENCH: Mutex<()> = Mutex::new(());
+
+fn measure(mode: &str) -> Measured {
+    let _turn = BENCH.lock().unwrap_or_else(PoisonError::into_inner);
+    let measured = report::measure(env!("CARGO_BIN_EXE_zonal-gpu-worker"), mode);
+    measured.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Not `print!`, which the test harness keeps to itself.
+fn say(text: &str) {
+    std::io::stdout().write_all(text.as_bytes()).expect("there is an output");
 }
 
 /// The rows that one is not content with, as text.
-fn listed(measured: &[Measured], bad: impl Fn(&Row) -> bool) -> String {
-    let rows = |measured: &Measured| -> Vec<String> {
-        measured.rows.iter().filter(|row| bad(row)).map(|row| format!("{}: {row}\n", measured.driver.name)).collect()
-    };
-    measured.iter().flat_map(rows).collect()
+fn listed(measured: &Measured, bad: impl Fn(&Row) -> bool) -> String {
+    let rows: Vec<String> = measured.rows.iter().filter(|row| bad(row)).map(|row| format!("{row}\n")).collect();
+    format!("spec, driver and language, change, error, tolerance, seconds:\n{}", rows.concat())
 }
 
 #[test]
 fn every_kernel_agrees_with_the_interpreter_on_every_driver() {
     let measured = measure("catalogue");
     let specs: BTreeSet<String> = standard().iter().map(ToString::to_string).collect();
-    for measured in &measured {
-        for language in LANGUAGES {
-            let rows = measured.rows.iter().filter(|row| row.target == language);
-            let ran: BTreeSet<String> = rows.map(|row| row.spec.clone()).collect();
-            assert_eq!(ran, specs, "{}, {language}", measured.driver.name);
-        }
+    for column in COLUMNS {
+        let rows = measured.rows.iter().filter(|row| row.column == column.name());
+        let ran: BTreeSet<String> = rows.map(|row| row.spec.clone()).collect();
+        assert_eq!(ran, specs, "{}", column.name());
     }
     let table = report::markdown(&measured);
-    // Not `print!`, which the test harness keeps to itself.
-    std::io::stdout().write_all(table.as_bytes()).expect("there is an output");
-    let wrong = listed(&measured, |row| !row.agrees());
-    assert!(wrong.is_empty(), "driver, spec, language, change, error, tolerance:\n{wrong}");
+    say(&format!("{table}\n{}", report::times(&measured)));
+    assert!(measured.rows.iter().all(Row::agrees), "{}", listed(&measured, |row| !row.agrees()));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/DRIVERS.md");
     if std::env::var_os("UPDATE").is_some() {
         std::fs::write(&path, &table).expect("the table can be written");
@@ -49,9 +53,12 @@ fn every_kernel_agrees_with_the_interpreter_on_every_driver() {
 #[test]
 fn a_corrupted_constant_is_noticed_on_every_driver() {
     let measured = measure("mutated");
-    for measured in &measured {
-        assert!(measured.rows.len() > 100, "{} texts are too few", measured.rows.len());
+    let family = |text: &str| report::family(&text.parse().expect("the bench prints specs"));
+    let families: BTreeSet<String> = standard().iter().map(report::family).collect();
+    for column in COLUMNS {
+        let rows = measured.rows.iter().filter(|row| row.column == column.name());
+        let ran: BTreeSet<String> = rows.map(|row| family(&row.spec)).collect();
+        assert_eq!(ran, families, "{}", column.name());
     }
-    let unnoticed = listed(&measured, Row::agrees);
-    assert!(unnoticed.is_empty(), "driver, spec, language, change, error, tolerance:\n{unnoticed}");
+    assert!(!measured.rows.iter().any(Row::agrees), "{}", listed(&measured, Row::agrees));
 }

@@ -1,0 +1,148 @@
+//! The tables of a scene that a picture of it is made from: its reflectance, its object and its camera.
+
+use super::{Diagnostic, Located, Locator, Order};
+use crate::picture::brdf::{Brdf, BrdfError};
+use crate::picture::camera::Camera;
+use crate::picture::shade::Method;
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+/// The most pixels of a picture along a side.
+pub const MAX_SIZE: usize = 4096;
+
+/// What a picture shows, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// `sphere`, `plane` or the file of a mesh, as the scene writes it.
+    pub mesh: Located<String>,
+    /// The file of a normal map; a smooth surface without one.
+    pub normals: Option<Located<String>>,
+    /// What the slopes of the normal map are multiplied with.
+    pub strength: f64,
+    /// The width and the height in pixels.
+    pub size: [usize; 2],
+    /// How coefficients get from a normal's frame to the surface's; without it, as the scene's first rotation of the
+    /// kind `tilt` was planned, exactly if there is none.
+    pub method: Option<Method>,
+    /// The number of bands; the environment's without it.
+    pub order: Option<Located<Order>>,
+    /// Where it is taken from.
+    pub camera: Camera,
+    /// How many stops it is brighter than it would be by itself.
+    pub exposure: f64,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Lambert,
+    Phong,
+    Ward,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BrdfTable {
+    kind: Spanned<Kind>,
+    exponent: Option<Spanned<f64>>,
+    alpha: Option<Spanned<Roughness>>,
+}
+
+/// One number, or one along x and one along y.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(untagged, expecting = "invalid type: expected a number or two, as in 0.2 or [0.2, 0.6]")]
+enum Roughness {
+    Same(f64),
+    Both([f64; 2]),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PictureTable {
+    mesh: Spanned<String>,
+    normals: Option<Spanned<String>>,
+    strength: Option<Spanned<f64>>,
+    size: Option<Spanned<[u64; 2]>>,
+    method: Option<Method>,
+    order: Option<Spanned<Order>>,
+    azimuth: Option<Spanned<f64>>,
+    elevation: Option<Spanned<f64>>,
+    distance: Option<Spanned<f64>>,
+    field: Option<Spanned<f64>>,
+    exposure: Option<Spanned<f64>>,
+}
+
+pub(super) fn brdf(locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnostic> {
+    let kind = locate.at(table.kind);
+    let (exponent, alpha) = (table.exponent.map(|e| locate.at(e)), table.alpha.map(|a| locate.at(a)));
+    let missing = |key: &str, example: &str| {
+        Diagnostic::at(&kind.place, format!("this kind needs its `{key}`"), format!("add `{key} = {example}`"))
+    };
+    let misplaced = |place, key: &str| Err(Diagnostic::at(place, format!("this kind has no `{key}`"), "leave it out"));
+    let (brdf, place) = match (kind.value, exponent, alpha) {
+        (Kind::Lambert | Kind::Ward, Some(exponent), _) => return misplaced(&exponent.place, "exponent"),
+        (Kind::Lambert | Kind::Phong, _, Some(alpha)) => return misplaced(&alpha.place, "alpha"),
+        (Kind::Lambert, ..) => (Brdf::Lambert, kind.place),
+        (Kind::Phong, None, _) => return Err(missing("exponent", "20")),
+        (Kind::Phong, Some(exponent), _) => (Brdf::Phong { exponent: exponent.value }, exponent.place),
+        (Kind::Ward, _, None) => return Err(missing("alpha", "[0.2, 0.6]")),
+        (Kind::Ward, _, Some(alpha)) => {
+            let both = match alpha.value {
+                Roughness::Same(alpha) => [alpha; 2],
+                Roughness::Both(both) => both,
+            };
+            (Brdf::Ward { alpha: both }, alpha.place)
+        }
+    };
+    brdf.checked().map_err(|error| match error {
+        BrdfError::Range { what, value, range: [least, most] } => Diagnostic::at(
+            &place,
+            format!("{what} of {value} is out of range"),
+            format!("write a number from {least} to {most}"),
+        ),
+        other => Diagnostic::at(&place, other.to_string(), ""),
+    })
+}
+
+pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, Diagnostic> {
+    let number = |value: Option<Spanned<f64>>, what: &str, [least, most]: [f64; 2], default: f64| {
+        let Some(value) = value else { return Ok(default) };
+        let value = locate.at(value);
+        match (least..=most).contains(&value.value) {
+            true => Ok(value.value),
+            false => Err(Diagnostic::at(
+                &value.place,
+                format!("{what} of {} is out of range", value.value),
+                format!("write a number from {least} to {most}"),
+            )),
+        }
+    };
+    let default = Camera::default();
+    let camera = Camera {
+        azimuth: number(table.azimuth, "an azimuth in degrees", [-360.0, 360.0], default.azimuth)?,
+        elevation: number(table.elevation, "an elevation in degrees", [-89.0, 89.0], default.elevation)?,
+        distance: number(table.distance, "a distance in radii of the object", [1.2, 100.0], default.distance)?,
+        field: number(table.field, "a field of view in degrees", [1.0, 120.0], default.field)?,
+    };
+    let size = match table.size.map(|size| locate.at(size)) {
+        None => [960, 540],
+        Some(Located { value, place }) => {
+            let sides = value.map(|side| usize::try_from(side).unwrap_or(usize::MAX));
+            if sides.iter().any(|side| !(1..=MAX_SIZE).contains(side)) {
+                let message = format!("a picture of {} by {} pixels is out of range", value[0], value[1]);
+                return Err(Diagnostic::at(&place, message, format!("write sides from 1 to {MAX_SIZE} pixels")));
+            }
+            sides
+        }
+    };
+    Ok(Picture {
+        mesh: locate.at(table.mesh),
+        normals: table.normals.map(|normals| locate.at(normals)),
+        strength: number(table.strength, "a strength", [0.0, 10.0], 1.0)?,
+        size,
+        method: table.method,
+        order: table.order.map(|order| locate.at(order)),
+        camera,
+        exposure: number(table.exposure, "an exposure in stops", [-20.0, 20.0], 0.0)?,
+    })
+}

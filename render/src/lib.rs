@@ -1,0 +1,16 @@
+//! Draws the pictures of scenes: with the kernels that zonal generates for shaders, on any adapter that wgpu finds, and
+//! by brute force on the CPU, so that the former are seen to approach the latter.
+//!
+//! ```text
+//! Scene ─▶ Subject ─▶ Stage (an adapter) ──▶ Frame (radiance)  ─▶ Canvas (PNG)
+//!                       └──▶ surfaces ─▶ reference (f64) ─▶ figures
+//! ```
+
+pub mod canvas;
+pub mod figures;
+pub mod gpu;
+pub mod reference;
+pub mod report;
+pub mod strip;
+pub mod subject;
+pub mod tone;

@@ -1,0 +1,157 @@
+//! The command `zonal-render`: reads a scene, draws it, writes the picture and its figures. It decides nothing about
+//! either.
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::drawn::draw;
+use zonal_codegen::files;
+use zonal_codegen::picture::shade::Method;
+use zonal_codegen::scene::Scene;
+use zonal_render::figures::{Truth, convergence, percent};
+use zonal_render::gpu::{Gpu, Stage};
+use zonal_render::strip;
+use zonal_render::subject::{Instead, Subject};
+
+/// How many pixels are summed by brute force for `--reference`.
+const POINTS: usize = 4000;
+
+/// What the help ends with.
+const NOTES: &str = "The figures are printed, and lie beside the picture as JSON. Errors are shares of the mean radiance \
+                     and are measured before the tone curve, which is Reinhard's (2002) for each channel with white at 4, \
+                     after the exposure that takes the object's log-average luminance to 0.3; then sRGB.";
+
+/// Draws the picture of a scene with its generated kernels, on a GPU or a software adapter.
+#[derive(Parser)]
+#[command(name = "zonal-render", version, after_help = NOTES)]
+struct Arguments {
+    /// The scene, a TOML file with the tables `[environment]`, `[brdf]` and `[picture]`.
+    scene: PathBuf,
+    /// The picture to write, a PNG file; the scene's name without it.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Draws a strip: exact, the scene's method, their difference in false colours, no rotation.
+    #[arg(long)]
+    compare: bool,
+    /// Prints how the exact picture nears brute force on the CPU, for the orders 2 to 10.
+    #[arg(long)]
+    reference: bool,
+    /// The number of bands, instead of the scene's.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(2..=16))]
+    order: Option<u64>,
+    /// The method, instead of the scene's.
+    #[arg(long, value_parser = Method::ALL.map(Method::name))]
+    method: Option<String>,
+    /// How many samples a pixel has along each side.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=4))]
+    samples: u64,
+}
+
+/// A bar, on terminals only; it vanishes when it is dropped.
+fn progress(message: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} {elapsed}");
+    let bar = ProgressBar::new(1).with_message(message.to_owned()).with_finish(ProgressFinish::AndClear);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
+    let start = Instant::now();
+    let bar = progress("reading");
+    let method = arguments.method.as_deref().map(str::parse).transpose();
+    let method: Option<Method> = method.map_err(|message: String| Diagnostic::nowhere(message, ""))?;
+    let instead = Instead { order: arguments.order.map(|order| order as usize), method };
+    let subject = Subject::new(&Scene::read(&arguments.scene)?, instead)?;
+    let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.png", subject.name)));
+    if output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
+        let message = format!("`{}` is no name of a PNG file", output.display());
+        return Err(Diagnostic::nowhere(message, "end it in `.png`"));
+    }
+    let gpu = Gpu::open()?;
+    let drawing = if arguments.compare { strip::compared } else { strip::single };
+    let (canvas, figures) = drawing(&gpu, &subject, arguments.samples as usize, &bar)?;
+    let mut text = format!(
+        "{}: {}, order {}, {} by {} pixels on {}\n\n",
+        figures.scene, figures.brdf, figures.order, figures.size[0], figures.size[1], figures.adapter
+    );
+    for picture in &figures.pictures {
+        let name = picture.spec.as_deref().unwrap_or("no rotation");
+        let errors = match arguments.compare && picture.method != Method::Exact {
+            true => format!(", error: mean {}, worst {}", percent(picture.errors.mean), percent(picture.errors.worst)),
+            false => String::new(),
+        };
+        let _ = writeln!(
+            text,
+            "  {name:18} {:5} operations, {:6.1} ms a frame{errors}",
+            picture.operations, picture.milliseconds
+        );
+    }
+    if arguments.reference {
+        text += "\n";
+        text += &reference(&gpu, &subject, &bar)?;
+    }
+    let json = serde_json::to_string_pretty(&figures).map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    let sidecar = output.with_extension("json");
+    let name = |place: &Path| place.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let (folder, names) = (output.parent().unwrap_or(Path::new("")), [name(&output), name(&sidecar)]);
+    files::write_below(folder, &[(&names[0], canvas.png().as_slice()), (&names[1], (json + "\n").as_bytes())])
+        .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    bar.finish_and_clear();
+    let [width, height] = canvas.size;
+    let seconds = start.elapsed().as_secs_f64();
+    let _ = writeln!(
+        text,
+        "\n{} ({width} by {height}) and its figures in {}, in {seconds:.1} s.",
+        output.display(),
+        sidecar.display()
+    );
+    Ok(text)
+}
+
+/// The table of `--reference`.
+fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<String, Diagnostic> {
+    bar.set_position(0);
+    bar.set_message("brute force");
+    let stage = Stage::new(gpu, subject, subject.size)?;
+    let truth = Truth::new(&stage, POINTS, bar)?;
+    bar.set_message("orders 2 to 10");
+    let rows = convergence(&stage, &truth, 2..=10)?;
+    let mut text = format!(
+        "  The exact kernel against brute force: {} pixels, all {} texels, shares of the mean radiance\n\n",
+        truth.views.len(),
+        subject.map.texels.len()
+    );
+    let _ = writeln!(text, "  {:>5} {:>10} {:>10} {:>10} {:>14}", "order", "mean", "rms", "worst", "expected rms");
+    for row in rows {
+        let [mean, rms, worst, expected] =
+            [row.errors.mean, row.errors.rms, row.errors.worst, row.expected].map(percent);
+        let _ = writeln!(text, "  {:>5} {mean:>10} {rms:>10} {worst:>10} {expected:>14}", row.order);
+    }
+    Ok(text)
+}
+
+fn main() -> ExitCode {
+    let shown = run(&Arguments::parse()).and_then(|text| {
+        let mut stdout = io::stdout().lock();
+        match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+                Err(Diagnostic::nowhere(format!("cannot print: {error}"), ""))
+            }
+            _ => Ok(()),
+        }
+    });
+    match shown {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(diagnostic) => {
+            // If even this cannot be printed, the exit code still tells.
+            let _ = write!(io::stderr(), "{}", draw(&diagnostic));
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The truth, by brute force: for each point of a surface the sum over all texels of the map of their radiance times the
+//! reflectance, in f64. No harmonics, no tables, no kernels.
+//!
+//! A texel counts with its radiance in the direction of its centre, times its solid angle. Of a function that a texel of
+//! width Δ sees as flat this is exact; band l is off by about l(l+1) Δ²/24 of itself, which for 256×128 texels is 0.3 %
+//! of band 10.
+
+use crate::gpu::Frame;
+use rayon::prelude::*;
+use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::picture::brdf::Brdf;
+use zonal_codegen::picture::vector::{add, cross, dot, unit};
+
+/// How a surface lies at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The rotation from the surface's frame to the world, a unit quaternion (x, y, z, w).
+    pub frame: [f64; 4],
+    /// The normal map's unit normal in that frame.
+    pub normal: [f64; 3],
+    /// The unit direction to the eye in that frame.
+    pub view: [f64; 3],
+}
+
+/// A vector turned by a unit quaternion.
+fn turned([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+    let axis = [x, y, z];
+    let half = cross(axis, v).map(|c| 2.0 * c);
+    add(add(v, w, half), 1.0, cross(axis, half))
+}
+
+impl Surface {
+    /// The frame of the normal map's normal, which the shortest rotation takes there from the surface's: its axes in the
+    /// world, and the view in it. A view from behind the normal counts as grazing.
+    pub fn modulated(&self) -> ([[f64; 3]; 3], [f64; 3]) {
+        let n = self.normal;
+        let tilt = unit4([-n[1], n[0], 0.0, 1.0 + n[2]]);
+        let local = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| turned(tilt, axis));
+        let [x, y, z] = local.map(|axis| dot(axis, self.view));
+        let view = unit([x, y, z.max(0.0)]).unwrap_or([1.0, 0.0, 0.0]);
+        let frame = unit4(self.frame);
+        (local.map(|axis| turned(frame, axis)), view)
+    }
+}
+
+fn unit4(q: [f64; 4]) -> [f64; 4] {
+    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| x / length)
+}
+
+/// A map as lights in fixed directions.
+#[derive(Clone, Debug)]
+pub struct Lights(Vec<([f64; 3], [f64; 3])>);
+
+impl Lights {
+    /// One light a texel.
+    pub fn of(map: &Map) -> Self {
+        let light = |(i, texel): (usize, &[f64; 3])| {
+            let (x, y) = (i % map.width, i / map.width);
+            (map.direction(x, y), texel.map(|v| v * map.solid_angle(y)))
+        };
+        Self(map.texels.iter().enumerate().map(light).collect())
+    }
+
+    /// What a map with so many rows holds of the first bands only, ringing and all.
+    pub fn of_bands(projection: &Projection, height: usize) -> Self {
+        let mut map = Map { width: 2 * height, height, texels: vec![[0.0; 3]; 2 * height * height] };
+        let place = map.clone();
+        map.texels.par_iter_mut().enumerate().for_each(|(i, texel)| {
+            *texel = projection.evaluate(place.direction(i % place.width, i / place.width));
+        });
+        Self::of(&map)
+    }
+
+    /// The radiance that a point of a surface sends to the eye.
+    pub fn radiance(&self, brdf: &Brdf, surface: &Surface) -> [f64; 3] {
+        let ([x, y, z], view) = surface.modulated();
+        let mut sum = [0.0; 3];
+        for &(direction, light) in &self.0 {
+            let up = dot(direction, z);
+            if up > 0.0 {
+                let value = brdf.value(view, [dot(direction, x), dot(direction, y), up]);
+                (0..3).for_each(|channel| sum[channel] += value * light[channel]);
+            }
+        }
+        sum
+    }
+
+    /// The radiance of every `step`-th of the points that there are, the first among them; `tick` is called after each.
+    pub fn frame(
+        &self,
+        brdf: &Brdf,
+        size: [usize; 2],
+        surfaces: &[Option<Surface>],
+        step: usize,
+        tick: impl Fn() + Sync,
+    ) -> Frame {
+        let mut count = 0..;
+        let mut wanted =
+            |surface: &Option<Surface>| surface.filter(|_| count.next().is_some_and(|i: usize| i.is_multiple_of(step)));
+        let wanted: Vec<Option<Surface>> = surfaces.iter().map(&mut wanted).collect();
+        let radiance = |surface: &Option<Surface>| {
+            let radiance = self.radiance(brdf, surface.as_ref()?);
+            tick();
+            Some(radiance)
+        };
+        Frame { size, pixels: wanted.par_iter().map(radiance).collect(), milliseconds: 0.0 }
+    }
+}
+
+/// For the orders 1 to `bands` − 1, the root of the mean square of the radiance that the bands from there on add, if
+/// every rotation of the reflectance against the light is as likely as any other: then the mean square over rotations of
+/// Σ b_lm L_lm in band l is |b_l|² |L_l|² / (2l+1). It leaves out what lies beyond `bands`.
+pub fn expected(brdf: &Brdf, views: &[[f64; 3]], light: &Projection, bands: usize) -> Vec<f64> {
+    let energy = light.band_energy();
+    let band = |b: &[f64], l: usize| b[l * l..(l + 1) * (l + 1)].iter().map(|v| v * v).sum::<f64>();
+    let of_view = |view: &[f64; 3]| -> Vec<f64> {
+        let b = brdf.coefficients(*view, bands);
+        (0..bands).map(|l| band(&b, l) * energy[l] / (2 * l + 1) as f64).collect()
+    };
+    let all: Vec<Vec<f64>> = views.par_iter().map(of_view).collect();
+    let mean = |l: usize| all.iter().map(|bands| bands[l]).sum::<f64>() / all.len() as f64;
+    let mut left = 0.0;
+    let mut errors: Vec<f64> = (1..bands)
+        .rev()
+        .map(|l| {
+            left += mean(l);
+            f64::sqrt(left)
+        })
+        .collect();
+    errors.reverse();
+    errors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+    use zonal_codegen::samples::Random;
+
+    fn surface(random: &mut Random) -> Surface {
+        let [x, y, z] = random.unit::<3>();
+        let view = random.unit::<3>();
+        Surface { frame: random.unit(), normal: [x, y, z.abs()], view: [view[0], view[1], view[2].abs()] }
+    }
+
+    #[test]
+    fn the_frame_of_the_normal_is_the_shortest_turn_away() {
+        let mut random = Random::new(3);
+        for _ in 0..100 {
+            let surface = surface(&mut random);
+            let ([x, y, z], view) = surface.modulated();
+            let own = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|axis| turned(surface.frame, axis));
+            let world = |v: [f64; 3]| add(add(own[0].map(|c| c * v[0]), v[1], own[1]), v[2], own[2]);
+            for (a, b) in [(z, world(surface.normal)), (cross(x, y), z)] {
+                assert!((0..3).all(|i| (a[i] - b[i]).abs() < 1e-12), "{a:?} {b:?}");
+            }
+            // The shortest turn has the smallest angle: its trace is 1 + 2 cos, with the cosine that of the normals.
+            let trace = dot(x, own[0]) + dot(y, own[1]) + dot(z, own[2]);
+            assert!((trace - 1.0 - 2.0 * surface.normal[2]).abs() < 1e-12);
+            assert!((dot(view, view) - 1.0).abs() < 1e-12 && view[2] >= 0.0);
+        }
+    }
+
+    #[test]
+    fn a_lambertian_surface_gets_the_irradiance_of_the_map() {
+        let mut random = Random::new(4);
+        let texels = (0..64 * 32).map(|_| [1.0 + random.signed(), 1.0, 1.0 + random.signed()]).collect();
+        let map = Map { width: 64, height: 32, texels };
+        let irradiance = map.project(64).irradiance();
+        let lights = Lights::of(&map);
+        for _ in 0..20 {
+            let surface = surface(&mut random);
+            let found = lights.radiance(&Brdf::Lambert, &surface);
+            let expected = irradiance.evaluate(surface.modulated().0[2]).map(|v| v / PI);
+            // Texels of 5.6 degrees at their centres change band 2 by 0.2 %; noise lies in all bands.
+            assert!((0..3).all(|i| (found[i] / expected[i] - 1.0).abs() < 5e-3), "{found:?} {expected:?}");
+        }
+    }
+
+    #[test]
+    fn one_texel_gives_the_reflectance_itself() {
+        let mut random = Random::new(5);
+        let mut map = Map { width: 64, height: 32, texels: vec![[0.0; 3]; 64 * 32] };
+        map.texels[5 * 64 + 40] = [1.0, 2.0, 0.0];
+        let lights = Lights::of(&map);
+        let brdf = Brdf::Ward { alpha: [0.3, 0.6] };
+        for _ in 0..50 {
+            let surface = surface(&mut random);
+            let (axes, view) = surface.modulated();
+            let light = axes.map(|axis| dot(axis, map.direction(40, 5)));
+            let expected = brdf.value(view, light) * map.solid_angle(5);
+            let [r, g, b] = lights.radiance(&brdf, &surface);
+            assert!((r - expected).abs() <= 1e-12 * expected && (g - 2.0 * r).abs() <= 1e-12 * r && b == 0.0);
+        }
+    }
+}

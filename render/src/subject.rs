@@ -1,0 +1,139 @@
+//! What a picture shows, with every file read: the object, its normal map, its reflectance and the light around it. It
+//! knows nothing of adapters.
+
+use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::picture::AssetError;
+use zonal_codegen::picture::brdf::Brdf;
+use zonal_codegen::picture::camera::Camera;
+use zonal_codegen::picture::mesh::Mesh;
+use zonal_codegen::picture::normal_map::NormalMap;
+use zonal_codegen::picture::shade::{Method, Shading};
+use zonal_codegen::plan::Plan;
+use zonal_codegen::scene::{Light, Located, Order, Scene, Turn};
+use zonal_codegen::spec::{Family, Spec};
+
+/// What a picture shows.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The scene's name.
+    pub name: String,
+    /// The object.
+    pub mesh: Mesh,
+    /// Its relief.
+    pub normals: NormalMap,
+    /// What the slopes of the relief are multiplied with.
+    pub strength: f64,
+    /// What it reflects.
+    pub brdf: Brdf,
+    /// The light around it.
+    pub map: Map,
+    /// The number of bands.
+    pub order: usize,
+    /// How coefficients get from a normal's frame to the surface's.
+    pub method: Method,
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// The width and the height in pixels.
+    pub size: [usize; 2],
+    /// How many stops it is brighter than by itself.
+    pub exposure: f64,
+}
+
+/// What stands in for values of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Instead {
+    /// The number of bands.
+    pub order: Option<usize>,
+    /// How coefficients get from a normal's frame to the surface's.
+    pub method: Option<Method>,
+}
+
+fn located<T>(file: &Located<String>, result: Result<T, AssetError>) -> Result<T, Diagnostic> {
+    result.map_err(|error| Diagnostic::at(&file.place, format!("{}: {}", error.name, error.message), error.help))
+}
+
+impl Subject {
+    /// Reads what a scene's picture shows.
+    ///
+    /// # Errors
+    ///
+    /// If the scene has no picture or no light, or a file is at fault.
+    pub fn new(scene: &Scene, instead: Instead) -> Result<Self, Diagnostic> {
+        let missing =
+            |what: &str, help: &str| Diagnostic::at(&scene.name.place, format!("the scene has no {what}"), help);
+        let picture = scene.picture.as_ref();
+        let picture = picture.ok_or_else(|| missing("`[picture]`", "add the table with the `mesh` to draw"))?;
+        let environment = scene.environment.as_ref();
+        let environment =
+            environment.ok_or_else(|| missing("`[environment]`", "add the table with a `map` of the light"))?;
+        if environment.signal != Light::Radiance {
+            let help = "write `signal = \"radiance\"`: the reflectance makes irradiance of it where that is wanted";
+            return Err(Diagnostic::at(&environment.map.place, "a picture is drawn from the map's radiance", help));
+        }
+        let read = |file: &Located<String>| scene.bytes(file);
+        let mesh = match picture.mesh.value.as_str() {
+            "sphere" => Mesh::sphere(),
+            "plane" => Mesh::plane(),
+            name => located(&picture.mesh, Mesh::from_obj(name, &read(&picture.mesh)?))?,
+        };
+        let normals = match &picture.normals {
+            None => NormalMap::flat(),
+            Some(file) => located(file, NormalMap::from_bytes(&file.value, &read(file)?))?,
+        };
+        let map = Map::from_bytes(&environment.map.value, &read(&environment.map)?).map_err(|error| {
+            let text = error.to_string();
+            let (message, help) = text.rsplit_once("; ").unwrap_or((&text, ""));
+            Diagnostic::at(&environment.map.place, message, help)
+        })?;
+        let number = match picture.order.as_ref().map(|order| order.value) {
+            Some(Order::Number(number)) => Some(number),
+            Some(Order::Environment) | None => None,
+        };
+        let (order, method) = match (instead.order.or(number), instead.method.or(picture.method)) {
+            (Some(order), Some(method)) => (order, method),
+            (order, method) => {
+                let plan = Plan::new(scene)?;
+                let found = plan.environment.as_ref().map(|environment| environment.order);
+                let order = order.or(found).ok_or_else(|| missing("`order`", "write one in `[picture]`"))?;
+                (order, method.unwrap_or_else(|| planned_method(scene, &plan)))
+            }
+        };
+        Ok(Self {
+            name: scene.name.value.clone(),
+            mesh,
+            normals,
+            strength: picture.strength,
+            brdf: scene.brdf.unwrap_or(Brdf::Lambert),
+            map,
+            order,
+            method,
+            camera: picture.camera,
+            size: picture.size,
+            exposure: picture.exposure,
+        })
+    }
+
+    /// The shader of an order and a method.
+    pub fn shading(&self, order: usize, method: Method) -> Shading {
+        Shading { order, method, isotropic: self.brdf.is_isotropic() }
+    }
+
+    /// The coefficients of the light.
+    pub fn light(&self, order: usize) -> Projection {
+        self.map.project(order)
+    }
+}
+
+/// How the scene's first rotation of the kind `tilt` was planned: only `tilt` and the exact kernel take a normal and no
+/// angle. Exactly, if there is none.
+fn planned_method(scene: &Scene, plan: &Plan) -> Method {
+    // The plan lists the kernels that the scene names, then its rotations.
+    let mut chosen = scene.rotations.iter().zip(&plan.kernels[scene.kernels.len()..]);
+    let tilt = chosen.find(|(rotation, _)| rotation.kind == Turn::Tilt);
+    let spec: Option<Spec> = tilt.and_then(|(_, chosen)| chosen.row.spec.parse().ok());
+    match spec {
+        Some(Spec { family: Family::Tilt, .. }) => Method::Tilt,
+        _ => Method::Exact,
+    }
+}

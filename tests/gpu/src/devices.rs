@@ -1,0 +1,104 @@
+//! Everything that runs shaders: two Vulkan drivers through wgpu, and a browser's WebGPU and WebGL2.
+
+use crate::browser::Browser;
+use crate::gpu::Gpu;
+use crate::job::Job;
+use crate::system::VULKAN;
+use crate::wrap;
+use zonal_codegen::emit::Function;
+use zonal_codegen::emit::dialect::Target;
+
+/// A driver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Driver {
+    /// One of [`VULKAN`].
+    Vulkan(usize),
+    /// The browser's WebGPU.
+    WebGpu,
+    /// The browser's WebGL2.
+    WebGl,
+}
+
+/// A driver and a language that it runs: a column of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// The driver.
+    pub driver: Driver,
+    /// The language.
+    pub target: Target,
+}
+
+/// Every driver and language.
+pub const COLUMNS: [Column; 6] = [
+    Column { driver: Driver::Vulkan(0), target: Target::Wgsl },
+    Column { driver: Driver::Vulkan(0), target: Target::Glsl },
+    Column { driver: Driver::Vulkan(1), target: Target::Wgsl },
+    Column { driver: Driver::Vulkan(1), target: Target::Glsl },
+    Column { driver: Driver::WebGpu, target: Target::Wgsl },
+    Column { driver: Driver::WebGl, target: Target::Glsl },
+];
+
+impl Driver {
+    /// What it is called here.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vulkan(i) => VULKAN[i].name,
+            Self::WebGpu => "WebGPU",
+            Self::WebGl => "WebGL2",
+        }
+    }
+}
+
+impl Column {
+    /// Its head in the table.
+    pub fn name(self) -> String {
+        format!("{} {}", self.driver.name(), self.target.name().to_uppercase())
+    }
+
+    /// The shader around a function's file.
+    pub fn wrapped(self, function: &Function, text: &str) -> String {
+        match self.driver {
+            Driver::WebGl => wrap::pixels(function, text),
+            _ => wrap::compute(function, self.target, text),
+        }
+    }
+}
+
+/// A device of each driver.
+#[derive(Debug)]
+pub struct Devices {
+    gpus: [Gpu; VULKAN.len()],
+    browser: Browser,
+}
+
+impl Devices {
+    /// Opens all of them.
+    ///
+    /// # Errors
+    ///
+    /// If there is no device of a driver.
+    pub fn open() -> Result<Self, String> {
+        let [first, second] = VULKAN.map(|driver| Gpu::open(driver.adapter));
+        Ok(Self { gpus: [first?, second?], browser: Browser::open()? })
+    }
+
+    /// What a column's driver calls itself.
+    pub fn name(&self, column: Column) -> String {
+        match column.driver {
+            Driver::Vulkan(i) => self.gpus[i].name.clone(),
+            Driver::WebGpu | Driver::WebGl => self.browser.name(column.target),
+        }
+    }
+
+    /// Runs a shader.
+    ///
+    /// # Errors
+    ///
+    /// If it is refused: what the compiler says.
+    pub fn run(&mut self, driver: Driver, job: &Job<'_>) -> Result<Vec<f32>, String> {
+        match driver {
+            Driver::Vulkan(i) => self.gpus[i].run(job),
+            Driver::WebGpu | Driver::WebGl => self.browser.run(job),
+        }
+    }
+}
