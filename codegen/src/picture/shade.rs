@@ -69,7 +69,7 @@ impl Method {
         let small = |method: Small| Family::Rotate(spec::Method::Small(vec![method; order - 1]));
         let family = match self {
             Self::Exact => return Some(rotation(order)),
-            Self::Tilt => Family::Tilt,
+            Self::Tilt => Family::Tilt(Small::Lf3.from_band_3(order)),
             Self::Lf3 => small(Small::Lf3),
             Self::Taylor15 => small(Small::Taylor15),
             Self::None => return None,
@@ -277,7 +277,7 @@ pub fn wgsl_gbuffer() -> String {
 ///
 /// If the kernel is too long for compilers.
 pub fn check(function: &Function, target: Target) -> Result<String, Limit> {
-    let dialect = Dialect { target, rgb: false };
+    let dialect = Dialect { target, rgb: false, half: false };
     let mut places = 0..;
     let mut next = || {
         let place = places.next().unwrap_or(0);
