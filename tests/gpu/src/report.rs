@@ -153,3 +153,36 @@ pub fn check(written: &str, measured: &Measured) -> Result<(), String> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(error: f64) -> Measured {
+        let row = |(spec, column): (&str, String)| Row {
+            spec: spec.to_owned(),
+            column,
+            change: String::new(),
+            error: if spec == "swap_yz:2" { 0.0 } else { error },
+            tolerance: 1e-6,
+            seconds: 0.5,
+        };
+        let specs = ["eval:3", "eval:4:rgb", "swap_yz:2"];
+        let rows = specs.iter().flat_map(|&spec| COLUMNS.map(|column| row((spec, column.name())))).collect();
+        Measured { adapters: BTreeMap::new(), rows }
+    }
+
+    #[test]
+    fn a_table_is_held_to_what_was_measured() {
+        let written = markdown(&measured(2e-7));
+        assert_eq!(lines(&measured(2e-7)).len(), 2);
+        assert_eq!(check(&written, &measured(2e-7)), Ok(()));
+        assert_eq!(check(&written, &measured(3e-7)), Ok(()));
+        assert!(check(&written, &measured(5e-7)).is_err());
+        assert!(check(&written, &measured(0.0)).is_err());
+        assert!(check(&written.replace("| `swap_yz` | 0 |", "| `swap_yz` | 1e-9 |"), &measured(2e-7)).is_err());
+        assert!(check(&written.replace("WebGL2", "WebGL1"), &measured(2e-7)).is_err());
+        let lines: Vec<&str> = written.lines().filter(|line| !line.starts_with("| `eval`")).collect();
+        assert!(check(&lines.join("\n"), &measured(2e-7)).is_err());
+    }
+}
