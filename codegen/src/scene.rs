@@ -54,7 +54,7 @@
 #[cfg(feature = "picture")]
 pub mod picture;
 
-use crate::choose::{Norm, Precision, Turn};
+pub use crate::choose::{Norm, Precision, Turn};
 use crate::diagnostic::{Diagnostic, Place, Source};
 use crate::emit::dialect::Target;
 use crate::files;

@@ -3,6 +3,7 @@
 
 use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::kernels::y_rotation::Small;
 use zonal_codegen::picture::AssetError;
 use zonal_codegen::picture::brdf::Brdf;
 use zonal_codegen::picture::camera::Camera;
@@ -133,7 +134,8 @@ fn planned_method(scene: &Scene, plan: &Plan) -> Method {
     let tilt = chosen.find(|(rotation, _)| rotation.kind == Turn::Tilt);
     let spec: Option<Spec> = tilt.and_then(|(_, chosen)| chosen.row.spec.parse().ok());
     match spec {
-        Some(Spec { family: Family::Tilt, .. }) => Method::Tilt,
+        Some(Spec { family: Family::Tilt(methods), .. }) if methods.contains(&Small::Lf5) => Method::Tilt5,
+        Some(Spec { family: Family::Tilt(_), .. }) => Method::Tilt,
         _ => Method::Exact,
     }
 }

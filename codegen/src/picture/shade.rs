@@ -41,6 +41,8 @@ pub enum Method {
     Exact,
     /// `tilt`, from the normal alone.
     Tilt,
+    /// `tilt:n:lf5`, likewise, by five shears.
+    Tilt5,
     /// `rotate:n:lf3`, from the phases of the shortest rotation and its angle.
     Lf3,
     /// `rotate:n:taylor15`, likewise.
@@ -51,13 +53,14 @@ pub enum Method {
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 5] = [Self::Exact, Self::Tilt, Self::Lf3, Self::Taylor15, Self::None];
+    pub const ALL: [Self; 6] = [Self::Exact, Self::Tilt, Self::Tilt5, Self::Lf3, Self::Taylor15, Self::None];
 
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
             Self::Tilt => "tilt",
+            Self::Tilt5 => "tilt5",
             Self::Lf3 => "lf3",
             Self::Taylor15 => "taylor15",
             Self::None => "none",
@@ -70,6 +73,9 @@ impl Method {
         let family = match self {
             Self::Exact => return Some(rotation(order)),
             Self::Tilt => Family::Tilt(Small::Lf3.from_band_3(order)),
+            // Below band 3 there is but one tilt.
+            Self::Tilt5 if order <= 3 => Family::Tilt(Small::Lf3.from_band_3(order)),
+            Self::Tilt5 => Family::Tilt(Small::Lf5.from_band_3(order)),
             Self::Lf3 => small(Small::Lf3),
             Self::Taylor15 => small(Small::Taylor15),
             Self::None => return None,

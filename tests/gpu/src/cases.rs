@@ -160,7 +160,7 @@ impl Cases {
         let samples = samples::inputs(&function.spec, params, 7, count, max_angle);
         // A loop is held to its unrolled twin, which is the faster to run.
         let runner = match &built.code {
-            Code::Straight(_) => built.code.runner::<Wide>(),
+            Code::Straight(_) | Code::Branch(_) => built.code.runner::<Wide>(),
             Code::Loop(_) => Code::Straight(Listing::new(&kernel(&function.spec))).runner(),
         };
         let (shape, kind) = built.code.result();

@@ -53,9 +53,10 @@ const NORMALS: [(&str, &str); 4] = [
 ];
 
 /// The methods: what they are called and how band l errs when the normal leans by β.
-const METHODS: [(Method, &str, &str); 5] = [
+const METHODS: [(Method, &str, &str); 6] = [
     (Method::Exact, "Exact", "no error but rounding"),
     (Method::Tilt, "Tilt", "bands 1 and 2 exact, band l errs by (lβ)³/24"),
+    (Method::Tilt5, "Tilt, five shears", "bands 1 and 2 exact, band l errs by about (lβ)³/329"),
     (Method::Lf3, "Shears (lf3)", "band l errs by (lβ)³/24"),
     (Method::Taylor15, "Taylor 1.5", "band l errs by about (lβ)²/4"),
     (Method::None, "None: simplified normal mapping", "band l errs by about lβ, for nothing is turned"),
