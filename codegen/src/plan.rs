@@ -66,6 +66,9 @@ pub struct EnvironmentPlan {
     pub operations: [usize; 2],
     /// The RGB coefficients of the stored bands.
     pub values: Vec<[f64; 3]>,
+    /// What the scene's reflectance requires of the light; then `energy` is that of what is reflected.
+    #[cfg(feature = "picture")]
+    pub requirement: Option<crate::picture::requirement::Requirement>,
 }
 
 /// A method that was weighed for a rotation.
@@ -632,7 +635,11 @@ impl EnvironmentPlan {
 #[cfg(feature = "environment")]
 mod environment {
     use super::{Diagnostic, EnvironmentPlan, Scene};
+    #[cfg(feature = "picture")]
+    use crate::emit::dialect::Target;
     use crate::environment::{Map, MapError};
+    #[cfg(feature = "picture")]
+    use crate::picture::requirement::Requirement;
     use crate::scene::{Light, Maps};
     use crate::spec::MIN_ORDER;
 
@@ -664,10 +671,21 @@ mod environment {
             Light::Irradiance => radiance.irradiance(),
         };
         let max_order = wanted.max_order;
-        let vanishing: Vec<usize> = (0..max_order).filter(|&l| signal.vanishes(l)).collect();
+        let mut vanishing: Vec<usize> = (0..max_order).filter(|&l| signal.vanishes(l)).collect();
         let mut energy = signal.band_energy();
         energy.truncate(max_order);
         let held = energy.iter().sum::<f64>() / signal.energy();
+        #[cfg(feature = "picture")]
+        let requirement = scene.brdf.filter(|_| wanted.signal == Light::Radiance).map(|brdf| {
+            let half = scene.targets[..] == [Target::Wgsl];
+            Requirement::new(&map, &brdf, wanted.budget, max_order, half)
+        });
+        #[cfg(feature = "picture")]
+        if let Some(requirement) = &requirement {
+            // What is reflected decides, not the light itself.
+            energy.clone_from(&requirement.energy);
+            vanishing = (0..max_order).filter(|&l| !requirement.holds(l)).collect();
+        }
         vanishing.iter().for_each(|&l| energy[l] = 0.0);
         // No map is black, so that this is above zero.
         let all: f64 = energy.iter().sum();
@@ -692,6 +710,8 @@ mod environment {
             coefficients: [0, 0],
             operations: [0, 0],
             values: signal.coefficients[..order * order].to_vec(),
+            #[cfg(feature = "picture")]
+            requirement,
         }))
     }
 }
@@ -772,7 +792,12 @@ impl fmt::Display for EnvironmentPlan {
                 .to_owned(),
             ]);
         }
-        f.write_str(&table(&rows))
+        f.write_str(&table(&rows))?;
+        #[cfg(feature = "picture")]
+        if let Some(requirement) = &self.requirement {
+            write!(f, "\n{requirement}")?;
+        }
+        Ok(())
     }
 }
 

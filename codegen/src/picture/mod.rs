@@ -5,6 +5,7 @@ pub mod brdf;
 pub mod camera;
 pub mod mesh;
 pub mod normal_map;
+pub mod requirement;
 pub mod shade;
 pub mod vector;
 
