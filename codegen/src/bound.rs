@@ -4,8 +4,9 @@
 //!
 //! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
 //! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation.
-//! Left out are signals so small that products underflow, and the place where adding the tiny number does not help:
-//! a quaternion with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16, a normal with such an x and y.
+//! Left out are signals so small that products underflow, and where adding the tiny number does not help: a quaternion
+//! with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16; for `align` a normal whose x and y are below 2e-8 and not
+//! both zero, where the tiny number turns the spin, which is open.
 //!
 //! The arithmetic is IEEE's: 1/x is rounded once and 1/√x twice; a contraction is one of [`crate::eval::Contraction`]'s.
 //! A shader compiler that flushes, reorders or takes a less exact inverse root is outside of it.
@@ -15,6 +16,7 @@
 //! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
 //! grid of its one to three angles ([`domain`] says why a grid proves it). Whatever is not recognised has no bound.
 
+pub mod boxes;
 pub mod domain;
 pub mod norm;
 pub mod phases;
@@ -64,7 +66,19 @@ const NUDGE: f64 = 1e-13;
 pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
     match code {
         Code::Straight(listing) => prove(spec, listing),
-        Code::Loop(_) | Code::Branch(_) => None,
+        Code::Branch(branch) => {
+            let Family::RotateAdaptive(methods) = &spec.family else { return None };
+            let way = |family, listing| prove(&Spec { family, ..spec.clone() }, listing);
+            let below = way(Family::RotateSmall(methods.clone()), &branch.below)?;
+            let above = way(Family::Rotate(Method::Zyz), &branch.above)?;
+            let larger = |a: &f64, b: &f64| a.max(*b);
+            Some(Bound {
+                separate: larger(&below.separate, &above.separate),
+                fused: larger(&below.fused, &above.fused),
+                bands: below.bands.iter().zip(&above.bands).map(|(a, b)| larger(a, b)).collect(),
+            })
+        }
+        Code::Loop(_) => None,
     }
 }
 
@@ -77,11 +91,12 @@ pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
     let prover = Prover::new(spec, listing)?;
     match spec.family {
         Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
-        Family::Eval => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
+        Family::Eval | Family::EvalMonomial => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
         Family::Angles => {
             let rotation = Listing::new(&rotate::zyz_from_angles(spec.order));
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)
         }
+        Family::ToMonomial => Bound::of(&prover.mixed()?, true),
         _ => Bound::of(&prover.bands()?, true),
     }
 }
@@ -127,7 +142,9 @@ impl<'a> Prover<'a> {
     fn new(spec: &'a Spec, listing: &'a Listing) -> Option<Self> {
         let mut others = HashMap::new();
         let roots = match &spec.family {
-            Family::Angles | Family::Rotate(Method::Zyz | Method::Zxzxz) => phases::of_quaternion(listing)?,
+            Family::Angles | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
+                phases::of_quaternion(listing)?
+            }
             Family::Rotate(Method::Align) => phases::of_normal(listing)?,
             Family::Rotate(Method::Angles) => {
                 let (pairs, last) = all_angles(spec.order);
@@ -217,7 +234,7 @@ impl<'a> Prover<'a> {
             let circle = self.phases.of(operand).map(|(phase, _)| phase.circle);
             let circle = circle.or_else(|| self.others.get(&operand).map(|(_, circle)| *circle));
             let next = match (circle, operand) {
-                (Some(circle), _) => (Domain::Circle, circle),
+                (Some(circle), _) => (self.circle(circle), circle),
                 (None, Operand::Input { param, .. }) => (self.parameter(param)?, 0),
                 (None, Operand::Step(step)) => {
                     stack.extend(self.listing.steps[step].op.operands());
@@ -233,10 +250,20 @@ impl<'a> Prover<'a> {
         Some(found.unwrap_or((Domain::Nothing, 0)))
     }
 
+    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate.
+    fn circle(&self, circle: usize) -> Domain {
+        match (&self.spec.family, self.spec.max_angle()) {
+            (Family::RotateSmall(_), Some(most)) if circle == phases::POLAR => Domain::Arc(most * (1.0 + 4.0 * INPUT)),
+            _ => Domain::Circle,
+        }
+    }
+
     fn parameter(&self, param: usize) -> Option<Domain> {
         let max_angle = self.spec.max_angle();
         let domain = match (&self.spec.family, self.listing.params[param].shape) {
-            (Family::Basis | Family::Eval | Family::Rotate(Method::Zonal), Shape::Vec3) => Domain::Sphere,
+            (Family::Basis | Family::Eval | Family::EvalMonomial | Family::Rotate(Method::Zonal), Shape::Vec3) => {
+                Domain::Sphere
+            }
             (Family::Tilt(_) | Family::TiltPrescaled(_), Shape::Vec3) => {
                 Domain::Cap(max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
             }
@@ -304,6 +331,25 @@ impl<'a> Prover<'a> {
         (0..self.spec.order).map(|l| self.band(l)).collect()
     }
 
+    /// The errors of a constant map that mixes bands, for bands of norm one.
+    fn mixed(&self) -> Option<Vec<Both>> {
+        let (inputs, places) = (self.coefficients(), |l: usize| l * l..(l + 1) * (l + 1));
+        let band = |l: usize| {
+            let outputs = &self.listing.outputs[places(l)];
+            let section = Section::new(self.listing, Domain::Nothing, &inputs, outputs, |_| None)?;
+            let measure = |run: &Run, mode: usize, _: f64| {
+                let weights = section.weights(run, mode);
+                let of = |from: usize| -> f64 {
+                    let rows = (0..outputs.len()).flat_map(|row| weights.row(row)[places(from)].iter().copied());
+                    Matrix { columns: 2 * from + 1, entries: rows.collect() }.weight_norm(0.0)
+                };
+                (0..self.spec.order).map(of).sum::<f64>() * SLACK
+            };
+            Some(sweep(&section, Domain::Nothing, &[], self.roundoff, 0.0, &measure))
+        };
+        (0..self.spec.order).map(band).collect()
+    }
+
     /// The error of a band relative to its norm.
     fn band(&self, l: usize) -> Option<Both> {
         let (all, places) = (self.coefficients(), l * l..(l + 1) * (l + 1));
@@ -311,7 +357,10 @@ impl<'a> Prover<'a> {
         let outputs: Vec<Operand> = self.listing.outputs[places].iter().map(|&output| self.unsigned(output)).collect();
         let stages: Vec<&[Operand]> = self.listing.stages.iter().map(Vec::as_slice).collect();
         let part = self.part(&inputs, &outputs, &stages)?;
-        let nudge = matches!(self.spec.family, Family::Angles | Family::Rotate(Method::Zyz | Method::Zxzxz));
+        let nudge = matches!(
+            self.spec.family,
+            Family::Angles | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz)
+        );
         Some(part.error.map(|error| error * SLACK + if nudge { l as f64 * NUDGE } else { 0.0 }))
     }
 
@@ -376,7 +425,7 @@ impl<'a> Prover<'a> {
             let weight = section.weights(run, mode).weight_norm(enough);
             // The second bound is too slow for a grid of several angles.
             match domain {
-                Domain::Nothing | Domain::Circle | Domain::Small(_) if weight > enough => {
+                Domain::Nothing | Domain::Circle | Domain::Arc(_) | Domain::Small(_) if weight > enough => {
                     weight.min(section.error_by_depth(run, roundoff)[mode])
                 }
                 _ => weight,
@@ -545,7 +594,7 @@ fn are_orthogonal(a: &Matrix, b: &Matrix) -> bool {
 
 /// At least the 2-norm of a section's exact map; infinite where it is not needed, for domains of several angles.
 fn exact_norm(section: &Section, domain: Domain) -> f64 {
-    if !matches!(domain, Domain::Nothing | Domain::Circle | Domain::Small(_)) {
+    if !matches!(domain, Domain::Nothing | Domain::Circle | Domain::Arc(_) | Domain::Small(_)) {
         return f64::INFINITY;
     }
     let exact: Vec<Start> =

@@ -8,7 +8,7 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 199 (130 mul, 0 add, 69 fma); 114 constants, 107 live values.
-/// Error: f32 rounding at most 1.1e-5 of one, for dir of unit length (proven for IEEE arithmetic,
+/// Error: f32 rounding at most 6.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///     contracted or not; the worst of 256 measured is 7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -312,7 +312,7 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 28] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 221 (51 mul, 0 add, 170 fma); 116 constants, 15 live values.
-/// Error: f32 rounding at most 4.4e-5 of the norm of the coefficients, each band of norm one, for dir
+/// Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
 ///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     9.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -4720,7 +4720,7 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] 
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
-/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
+/// Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 ///     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -5297,9 +5297,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 /// Returns the rotated coefficients.
 /// Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants, 131
 ///     live values.
-/// Error: f32 rounding at most 4.9e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.7e-5; not proven). Method error, the worst band's in spectral norm:
-///     2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
+///     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -5752,8 +5753,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 100]) -> [[T; 3]; 100] 
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 131 (16 mul, 1 add, 114 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 8.3e-7; not proven).
+/// Error: f32 rounding at most 1.8e-5 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     8.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 100]) -> V {
@@ -5803,8 +5805,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 100]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 218 (98 mul, 0 add, 120 fma); 122 constants, 100 live values.
-/// Error: f32 rounding at most 3.3e-5 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 1.1e-5; not proven).
+/// Error: f32 rounding at most 4.6e-5 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 1.1e-5).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -14536,9 +14538,10 @@ fn lf5_rotate_small_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100], [t9, 
 /// Returns the rotated coefficients.
 /// Operations: 1018 (379 mul, 6 add, 633 fma) and 1 inverse square root or reciprocal; 57 constants,
 ///     136 live values.
-/// Error: f32 rounding at most 6.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 2.3e-6; not proven). Method error, the worst band's in spectral norm:
-///     1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
+///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -15199,10 +15202,10 @@ fn rotate_adaptive_above_1<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 1
 /// Returns the rotated coefficients.
 /// Operations: 1169 (331 mul, 6 add, 832 fma) and 1 inverse square root or reciprocal above the limit,
 ///     811 below it; 246 constants, 149 live values.
-/// Error: f32 rounding at most 5e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 1.7e-6; not proven). Method error, the worst band's
-///     in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it grows without
-///     bound beyond.
+/// Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
+///     25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 100]) -> [V; 100] {

@@ -913,9 +913,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// Returns the rotated coefficients.
 /// Operations: 130 (60 mul, 6 add, 64 fma) and 1 inverse square root or reciprocal; 11 constants, 27
 ///     live values.
-/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 7.2e-7; not proven). Method error, the worst band's in spectral norm:
-///     6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7). Method error, the
+///     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -1014,8 +1015,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 23 (4 mul, 1 add, 18 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 3.5e-7; not proven).
+/// Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     3.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
@@ -1039,8 +1041,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 16]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 20 (16 mul, 0 add, 4 fma); 12 constants, 16 live values.
-/// Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 9e-8; not proven).
+/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -2372,9 +2374,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// Returns the rotated coefficients.
 /// Operations: 145 (64 mul, 6 add, 75 fma) and 1 inverse square root or reciprocal; 14 constants, 31
 ///     live values.
-/// Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 7e-7; not proven). Method error, the worst band's in spectral norm: 5e-5
-///     at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
+///     band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
+///     without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -2489,10 +2492,10 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16
 /// Returns the rotated coefficients.
 /// Operations: 137 (61 mul, 6 add, 70 fma) and 1 inverse square root or reciprocal above the limit, 133
 ///     below it; 16 constants, 32 live values.
-/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 7.2e-7; not proven). Method error, the worst band's
-///     in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without
-///     bound beyond.
+/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
+///     Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1
+///     at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 16]) -> [V; 16] {

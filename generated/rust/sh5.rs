@@ -129,7 +129,7 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 13] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 53 (16 mul, 0 add, 37 fma); 24 constants, 7 live values.
-/// Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+/// Error: f32 rounding at most 3.9e-6 of the norm of the coefficients, each band of norm one, for dir
 ///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     2.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -1304,9 +1304,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// Returns the rotated coefficients.
 /// Operations: 203 (90 mul, 6 add, 107 fma) and 1 inverse square root or reciprocal; 15 constants, 41
 ///     live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 9.3e-7; not proven). Method error, the worst band's in spectral norm:
-///     1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
+///     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -1444,8 +1445,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 36 (6 mul, 1 add, 29 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 4.3e-7; not proven).
+/// Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     4.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 25]) -> V {
@@ -1471,8 +1473,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 25]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
-/// Error: f32 rounding at most 6.2e-7 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 2.1e-7; not proven).
+/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -3441,9 +3443,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// Returns the rotated coefficients.
 /// Operations: 238 (99 mul, 6 add, 133 fma) and 1 inverse square root or reciprocal; 21 constants, 46
 ///     live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 9.2e-7; not proven). Method error, the worst band's in spectral norm:
-///     1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
+///     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -3611,10 +3614,10 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25
 /// Returns the rotated coefficients.
 /// Operations: 227 (91 mul, 6 add, 130 fma) and 1 inverse square root or reciprocal above the limit,
 ///     206 below it; 27 constants, 46 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 9.1e-7; not proven). Method error, the worst band's
-///     in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows
-///     without bound beyond.
+/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
+///     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
+///     at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 25]) -> [V; 25] {
@@ -3888,8 +3891,8 @@ pub fn rotate_adaptive_rgb<T: Real>(q: [T; 4], limit: T, c: &[[T; 3]; 25]) -> [[
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+/// Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
+///     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     1.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]

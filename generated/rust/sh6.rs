@@ -161,7 +161,7 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 77 (21 mul, 0 add, 56 fma); 36 constants, 8 live values.
-/// Error: f32 rounding at most 7.1e-6 of the norm of the coefficients, each band of norm one, for dir
+/// Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
 ///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -1827,9 +1827,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// Returns the rotated coefficients.
 /// Operations: 292 (126 mul, 6 add, 160 fma) and 1 inverse square root or reciprocal; 19 constants, 55
 ///     live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.1e-6; not proven). Method error, the worst band's in spectral norm:
-///     3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
+///     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -2014,8 +2015,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 51 (8 mul, 1 add, 42 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 5.1e-7; not proven).
+/// Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     5.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> V {
@@ -2046,8 +2048,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 56 (36 mul, 0 add, 20 fma); 33 constants, 36 live values.
-/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 4.6e-7; not proven).
+/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -4821,9 +4823,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// Returns the rotated coefficients.
 /// Operations: 352 (141 mul, 6 add, 205 fma) and 1 inverse square root or reciprocal; 26 constants, 60
 ///     live values.
-/// Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 9.8e-7; not proven). Method error, the worst band's in spectral norm:
-///     2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
+///     worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -5055,10 +5058,10 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36
 /// Returns the rotated coefficients.
 /// Operations: 345 (127 mul, 6 add, 212 fma) and 1 inverse square root or reciprocal above the limit,
 ///     295 below it; 49 constants, 63 live values.
-/// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 1.2e-6; not proven). Method error, the worst band's
-///     in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it grows
-///     without bound beyond.
+/// Error: f32 rounding at most 2.4e-5 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+///     Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
+///     at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 36]) -> [V; 36] {

@@ -8,7 +8,7 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 90 (62 mul, 0 add, 28 fma); 50 constants, 50 live values.
-/// Error: f32 rounding at most 3e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+/// Error: f32 rounding at most 2.7e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///     contracted or not; the worst of 256 measured is 4.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -2175,7 +2175,7 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 49]) -> [[T; 3]; 49] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 135 (107 mul, 0 add, 28 fma); 47 constants, 57 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for dir of unit length (proven for IEEE
+/// Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 ///     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -2477,9 +2477,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 49]) -> [[T; 3]; 49] {
 /// Returns the rotated coefficients.
 /// Operations: 397 (168 mul, 6 add, 223 fma) and 1 inverse square root or reciprocal; 25 constants, 71
 ///     live values.
-/// Error: f32 rounding at most 3.7e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.3e-6; not proven). Method error, the worst band's in spectral norm:
-///     6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 4.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
+///     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 49]) -> [V; 49] {
@@ -2719,8 +2720,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 49]) -> [[T; 3]; 49] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 68 (10 mul, 1 add, 57 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 6e-7; not proven).
+/// Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 49]) -> V {
@@ -2755,8 +2757,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 49]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 84 (49 mul, 0 add, 35 fma); 49 constants, 49 live values.
-/// Error: f32 rounding at most 3.7e-6 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 1.3e-6; not proven).
+/// Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 49]) -> [V; 49] {
@@ -6540,9 +6542,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 49]) -> [[T; 3]; 49] {
 /// Returns the rotated coefficients.
 /// Operations: 487 (190 mul, 6 add, 291 fma) and 1 inverse square root or reciprocal; 33 constants, 79
 ///     live values.
-/// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.1e-6; not proven). Method error, the worst band's in spectral norm:
-///     4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
+///     worst band's in spectral norm: 4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 49]) -> [V; 49] {
@@ -6849,10 +6852,10 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 49]) -> [[T; 3]; 49
 /// Returns the rotated coefficients.
 /// Operations: 493 (169 mul, 6 add, 318 fma) and 1 inverse square root or reciprocal above the limit,
 ///     400 below it; 75 constants, 80 live values.
-/// Error: f32 rounding at most 3.4e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 1.2e-6; not proven). Method error, the worst band's
-///     in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it grows without
-///     bound beyond.
+/// Error: f32 rounding at most 4.7e-5 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+///     Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0
+///     at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 49]) -> [V; 49] {

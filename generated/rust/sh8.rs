@@ -8,7 +8,7 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 122 (82 mul, 0 add, 40 fma); 68 constants, 70 live values.
-/// Error: f32 rounding at most 4.2e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+/// Error: f32 rounding at most 3.6e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///     contracted or not; the worst of 256 measured is 5.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -230,7 +230,7 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 22] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 139 (34 mul, 0 add, 105 fma); 70 constants, 11 live values.
-/// Error: f32 rounding at most 1.9e-5 of the norm of the coefficients, each band of norm one, for dir
+/// Error: f32 rounding at most 1.7e-5 of the norm of the coefficients, each band of norm one, for dir
 ///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     4.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -2867,7 +2867,7 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
-/// Error: f32 rounding at most 3.7e-6 of the norm of a band, for dir of unit length (proven for IEEE
+/// Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 ///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -3252,9 +3252,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// Returns the rotated coefficients.
 /// Operations: 518 (216 mul, 6 add, 296 fma) and 1 inverse square root or reciprocal; 32 constants, 89
 ///     live values.
-/// Error: f32 rounding at most 1.5e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 4.7e-6; not proven). Method error, the worst band's in spectral norm:
-///     9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 1.5e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
+///     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -3557,8 +3558,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 87 (12 mul, 1 add, 74 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 7e-7; not proven).
+/// Error: f32 rounding at most 1.2e-5 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 64]) -> V {
@@ -3598,8 +3600,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 64]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 120 (64 mul, 0 add, 56 fma); 69 constants, 64 live values.
-/// Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 2.3e-6; not proven).
+/// Error: f32 rounding at most 8e-6 of the norm of a band, for every input (proven for IEEE arithmetic,
+///     contracted or not; the worst of 256 measured is 2.3e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -8623,9 +8625,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// Returns the rotated coefficients.
 /// Operations: 643 (246 mul, 6 add, 391 fma) and 1 inverse square root or reciprocal; 41 constants, 94
 ///     live values.
-/// Error: f32 rounding at most 5.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.8e-6; not proven). Method error, the worst band's in spectral norm:
-///     7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
+///     worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -9018,10 +9021,10 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64
 /// Returns the rotated coefficients.
 /// Operations: 679 (217 mul, 6 add, 456 fma) and 1 inverse square root or reciprocal above the limit,
 ///     521 below it; 125 constants, 102 live values.
-/// Error: f32 rounding at most 4e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 1.4e-6; not proven). Method error, the worst band's
-///     in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it grows without
-///     bound beyond.
+/// Error: f32 rounding at most 1.5e-4 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
+///     Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
+///     25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 64]) -> [V; 64] {

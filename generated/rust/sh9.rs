@@ -8,7 +8,7 @@ use super::real::{Channels, Real, Signal};
 /// dir: the direction, of unit length.
 /// Returns y_lm(dir), bands ascending, m from -l to l.
 /// Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 83 live values.
-/// Error: f32 rounding at most 7.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+/// Error: f32 rounding at most 5.2e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///     contracted or not; the worst of 256 measured is 5.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -269,8 +269,8 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 25] {
 /// c: the coefficients of the bands, ascending.
 /// Returns sum c_i y_i(dir).
 /// Operations: 177 (42 mul, 0 add, 135 fma); 92 constants, 14 live values.
-/// Error: f32 rounding at most 3e-5 of the norm of the coefficients, each band of norm one, for dir of
-///     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+/// Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///     7.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -3736,7 +3736,7 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the zonal coefficients, one a band.
 /// Returns the rotated coefficients.
 /// Operations: 234 (181 mul, 0 add, 53 fma); 87 constants, 93 live values.
-/// Error: f32 rounding at most 6.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
+/// Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 ///     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
@@ -4211,9 +4211,10 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// Returns the rotated coefficients.
 /// Operations: 655 (270 mul, 6 add, 379 fma) and 1 inverse square root or reciprocal; 38 constants, 109
 ///     live values.
-/// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 7e-6; not proven). Method error, the worst band's in spectral norm:
-///     1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 4.7e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-6). Method error, the worst
+///     band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows
+///     without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81]) -> [V; 81] {
@@ -4587,8 +4588,9 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Returns sum c_i y_i(dir).
 /// Operations: 108 (14 mul, 1 add, 93 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (3 times the worst of 256 measured, 1.1e-6; not proven).
+/// Error: f32 rounding at most 1.5e-5 of the norm of the coefficients, each band of norm one, for dir
+///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///     1.1e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 81]) -> V {
@@ -4633,8 +4635,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 81]) -> [T; 3] {
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 /// Operations: 163 (79 mul, 0 add, 84 fma); 92 constants, 81 live values.
-/// Error: f32 rounding at most 2.1e-5 of the norm of a band, for every input (3 times the worst of 256
-///     measured, 7e-6; not proven).
+/// Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 81]) -> [V; 81] {
@@ -11117,9 +11119,10 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 81]) -> [[T; 3]; 81] {
 /// Returns the rotated coefficients.
 /// Operations: 820 (309 mul, 6 add, 505 fma) and 1 inverse square root or reciprocal; 49 constants, 115
 ///     live values.
-/// Error: f32 rounding at most 4.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-///     worst of 256 measured, 1.4e-6; not proven). Method error, the worst band's in spectral norm:
-///     1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it grows without bound beyond.
+/// Error: f32 rounding at most 3.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
+///     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it
+///     grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 81]) -> [V; 81] {
@@ -12029,10 +12032,10 @@ fn rotate_adaptive_above_1<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 8
 /// Returns the rotated coefficients.
 /// Operations: 905 (271 mul, 6 add, 628 fma) and 1 inverse square root or reciprocal above the limit,
 ///     658 below it; 170 constants, 122 live values.
-/// Error: f32 rounding at most 5e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (3 times the worst of 256 measured, 1.7e-6; not proven). Method error, the worst band's
-///     in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows without
-///     bound beyond.
+/// Error: f32 rounding at most 4.7e-4 of the norm of a band, for every unit q, with a limit up to 25
+///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///     Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1
+///     at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 81]) -> [V; 81] {

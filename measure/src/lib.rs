@@ -2,6 +2,7 @@
 //! each precision, what a budget buys. [`Report::measure`] measures, [`render`] turns a report into tables and plots,
 //! [`Report::differences`] says where a report is stale. Everything but the times is the same on every run.
 
+pub mod bounds;
 pub mod costs;
 pub mod errors;
 pub mod factorisation;
@@ -73,8 +74,8 @@ pub fn render(report: &Report) -> Vec<File> {
     files
 }
 
-/// What is stale in a folder of tables and plots, given a fresh report: figures that changed, times apart, and files that
-/// are not what the folder's own figures make.
+/// What is stale in a folder of tables and plots, given a fresh report: figures that changed, times apart, bounds that are
+/// no longer what is proven, and files that are not what the folder's own figures make.
 pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     let path = folder.join("measure.json");
     let fault = |error: &dyn std::fmt::Display| vec![format!("{}: {error}", path.display())];
@@ -88,5 +89,6 @@ pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     };
     let differs = |file: &File| std::fs::read_to_string(folder.join(&file.name)).map_or(true, |text| text != file.text);
     let files = render(&old).into_iter().filter(differs).map(|file| format!("{} does not show its figures", file.name));
-    old.differences(fresh).into_iter().chain(files).collect()
+    let bounds = bounds::stale(old.bounds.as_deref().unwrap_or_default());
+    old.differences(fresh).into_iter().chain(files).chain(bounds).collect()
 }

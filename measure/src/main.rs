@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::Duration;
-use zonal_measure::{Progress, Report, render, stale, timing};
+use zonal_measure::{Progress, Report, bounds, render, stale, timing};
 
 /// Measure every method: errors over the angle, operations, memory, rounding, time.
 #[derive(Parser)]
@@ -18,6 +18,10 @@ struct Arguments {
     /// Leave the times as they are.
     #[arg(long)]
     no_timing: bool,
+    /// Measure only the rounding bounds: each kernel over so many inputs, a million by default, which takes minutes.
+    #[arg(long, value_name = "INPUTS", num_args = 0..=1, default_missing_value = "1000000")]
+    #[arg(conflicts_with_all = ["check", "no_timing"])]
+    bounds: Option<usize>,
     /// The folder of the tables and plots.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure"))]
     output: PathBuf,
@@ -46,10 +50,25 @@ fn write(folder: &Path, report: &Report) -> std::io::Result<()> {
     render(report).into_iter().try_for_each(|file| std::fs::write(folder.join(file.name), file.text))
 }
 
+/// The report that a folder holds.
+fn last(folder: &Path) -> Option<Report> {
+    let text = std::fs::read_to_string(folder.join("measure.json")).ok()?;
+    serde_json::from_str(&text).ok()
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let folder = &arguments.output;
     let bar = Bar(Mutex::new(ProgressBar::hidden()));
+    if let Some(inputs) = arguments.bounds {
+        let Some(old) = last(folder) else {
+            eprintln!("{}: holds no report; `cargo measure` writes one", folder.display());
+            return ExitCode::FAILURE;
+        };
+        let bounds = Some(bounds::measure(&bar, inputs.max(1)));
+        bar.0.lock().expect("no holder panics").finish();
+        return written(folder, &Report { bounds, ..old });
+    }
     let mut report = Report::measure(&bar);
     if arguments.check {
         bar.0.lock().expect("no holder panics").finish();
@@ -65,13 +84,15 @@ fn main() -> ExitCode {
     }
     report.timing = match arguments.no_timing {
         false => Some(timing::measure(&bar)),
-        true => std::fs::read_to_string(folder.join("measure.json"))
-            .ok()
-            .and_then(|text| serde_json::from_str::<Report>(&text).ok())
-            .and_then(|old| old.timing),
+        true => last(folder).and_then(|old| old.timing),
     };
+    report.bounds = last(folder).and_then(|old| old.bounds);
     bar.0.lock().expect("no holder panics").finish();
-    match write(folder, &report) {
+    written(folder, &report)
+}
+
+fn written(folder: &Path, report: &Report) -> ExitCode {
+    match write(folder, report) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{}: {error}; name a folder that can be written with --output", folder.display());

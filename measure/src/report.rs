@@ -1,5 +1,6 @@
 //! All that was measured, as JSON, and how two reports differ.
 
+use crate::bounds::Bounds;
 use crate::costs::Costs;
 use crate::errors::Curve;
 use crate::factorisation::Factorisation;
@@ -29,12 +30,15 @@ pub struct Report {
     pub fronts: Vec<Front>,
     /// The lobe sets of the zonal factorisation.
     pub factorisation: Factorisation,
+    /// The proven rounding bounds beside what was measured last.
+    #[serde(default)]
+    pub bounds: Option<Vec<Bounds>>,
     /// How long kernels took where they were last timed.
     pub timing: Option<Timing>,
 }
 
 impl Report {
-    /// Measures everything but times.
+    /// Measures everything but times and the bounds' million inputs.
     pub fn measure(progress: &dyn Progress) -> Self {
         Self {
             angles: errors::grid(),
@@ -43,6 +47,7 @@ impl Report {
             rounding: rounding::measure(progress),
             fronts: fronts::measure(progress),
             factorisation: factorisation::measure(progress),
+            bounds: None,
             timing: None,
         }
     }
@@ -67,10 +72,11 @@ impl Report {
         lines(&value, 0) + "\n"
     }
 
-    /// Where a fresh report differs from this one, times left out: counts must agree, errors to one percent.
+    /// Where a fresh report differs from this one, times and bounds left out: counts must agree, errors to one percent.
     pub fn differences(&self, fresh: &Self) -> Vec<String> {
         let value = |report: &Self| {
-            serde_json::to_value(Self { timing: None, ..report.clone() }).expect("a report has names for its fields")
+            let report = Self { bounds: None, timing: None, ..report.clone() };
+            serde_json::to_value(report).expect("a report has names for its fields")
         };
         let mut found = Vec::new();
         compare("", &value(self), &value(fresh), &mut found);

@@ -1,5 +1,6 @@
 //! The tables of a report, as Markdown. No figure is typed here: what the papers print comes from [`crate::papers`].
 
+use crate::bounds::{Bounds, Pair};
 use crate::errors::{LEVELS, LOBE, MAX, MEAN, NORMS, RMS, SHOWN};
 use crate::factorisation::{Shared, sparsity};
 use crate::fronts::{Choice, Front, budgets};
@@ -399,12 +400,50 @@ fn timing(report: &Report) -> File {
     file("timing", "Time", &parts)
 }
 
+fn proven(report: &Report) -> File {
+    let title = "Proven rounding bounds";
+    let Some(bounds) = &report.bounds else {
+        return file("bounds", title, &["Not measured yet: run `cargo measure --bounds`.".to_owned()]);
+    };
+    let rows = bounds.iter().map(|row| {
+        let pair = |pair: Pair| [short(pair.proven), short(pair.measured), short(pair.ratio())];
+        let [a, b] = [pair(row.separate), pair(row.fused)];
+        [vec![format!("`{}`", row.spec)], a.to_vec(), b.to_vec()].concat()
+    });
+    let ratios = |of: fn(&Bounds) -> Pair| {
+        let mut ratios: Vec<f64> = bounds.iter().map(|row| of(row).ratio()).collect();
+        ratios.sort_by(f64::total_cmp);
+        (ratios[ratios.len() / 2], ratios[ratios.len() - 1], ratios.iter().filter(|ratio| **ratio > 10.0).count())
+    };
+    let (median, most, loose) = ratios(|row| row.fused);
+    let inputs = bounds.iter().map(|row| row.inputs).min().unwrap_or(0);
+    let parts = [
+        format!(
+            "The f32 rounding error of each kernel: what `codegen/src/bound.rs` proves for every input of its domain, the \
+             largest that {inputs} seeded inputs reach, and how many times the one is the other; on the left where a \
+             multiply-add is rounded twice, on the right where it is rounded once. The measure is that of the file's \
+             head: relative to the norm of a band (for the basis: to one; for sums: to coefficients of which each band has \
+             norm one). `cargo measure --bounds` measures them again; nothing else does."
+        ),
+        format!(
+            "Of {} kernels none exceeds its bound. Rounded once, the median ratio is {}, the largest {}; {loose} are above \
+             10. Random inputs are not the worst ones: a part of each ratio is what a search would still find.",
+            bounds.len(),
+            short(median),
+            short(most)
+        ),
+        table(&["spec", "proven", "measured", "ratio", "proven, fused", "measured", "ratio"], rows),
+    ];
+    file("bounds", title, &parts)
+}
+
 fn index(report: &Report) -> File {
     let rows = [
         ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of paper 000"),
         ("[costs](costs.md)", "operations, constants, live values and bytes of every rotation"),
         ("[fronts](fronts.md)", "the cheapest rotation for an error, by order and largest angle"),
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
+        ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[factorisation](factorisation.md)", "Tables I and II of paper 003, ours beside"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
@@ -413,7 +452,7 @@ fn index(report: &Report) -> File {
     let bound = report.rounding_of("rotate:n", 5).and_then(|rounding| rounding.f32);
     let parts = [
         "Speed against accuracy, measured. `cargo measure` writes this folder, every figure of it; `cargo measure --check` \
-         says whether it is stale, and a test does too (times apart)."
+         says whether it is stale, and a test does too (times apart); `cargo measure --bounds` writes the bounds."
             .to_owned(),
         format!(
             "![Error over the angle, order 5](error_order5.svg)\n\nThe exact rotation of order 5 takes {exact} operations \
@@ -433,6 +472,7 @@ pub fn files(report: &Report) -> Vec<File> {
         costs(report),
         fronts(report),
         rounding(report),
+        proven(report),
         factorisation(report),
         timing(report),
     ]

@@ -11,6 +11,8 @@ pub enum Domain {
     Nothing,
     /// One unit phase.
     Circle,
+    /// One unit phase of an angle from 0 to this, over boxes.
+    Arc(f64),
     /// A number of at most this size.
     Small(f64),
     /// Unit vectors (x, y, z).
@@ -21,6 +23,8 @@ pub enum Domain {
     Quaternion,
     /// Rotation matrices by columns.
     Rotation,
+    /// One or two pairs (cos, sin), over boxes instead of a grid; see [`crate::bound::boxes`].
+    Pairs,
 }
 
 /// A number that a section starts from.
@@ -72,6 +76,7 @@ impl Domain {
     /// The degrees of a root in the domain's angles.
     pub fn degree(self, root: Root) -> Degree {
         match (self, root) {
+            (Self::Arc(_), _) => [0, 0, 0],
             (_, Root::Cos(k) | Root::Sin(k)) => [k, 0, 0],
             (_, Root::HalfSquare | Root::Product) => [2, 0, 0],
             (Self::Small(_), _) => [1, 0, 0],
@@ -88,7 +93,7 @@ impl Domain {
     /// The sections of the domain that no grid covers: parts of the angle from z.
     pub fn slabs(self) -> Option<(f64, f64)> {
         match self {
-            Self::Cap(most) => Some((0.0, most)),
+            Self::Cap(most) | Self::Arc(most) => Some((0.0, most)),
             _ => None,
         }
     }
@@ -110,7 +115,7 @@ impl Domain {
             }
         };
         match self {
-            Self::Nothing => push(&component(vec![])),
+            Self::Nothing | Self::Pairs => push(&component(vec![])),
             Self::Circle => {
                 for i in 0..n0 {
                     let theta = angle(i, n0);
@@ -124,6 +129,23 @@ impl Domain {
                         })
                     });
                 }
+            }
+            Self::Arc(_) => {
+                let (middle, half) = ((slab.0 + slab.1) / 2.0, (slab.1 - slab.0).abs() / 2.0);
+                // A function and its slope in the middle, with a second derivative of at most k².
+                let around =
+                    |value: f64, slope: f64, k: f64| (value, slope.abs() * half + k * k * half * half / 2.0 + THIN);
+                push(&|root| match root {
+                    Root::Cos(k) | Root::Sin(k) => {
+                        let k = k as f64;
+                        let (sin, cos) = (k * middle).sin_cos();
+                        let [value, slope] = if matches!(root, Root::Cos(_)) { [cos, sin] } else { [sin, cos] };
+                        around(value, k * slope, k)
+                    }
+                    Root::HalfSquare => around(middle.sin().powi(2) / 2.0, (2.0 * middle).sin() / 2.0, 1.0),
+                    Root::Product => around((2.0 * middle).sin() / 2.0, (2.0 * middle).cos(), 2.0),
+                    Root::Component(_) => unreachable!("an arc has phases"),
+                });
             }
             // most · cos t covers both signs already for t up to π.
             Self::Small(most) => (0..=n0 / 2).for_each(|i| push(&component(vec![thin(most * angle(i, n0).cos())]))),

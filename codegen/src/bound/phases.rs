@@ -4,20 +4,21 @@
 //! A complex product is off by K u of its size at most: K = √5 for separate arithmetic (Brent, Percival and Zimmermann
 //! 2007), 2 for fused (Jeannerod, Kornerup, Louvet and Muller 2017; whichever products are rounded, one of each part, they
 //! share a factor, so that what they lose is u |a| |cos + i sin| at most, and the sums lose as much again). The set-ups
-//! are recognised by their operations and bounded by hand:
-//!
-//! - a quaternion's: A = w² + z² and B = x² + y² are each off by 2 u relatively, AB by 5 u, 1/√(AB) by 4.5 u, the pair
-//!   (w, z)/√(AB) by 5.5 u, its product with (y, ±x) by (5.5 + K) u; cos β = A − B by 2 u + u |cos β|, sin β = 2 √(AB) by
-//!   5.5 u sin β;
-//! - a normal's: x² + y² by 2 u, 1/√(x² + y²) by 3 u, (x, y)/√(x² + y²) by 4 u, sin θ = √(x² + y²) by 4 u sin θ.
+//! are recognised by their operations, which says which values are phases, and bounded over [`boxes`]. By hand the phases
+//! of a quaternion are off by (5.5 + K) u at most, as A = w² + z² and B = x² + y² are by 2 u relatively, AB by 5 u, its
+//! inverse root by 4.5 u and (w, z) times that by 5.5 u: 7.74 u where nothing is fused, where the boxes find some 7.9, and
+//! 7.5 u where products are, where the boxes find some 7.2. The smaller one counts. So it is with cos β = A − B, off by
+//! 2 u + u |cos β|, and sin β = 2 √(AB), by 5.5 u sin β: as one vector 5.87 u; and with a normal's x² + y², off by 2 u,
+//! which leaves its inverse root by 3 u and (x, y) or x² + y² times that by 4 u.
 
+use crate::bound::boxes;
 use crate::bound::section::{Both, U};
 use crate::listing::{Listing, Op, Operand, Sign};
 use std::collections::HashMap;
 
 /// An f32 input may differ from a unit phase's, vector's or quaternion's component by so much, relative to it.
 pub const INPUT: f64 = U * 1.001;
-/// What is left out of the hand bounds: u², underflow, and the tiny number.
+/// What is left out of the boxes: underflow, and the tiny number.
 const REST: f64 = 1e-12;
 
 /// A complex number of unit size.
@@ -270,6 +271,9 @@ fn sum_of_squares(listing: &Listing, a: Operand, b: Operand) -> Option<Operand> 
     find(listing, |op| pair(listing, op).and_then(|pair| pair.is_of([a, a], [b, b])) == Some([true, true]))
 }
 
+/// Which circle is that of a quaternion's β.
+pub const POLAR: usize = 2;
+
 /// The phases of α, β and γ that a kernel makes of a unit quaternion. The rounding of adding the tiny number is left out:
 /// it turns α and γ, but hardly the rotation that they make together.
 pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
@@ -285,11 +289,13 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
         steps(listing).filter_map(|(operand, op)| is_one(op).map(|pair| (operand, pair))).collect()
     };
     let (real, imaginary) = (part([wr, y], [zr, x]), part([zr, y], [wr, x]));
+    let pairs = [[w, z], [y, x]];
     let mut phases = Vec::new();
     for (cos, p) in &real {
         let opposite = |q: &Pair| (p.plus[0] == p.plus[1]) != (q.plus[0] == q.plus[1]);
         let (sin, q) = imaginary.iter().find(|(_, q)| opposite(q))?;
-        let error = complex_product(p, q).map(|own| 5.5 * U + own + REST);
+        let (boxes, own) = (boxes::error(listing, &pairs, &[*cos, *sin])?, complex_product(p, q));
+        let error = std::array::from_fn(|mode| boxes[mode].min(5.5 * U + own[mode]) + REST);
         phases.push(Phase { cos: *cos, sin: *sin, circle: phases.len(), multiple: 1, defect: 0.0, error });
     }
     let [_, _] = phases[..] else { return None };
@@ -297,9 +303,10 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
     let two = |operand| matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0);
     let sin = find(listing, |op| matches!(op, Op::Mul(k, x) if two(k) && x == root))?;
     let cos = find(listing, |op| op == Op::Sub(a, b))?;
-    // (2 + |cos β|)² + (5.5 sin β)² is at most 5.87².
-    let error = [5.87 * U + REST; 2];
-    phases.push(Phase { cos, sin, circle: 2, multiple: 1, defect: 2.0 * INPUT + REST, error });
+    let part = |value| boxes::error(listing, &pairs, &[value]);
+    let polar = boxes::polar(part(a)?, part(b)?, part(sin)?.map(|error| error / 2.0));
+    let error = polar.map(|boxes| boxes.min(5.87 * U) + REST);
+    phases.push(Phase { cos, sin, circle: POLAR, multiple: 1, defect: 2.0 * INPUT + REST, error });
     Some(phases)
 }
 
@@ -311,8 +318,11 @@ pub fn of_normal(listing: &Listing) -> Option<Vec<Phase>> {
     let r = find(listing, |op| op == Op::Rsqrt(squares))?;
     let (cos, sin) = (find_product(listing, x, r)?, find_product(listing, y, r)?);
     let height = find_product(listing, squares, r)?;
-    // 4 u, and what adding the tiny number to x turns φ by.
-    let phi = Phase { cos, sin, circle: 0, multiple: 1, defect: 0.0, error: [5.0 * U + REST; 2] };
-    let theta = Phase { cos: z, sin: height, circle: 1, multiple: 1, defect: INPUT + REST, error: [4.0 * U + REST; 2] };
+    // Adding the tiny number to x turns φ by less than u where x or y is above 2e-8.
+    let part = |values: &[Operand]| boxes::error(listing, &[[x, y]], values);
+    let error = part(&[cos, sin])?.map(|boxes| boxes.min(4.0 * U) + U + REST);
+    let phi = Phase { cos, sin, circle: 0, multiple: 1, defect: 0.0, error };
+    let error = part(&[height])?.map(|boxes| boxes.min(4.0 * U) + REST);
+    let theta = Phase { cos: z, sin: height, circle: 1, multiple: 1, defect: INPUT + REST, error };
     Some(vec![phi, theta])
 }

@@ -69,7 +69,7 @@ impl Value {
         self
     }
 
-    /// f(x) for a positive f that falls in |x|, with the error of rounding it `times` times.
+    /// f(x) for a positive f that falls in |x|, with the error of rounding it and `times` − 1 denominators.
     fn falling(self, f: impl Fn(f64) -> f64, roundoff: f64, times: i32) -> Self {
         let low = self.mid.abs() - self.radius;
         let (least, most) = (f(self.magnitude()) * (1.0 - 1e-14), f(low) * (1.0 + 1e-14));
@@ -79,9 +79,23 @@ impl Value {
             }
             // f is convex: its change is largest where the argument is smallest.
             let change = f(low - e) - f(low) + 1e-14 * f(low);
-            change + (f(low) + change) * ((1.0 + roundoff).powi(times) - 1.0)
+            change + (f(low) + change) * ((1.0 + roundoff) * (1.0 - roundoff).powi(1 - times) - 1.0)
         });
         Self { mid: (least + most) / 2.0 * self.mid.signum(), radius: (most - least) / 2.0, error }
+    }
+}
+
+impl Value {
+    /// The derivative of |x|^−p for a p of 1 or ½, as a midpoint and a radius, and what the change of x^−p by x's error differs from it.
+    fn slope(self, p: f64) -> (f64, f64, Both) {
+        let (low, high) = (self.mid.abs() - self.radius, self.magnitude());
+        let slope = |x: f64| -p * x.powf(-p - 1.0);
+        let rest = self.error.map(|e| match low > e {
+            true => p * (p + 1.0) / 2.0 * (low - e).powf(-p - 2.0) * e * e * SLACK,
+            false => f64::INFINITY,
+        });
+        let (steep, flat) = (slope(low), slope(high));
+        ((steep + flat) / 2.0, (flat - steep).abs() / 2.0 + 1e-14 * steep.abs(), rest)
     }
 }
 
@@ -125,6 +139,10 @@ pub struct Section {
     levels: Vec<Vec<usize>>,
     /// For each entry of a step the entries of its first and of its last signal operand; 0 is an entry of zero.
     from: Vec<[u32; 2]>,
+    /// The scalars that are wanted or that the signal is multiplied by, each with what it is made of, last step first.
+    cones: Vec<(usize, Vec<usize>)>,
+    /// The sums of both squares of a pair: exactly one.
+    ones: Vec<usize>,
 }
 
 /// The exact map of a section and the weights of its error.
@@ -134,6 +152,8 @@ pub struct Run {
     radius: Vec<f64>,
     weight: [Vec<f64>; 2],
     scalars: Vec<Value>,
+    /// For each scalar the derivative of what is wanted, as a midpoint and a radius.
+    derivative: Vec<Enclosure>,
 }
 
 fn is_power_of_two(value: f64) -> bool {
@@ -161,6 +181,8 @@ impl Section {
             offset: vec![],
             levels: vec![],
             from: vec![[0, 0]],
+            cones: vec![],
+            ones: vec![],
         };
         let mut known: HashMap<Operand, usize> = HashMap::new();
         for (column, &input) in inputs.iter().enumerate() {
@@ -196,8 +218,68 @@ impl Section {
             known.insert(operand, place);
         }
         section.outputs = outputs.iter().map(|output| known[output]).collect();
+        if domain == Domain::Pairs {
+            section.ones = (0..section.slots.len()).filter(|&slot| section.is_one(slot)).collect();
+        }
         section.sort_by_depth();
+        section.cones = section.wanted().into_iter().map(|slot| (slot, section.cone(&[slot]))).collect();
         Some(section)
+    }
+
+    /// Whether it is x² + y² of a pair (x, y).
+    fn is_one(&self, slot: usize) -> bool {
+        let square = |a: Operand, b: Operand| match self.slots[place(a)] {
+            Slot::Start(start) if a == b => match self.starts[start].root {
+                Root::Component(component) => Some(component),
+                _ => None,
+            },
+            _ => None,
+        };
+        let product = |operand: Operand| match self.slots[place(operand)] {
+            Slot::Step(Op::Mul(a, b)) => square(a, b),
+            _ => None,
+        };
+        let both = match self.slots[slot] {
+            Slot::Step(Op::Fma(a, b, c, Sign::Plus)) => square(a, b).zip(product(c)),
+            Slot::Step(Op::Add(a, b)) => product(a).zip(product(b)),
+            _ => None,
+        };
+        both.is_some_and(|(a, b)| a != b && a / 2 == b / 2)
+    }
+
+    /// The scalars that are outputs or factors of the signal, but for those that are made in one step: their errors are
+    /// what [`Section::run`] first finds.
+    fn wanted(&self) -> Vec<usize> {
+        let is_made = |slot: usize| matches!(self.slots[slot], Slot::Step(_)) && self.kinds[slot] == Kind::Scalar;
+        let mut wanted = self.outputs.clone();
+        for (at, slot) in self.slots.iter().enumerate() {
+            if let (Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) {
+                wanted.extend(op.operands().map(place));
+            }
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted.retain(|&slot| match self.slots[slot] {
+            Slot::Step(op) => is_made(slot) && op.operands().any(|operand| is_made(place(operand))),
+            _ => false,
+        });
+        wanted
+    }
+
+    /// What some scalars are made of, themselves among it, last step first.
+    fn cone(&self, slots: &[usize]) -> Vec<usize> {
+        let mut cone: Vec<usize> = Vec::new();
+        let mut stack = slots.to_vec();
+        while let Some(slot) = stack.pop() {
+            if !cone.contains(&slot) {
+                cone.push(slot);
+                if let Slot::Step(op) = self.slots[slot] {
+                    stack.extend(op.operands().map(place));
+                }
+            }
+        }
+        cone.sort_unstable_by(|a, b| b.cmp(a));
+        cone
     }
 
     fn push(&mut self, slot: Slot, kind: Kind, degree: Degree, support: Vec<u16>, from: Vec<[u32; 2]>) -> usize {
@@ -311,6 +393,10 @@ impl Section {
         }
         run.scalars.clear();
         run.scalars.resize(self.slots.len(), Value::default());
+        run.derivative.clear();
+        run.derivative.resize(self.slots.len(), (0.0, 0.0));
+        // Slots are in order: all that a slot needs comes before it.
+        let mut cones = self.cones.iter().peekable();
         for (at, slot) in self.slots.iter().enumerate() {
             match slot {
                 &Slot::Constant { value: [value, error], .. } => {
@@ -325,10 +411,117 @@ impl Section {
                 Slot::Signal(_) => run.mid[self.offset[at]] = 1.0,
                 Slot::Step(op) if self.kinds[at] == Kind::Scalar => {
                     run.scalars[at] = self.scalar(*op, &run.scalars, roundoff);
+                    if self.ones.contains(&at) {
+                        let known = &mut run.scalars[at];
+                        (known.mid, known.radius) = (1.0, 0.0);
+                    }
                 }
                 Slot::Step(op) => self.signal(at, *op, roundoff, run),
             }
+            if let Some((slot, cone)) = cones.next_if(|(slot, _)| *slot == at) {
+                let error = self.toward(&[(*slot, 1.0)], cone, roundoff, run);
+                let known = &mut run.scalars[at].error;
+                *known = [known[0].min(error[0]), known[1].min(error[1])];
+            }
         }
+    }
+
+    /// The error of a sum of scalars, each times a number, by what every step rounds times the sum's derivative by it.
+    /// Errors on the way keep their signs, so that what cancels does; what errors do to each other is bounded by the
+    /// scalars' own bounds. `cone` is what the scalars are made of.
+    fn toward(&self, sum: &[(usize, f64)], cone: &[usize], roundoff: f64, run: &mut Run) -> Both {
+        let Run { scalars, derivative, .. } = run;
+        for &(slot, factor) in sum {
+            derivative[slot].0 += factor;
+        }
+        let mut total = [0.0; 2];
+        for &at in cone {
+            let (mid, radius) = std::mem::take(&mut derivative[at]);
+            let size = mid.abs() + radius;
+            if size == 0.0 {
+                continue;
+            }
+            let of = |operand: Operand| scalars[place(operand)];
+            let value = scalars[at];
+            let mut pass = |to: Operand, by: f64, loose: f64| {
+                let (m, r) = &mut derivative[place(to)];
+                let change = mid * by;
+                *m += change;
+                *r += mid.abs() * loose + radius * (by.abs() + loose) + (change.abs() + m.abs()) * EPSILON;
+            };
+            // What rounding once adds in each mode, besides the product of errors.
+            // The value before it was rounded is at most as much larger than what it is rounded to.
+            let unit = roundoff * (1.0 + 4.0 * roundoff);
+            let once = |mode: usize| unit * (value.magnitude() + value.error[mode]) + UNDERFLOW;
+            let mut fresh = [0.0; 2];
+            match self.slots[at] {
+                Slot::Constant { .. } | Slot::Start(_) => fresh = value.error,
+                Slot::Signal(_) => return [f64::INFINITY; 2],
+                Slot::Step(op) => match op {
+                    Op::Neg(a) => pass(a, -1.0, 0.0),
+                    Op::Add(a, b) | Op::Sub(a, b) => {
+                        pass(a, 1.0, 0.0);
+                        pass(b, if matches!(op, Op::Sub(..)) { -1.0 } else { 1.0 }, 0.0);
+                        fresh = [once(0), once(1)];
+                    }
+                    Op::Mul(a, b) | Op::Fma(a, b, _, _) => {
+                        let (x, y) = (of(a), of(b));
+                        let (sign, fused) = match op {
+                            Op::Fma(_, _, c, sign) => {
+                                pass(c, if sign == Sign::MinusAddend { -1.0 } else { 1.0 }, 0.0);
+                                (if sign == Sign::MinusProduct { -1.0 } else { 1.0 }, true)
+                            }
+                            _ => (1.0, false),
+                        };
+                        pass(a, sign * y.mid, y.radius);
+                        pass(b, sign * x.mid, x.radius);
+                        let exact = self.is_power(place(a)) || self.is_power(place(b));
+                        let product = x.times(y);
+                        for mode in 0..2 {
+                            fresh[mode] = x.error[mode] * y.error[mode];
+                            if !exact && (!fused || mode == 0) {
+                                fresh[mode] += roundoff * (product.magnitude() + product.error[mode]) + UNDERFLOW;
+                            }
+                            if fused {
+                                fresh[mode] += once(mode);
+                            }
+                        }
+                    }
+                    Op::Recip(a) => {
+                        let (slope, loose, rest) = of(a).slope(1.0);
+                        pass(a, slope, loose);
+                        fresh = std::array::from_fn(|mode| rest[mode] + once(mode));
+                    }
+                    Op::Rsqrt(a) => {
+                        let (slope, loose, rest) = of(a).slope(0.5);
+                        pass(a, slope, loose);
+                        fresh = std::array::from_fn(|mode| rest[mode] + (2.0 + 8.0 * roundoff) * once(mode));
+                    }
+                },
+            }
+            for mode in 0..2 {
+                total[mode] += size * fresh[mode];
+            }
+        }
+        total.map(|error| error * SLACK)
+    }
+
+    /// The largest error of one or two outputs, which are scalars, taken together as one vector.
+    pub fn error_together(&self, run: &mut Run, roundoff: f64) -> Both {
+        const DIRECTIONS: usize = 16;
+        let [x, y] = match self.outputs[..] {
+            [x] => return self.toward(&[(x, 1.0)], &self.cone(&[x]), roundoff, run),
+            [x, y] => [x, y],
+            _ => return [f64::INFINITY; 2],
+        };
+        let cone = self.cone(&[x, y]);
+        let mut worst = [0.0; 2];
+        for i in 0..DIRECTIONS {
+            let (sin, cos) = (std::f64::consts::PI * i as f64 / DIRECTIONS as f64).sin_cos();
+            worst = larger(worst, self.toward(&[(x, cos), (y, sin)], &cone, roundoff, run));
+        }
+        // Between two directions a vector's longest component is at most that much longer.
+        worst.map(|error| error / (std::f64::consts::PI / (2 * DIRECTIONS) as f64).cos() * SLACK)
     }
 
     fn is_power(&self, slot: usize) -> bool {

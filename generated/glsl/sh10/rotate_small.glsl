@@ -13,9 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants, 131
 //     live values.
-// Error: f32 rounding at most 4.9e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 1.7e-5; not proven). Method error, the worst band's in spectral norm:
-//     2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
+//     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
+//     grows without bound beyond.
 float[100] sh10_rotate_small(vec4 q, float[100] c) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

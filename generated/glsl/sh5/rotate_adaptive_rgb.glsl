@@ -16,10 +16,10 @@
 // Returns the rotated coefficients.
 // Operations: 565 (211 mul, 8 add, 346 fma) and 1 inverse square root or reciprocal above the limit,
 //     468 below it; 27 constants, 46 live values.
-// Error: f32 rounding at most 2.8e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 9.1e-7; not proven). Method error, the worst band's
-//     in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows
-//     without bound beyond.
+// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
+//     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
+//     at 25 degrees; it grows without bound beyond.
 vec3[25] sh5_rotate_adaptive_rgb(vec4 q, float limit, vec3[25] c) {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;

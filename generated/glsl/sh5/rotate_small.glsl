@@ -13,9 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 203 (90 mul, 6 add, 107 fma) and 1 inverse square root or reciprocal; 15 constants, 41
 //     live values.
-// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 9.3e-7; not proven). Method error, the worst band's in spectral norm:
-//     1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
+//     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[25] sh5_rotate_small(vec4 q, float[25] c) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

@@ -13,9 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 352 (141 mul, 6 add, 205 fma) and 1 inverse square root or reciprocal; 26 constants, 60
 //     live values.
-// Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 9.8e-7; not proven). Method error, the worst band's in spectral norm:
-//     2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
+//     worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
+//     grows without bound beyond.
 float[36] sh6_lf5_rotate_small(vec4 q, float[36] c) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

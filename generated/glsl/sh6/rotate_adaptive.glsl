@@ -16,10 +16,10 @@
 // Returns the rotated coefficients.
 // Operations: 345 (127 mul, 6 add, 212 fma) and 1 inverse square root or reciprocal above the limit,
 //     295 below it; 49 constants, 63 live values.
-// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 1.2e-6; not proven). Method error, the worst band's
-//     in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it grows
-//     without bound beyond.
+// Error: f32 rounding at most 2.4e-5 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+//     Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
+//     at 25 degrees; it grows without bound beyond.
 float[36] sh6_rotate_adaptive(vec4 q, float limit, float[36] c) {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;

@@ -13,9 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 1173 (370 mul, 8 add, 795 fma) and 1 inverse square root or reciprocal; 33 constants, 79
 //     live values.
-// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 1.1e-6; not proven). Method error, the worst band's in spectral norm:
-//     4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
+//     worst band's in spectral norm: 4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 vec3[49] sh7_lf5_rotate_small_rgb(vec4 q, vec3[49] c) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

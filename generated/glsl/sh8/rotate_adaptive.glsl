@@ -16,10 +16,10 @@
 // Returns the rotated coefficients.
 // Operations: 679 (217 mul, 6 add, 456 fma) and 1 inverse square root or reciprocal above the limit,
 //     521 below it; 125 constants, 102 live values.
-// Error: f32 rounding at most 4e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 1.4e-6; not proven). Method error, the worst band's
-//     in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it grows without
-//     bound beyond.
+// Error: f32 rounding at most 1.5e-4 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
+//     Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
+//     25 degrees; it grows without bound beyond.
 float[64] sh8_rotate_adaptive(vec4 q, float limit, float[64] c) {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;

@@ -13,9 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 820 (309 mul, 6 add, 505 fma) and 1 inverse square root or reciprocal; 49 constants, 115
 //     live values.
-// Error: f32 rounding at most 4.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 1.4e-6; not proven). Method error, the worst band's in spectral norm:
-//     1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
+//     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it
+//     grows without bound beyond.
 float[81] sh9_lf5_rotate_small(vec4 q, float[81] c) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;

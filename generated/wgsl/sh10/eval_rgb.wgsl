@@ -7,7 +7,7 @@
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 421 (53 mul, 0 add, 368 fma); 116 constants, 15 live values.
-// Error: f32 rounding at most 4.4e-5 of the norm of the coefficients, each band of norm one, for dir
+// Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     9.4e-7).
 fn sh10_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 100>) -> vec3<f32> {

@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 2538 (751 mul, 8 add, 1779 fma) and 1 inverse square root or reciprocal; 57 constants,
 //     136 live values.
-// Error: f32 rounding at most 6.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 2.3e-6; not proven). Method error, the worst band's in spectral norm:
-//     1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
+//     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh10_lf5_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;

@@ -13,10 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 3271 (871 mul, 8 add, 2392 fma) and 1 inverse square root or reciprocal above the limit,
 //     2023 below it; 246 constants, 149 live values.
-// Error: f32 rounding at most 5e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 1.7e-6; not proven). Method error, the worst band's
-//     in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it grows without
-//     bound beyond.
+// Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+//     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
+//     25 degrees; it grows without bound beyond.
 fn sh10_rotate_adaptive_rgb(q: vec4<f32>, limit: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         let t0 = q.y + 1e-15;

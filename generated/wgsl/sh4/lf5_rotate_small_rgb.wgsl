@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 321 (124 mul, 8 add, 189 fma) and 1 inverse square root or reciprocal; 14 constants, 31
 //     live values.
-// Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 7e-7; not proven). Method error, the worst band's in spectral norm: 5e-5
-//     at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
+//     band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
+//     without bound beyond.
 fn sh4_lf5_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;

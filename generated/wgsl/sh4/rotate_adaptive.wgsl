@@ -13,10 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 137 (61 mul, 6 add, 70 fma) and 1 inverse square root or reciprocal above the limit, 133
 //     below it; 16 constants, 32 live values.
-// Error: f32 rounding at most 2.2e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 7.2e-7; not proven). Method error, the worst band's
-//     in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it grows without
-//     bound beyond.
+// Error: f32 rounding at most 8.3e-6 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
+//     Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1
+//     at 25 degrees; it grows without bound beyond.
 fn sh4_rotate_adaptive(q: vec4<f32>, limit: f32, c: array<f32, 16>) -> array<f32, 16> {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         let t0 = q.y + 1e-15;

@@ -8,8 +8,8 @@
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
-// Error: f32 rounding at most 3.1e-6 of the norm of the coefficients, each band of norm one, for dir
-//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+// Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
+//     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.9e-7).
 fn sh5_bands_0_1_2_4_eval(dir: vec3<f32>, c: array<f32, 18>) -> f32 {
     let t0 = dir.z * dir.z;

@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 238 (99 mul, 6 add, 133 fma) and 1 inverse square root or reciprocal; 21 constants, 46
 //     live values.
-// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 9.2e-7; not proven). Method error, the worst band's in spectral norm:
-//     1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
+//     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
+//     grows without bound beyond.
 fn sh5_lf5_rotate_small(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;

@@ -7,7 +7,7 @@
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 149 (23 mul, 0 add, 126 fma); 36 constants, 8 live values.
-// Error: f32 rounding at most 7.1e-6 of the norm of the coefficients, each band of norm one, for dir
+// Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.3e-7).
 fn sh6_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 36>) -> vec3<f32> {

@@ -13,10 +13,10 @@
 // Returns the rotated coefficients.
 // Operations: 1315 (421 mul, 8 add, 886 fma) and 1 inverse square root or reciprocal above the limit,
 //     958 below it; 75 constants, 80 live values.
-// Error: f32 rounding at most 3.4e-6 of the norm of a band, for every unit q, with a limit up to 25
-//     degrees (3 times the worst of 256 measured, 1.2e-6; not proven). Method error, the worst band's
-//     in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it grows without
-//     bound beyond.
+// Error: f32 rounding at most 4.7e-5 of the norm of a band, for every unit q, with a limit up to 25
+//     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+//     Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0
+//     at 25 degrees; it grows without bound beyond.
 fn sh7_rotate_adaptive_rgb(q: vec4<f32>, limit: f32, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         let t0 = q.y + 1e-15;

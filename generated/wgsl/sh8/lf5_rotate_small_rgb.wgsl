@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 1571 (482 mul, 8 add, 1081 fma) and 1 inverse square root or reciprocal; 41 constants,
 //     94 live values.
-// Error: f32 rounding at most 5.3e-6 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 1.8e-6; not proven). Method error, the worst band's in spectral norm:
-//     7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
+//     worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
+//     grows without bound beyond.
 fn sh8_lf5_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;

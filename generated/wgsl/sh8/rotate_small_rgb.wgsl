@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 1266 (452 mul, 8 add, 806 fma) and 1 inverse square root or reciprocal; 32 constants, 89
 //     live values.
-// Error: f32 rounding at most 1.5e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 4.7e-6; not proven). Method error, the worst band's in spectral norm:
-//     9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.5e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
+//     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
+//     grows without bound beyond.
 fn sh8_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;

@@ -10,9 +10,10 @@
 // Returns the rotated coefficients.
 // Operations: 1621 (570 mul, 8 add, 1043 fma) and 1 inverse square root or reciprocal; 38 constants,
 //     109 live values.
-// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 256 measured, 7e-6; not proven). Method error, the worst band's in spectral norm:
-//     1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.7e-4 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-6). Method error, the worst
+//     band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows
+//     without bound beyond.
 fn sh9_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
