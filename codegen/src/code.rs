@@ -83,8 +83,7 @@ impl Code {
             Self::Straight(listing) => Runner::Straight(Program::new(listing)),
             Self::Loop(kernel) => Runner::Loop(LoopProgram::new(kernel)),
             Self::Branch(branch) => {
-                let [condition, below, above] = [&branch.condition, &branch.below, &branch.above].map(Program::new);
-                Runner::Branch { condition, below, above }
+                Runner::Branch(Box::new([&branch.condition, &branch.below, &branch.above].map(Program::new)))
             }
         }
     }
@@ -134,15 +133,8 @@ pub enum Runner<T> {
     Straight(Program<T>),
     /// Tables and a loop.
     Loop(LoopProgram<T>),
-    /// One of two.
-    Branch {
-        /// Two scalars.
-        condition: Program<T>,
-        /// Where the first is at most the second.
-        below: Program<T>,
-        /// Elsewhere.
-        above: Program<T>,
-    },
+    /// One of two: the condition's two scalars, what is done where the first is at most the second, and elsewhere.
+    Branch(Box<[Program<T>; 3]>),
 }
 
 impl<T: Number> Runner<T> {
@@ -155,7 +147,8 @@ impl<T: Number> Runner<T> {
         match self {
             Self::Straight(program) => program.run(inputs, contraction),
             Self::Loop(program) => program.run(inputs, contraction),
-            Self::Branch { condition, below, above } => {
+            Self::Branch(programs) => {
+                let [condition, below, above] = &**programs;
                 let sides = condition.run(inputs, contraction);
                 let program = if sides[0] <= sides[1] { below } else { above };
                 program.run(inputs, contraction)

@@ -117,6 +117,9 @@ fn ranges(measure: Measure, order: usize, count: usize) -> Vec<Range<usize>> {
     }
 }
 
+/// A program and the signal that it turns.
+type Turned = (Program<Lanes<f64>>, Vec<Lanes<f64>>);
+
 /// The programs of a kernel.
 struct Runner<'a> {
     spec: &'a Spec,
@@ -124,7 +127,7 @@ struct Runner<'a> {
     narrow: Program<Lanes<f32>>,
     wide: Program<Lanes<f64>>,
     /// What the result is used for, where it is that which is compared.
-    rotation: Option<(Program<Lanes<f64>>, Vec<Lanes<f64>>)>,
+    rotation: Option<Turned>,
 }
 
 impl<'a> Runner<'a> {

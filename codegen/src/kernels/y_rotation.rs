@@ -297,7 +297,8 @@ fn small_from_quaternion(g: &mut Graph, q: &[Id], c: &[Id], order: usize, method
 /// The kernel `rotate_adaptive` as three of the same parameters: the two numbers of which the first must not be above the
 /// second for the small rotation, sin²(β/2) and its limit; the small rotation; the exact one.
 pub fn adaptive(order: usize, methods: &[Small]) -> [Kernel; 3] {
-    let make = |f: &dyn Fn(&mut Graph, [&[Id]; 3]) -> Vec<Id>, shape: Shape| {
+    type Part<'a> = &'a dyn Fn(&mut Graph, [&[Id]; 3]) -> Vec<Id>;
+    let make = |f: Part<'_>, shape: Shape| {
         let mut builder = Builder::new();
         let q = quaternion(&mut builder);
         let doc = "sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (√2 + 2 r/R) \

@@ -4,7 +4,7 @@
 use crate::job::Job;
 use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use zonal_codegen::accuracy::Measure;
+use zonal_codegen::accuracy::{MARGIN, Measure};
 use zonal_codegen::built::kernel;
 use zonal_codegen::code::Code;
 use zonal_codegen::emit::Function;
@@ -85,8 +85,9 @@ impl Number for Wide {
 
 /// How far a result may be from the interpreter's, in the kernel's own measure.
 ///
-/// That is one and a half times the rounding which the kernel's file promises: drivers round additions and
-/// multiplications as the interpreter does, fused or not, but some merge factors, which moves roundings about. Vulkan and
+/// That is one and a half times the rounding which the kernel's file promises, or [`MARGIN`] times the worst that was
+/// measured where that is less: drivers round additions and multiplications as the interpreter does, fused or not, but
+/// some merge factors, which moves roundings about. Vulkan and
 /// WGSL allow 2 ulp for an inverse square root and 2.5 ulp for a division, where the promise was measured with correct
 /// roundings; each enters band l through three angles to the power l at most, hence 3 (n - 1) times 2.5 ulp for a kernel
 /// that has one. A flushed subnormal number changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
@@ -95,7 +96,7 @@ pub fn tolerance(function: &Function) -> f64 {
     let promised = match function.spec.family {
         // The file promises what the angles rotate; here they are compared themselves, and l of them add up.
         Family::Angles => 2.0 * ULP * order,
-        _ => 1.5 * built.accuracy.rounding_f32,
+        _ => 1.5 * built.accuracy.rounding_f32.min(MARGIN * built.accuracy.measured_f32),
     };
     let special = match built.code.cost(1).special {
         0 => 0.0,
