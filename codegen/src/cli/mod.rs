@@ -1,6 +1,7 @@
 //! The command line: its arguments, and how what goes wrong is shown.
 
 mod commands;
+mod search;
 mod vectors;
 
 use clap::{Parser, Subcommand};
@@ -99,6 +100,8 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "generated")]
         dir: PathBuf,
     },
+    /// Searches for lobe directions that make the zonal factorisation sparse.
+    SearchLobes(search::Arguments),
 }
 
 /// Why a command ends early.
@@ -234,6 +237,7 @@ pub fn main() -> ExitCode {
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Catalog { check, dir } => commands::catalog(&dir, check),
+        Command::SearchLobes(arguments) => search::run(&arguments),
     };
     match result {
         Ok(()) | Err(Failure::Closed) => ExitCode::SUCCESS,
