@@ -59,10 +59,10 @@ fn the_tilt_on_prescaled_coefficients_is_the_tilt() {
             let stored = scale.run(&input[1..]);
             let tilted = Runner::<f64>::new(&prescaled).run(&[input[0].clone(), stored]);
             // 1e-13: a thousand f64 roundings of values of about one.
-            assert!(band_error(&unscale.run(&[tilted.clone()]), &want) < 1e-13, "{}", text("tilt_prescaled"));
+            assert!(band_error(&unscale.run(std::slice::from_ref(&tilted)), &want) < 1e-13, "{}", text("tilt_prescaled"));
             // A light scaled the other way gives the same product.
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-            let product = dot(&tilted, &unscale.run(&[light.clone()]));
+            let product = dot(&tilted, &unscale.run(std::slice::from_ref(&light)));
             assert!((product - dot(&want, &light)).abs() < 1e-12 * norm(&light) * norm(&want));
         }
     }
@@ -74,7 +74,7 @@ fn prescaled_coefficients_stay_near_the_others() {
     for order in 4..=10 {
         let ones = vec![1.0; order * order];
         for name in ["tilt_scale", "tilt_unscale"] {
-            let factors = Runner::<f64>::new(&spec(&format!("{name}:{order}"))).run(&[ones.clone()]);
+            let factors = Runner::<f64>::new(&spec(&format!("{name}:{order}"))).run(std::slice::from_ref(&ones));
             let largest = factors.iter().fold(0.0f64, |most, x| most.max(*x));
             assert!(factors.iter().all(|x| *x > 0.0) && largest < 40.0, "{name}:{order}: {largest}");
         }
@@ -99,7 +99,7 @@ fn monomials_evaluate_to_what_harmonics_do() {
             };
             let c = signal(&mut random, order);
             let want = harmonics.run(&[dir.clone(), c.clone()])[0];
-            let stored = turn.run(&[c.clone()]);
+            let stored = turn.run(std::slice::from_ref(&c));
             // The sup norm of a sum of harmonics is at most |c| √(n²/4π).
             let size = norm(&c) * order as f64 / (4.0 * std::f64::consts::PI).sqrt();
             worst = worst.max((eval.run(&[dir.clone(), stored.clone()])[0] - want).abs() / size);
@@ -197,4 +197,52 @@ fn the_limit_is_the_exact_inverse_of_the_caching_error() {
         let exact: f64 = 2.0 * f64::asin(a / (2f64.sqrt() + 0.2));
         assert_eq!(1.25 * a <= exact, a > 0.368 + 1e-3, "a {a}");
     }
+}
+
+/// Not on the front, and so no kernel: what minimax polynomials in the generator and four shears would give (MATH
+/// section 3 has the polynomials; the shears are ours). Their errors are those of 2 × 2 matrices, as the laws are.
+#[test]
+fn what_is_not_on_the_front_is_left_out() {
+    use zonal_codegen::kernels::y_rotation::Small;
+    use zonal_codegen::law::{Given, error};
+    // Four shears of (1 − ½√2, ½√2, ½√2, 1 − ½√2) T, the linear part of the cubic error taken off: 4/3 of LF3's shears.
+    let root = 0.5f64.sqrt();
+    let four = |l: usize, beta: f64| -> f64 {
+        let p = if l % 2 == 0 { (l * l) as f64 / 8.0 } else { (3 * l * l + 1) as f64 / 24.0 };
+        let t = beta * (1.0 - 6.0 * (root / 2.0 - 1.0 / 3.0) * p * beta * beta);
+        (1..=l)
+            .map(|k| {
+                let x = k as f64;
+                let mut m = [[1.0, 0.0], [0.0, 1.0]];
+                for (parity, share) in [(0, 1.0 - root), (1, root), (0, root), (1, 1.0 - root)] {
+                    let f = x * share * t;
+                    let [a, b] = m;
+                    m = match parity {
+                        0 => [[a[0] + f * b[0], a[1] + f * b[1]], b],
+                        _ => [a, [b[0] - f * a[0], b[1] - f * a[1]]],
+                    };
+                }
+                let (sin, cos) = (x * beta).sin_cos();
+                let d: [f64; 4] = [m[0][0] - cos, m[0][1] - sin, m[1][0] + sin, m[1][1] - cos];
+                d.iter().map(|x| x * x).sum::<f64>().sqrt() / 2f64.sqrt()
+            })
+            .fold(0.0, f64::max)
+    };
+    for (l, degrees) in [(4, 15.0), (6, 10.0), (8, 10.0)] {
+        let beta = f64::to_radians(degrees);
+        let (three, five) =
+            (error(Small::Lf3, Given::Angle, l, beta).max, error(Small::Lf5, Given::Angle, l, beta).max);
+        // A third more operations than three shears for hardly less error, where two thirds more give five to twelve times less.
+        assert!(
+            four(l, beta) > 0.4 * three && five < 0.2 * three,
+            "l {l}: {} between {three} and {five}",
+            four(l, beta)
+        );
+    }
+    // The best quadratic in A has the error of T₃ on [−lβ, lβ] at least: (lβ)³/24, LF3's own, for 36 operations at l = 4
+    // where LF3 takes 33 and keeps the determinant.
+    let cost = |text: &str| built::code(&spec(text)).cost(1).total;
+    let band = |text: &str| cost(&format!("{text}:5")) - cost(&format!("{text}:4"));
+    println!("operations of band 4: lf3 {}, lf5 {}, taylor2 {}", band("lf3"), band("lf5"), band("taylor2"));
+    assert!(band("lf3") < band("taylor2"), "a quadratic costs what Taylor 2 does");
 }
