@@ -55,6 +55,7 @@ pub mod plan;
 pub mod program;
 pub mod samples;
 pub mod scene;
+pub mod search;
 pub mod sh;
 pub mod spec;
 pub mod validate;

@@ -725,66 +725,69 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// m: the rotation, a matrix of three columns.
 /// c: the coefficients, index l(l+1)+m.
 /// Returns the rotated coefficients.
-/// Operations: 130 (70 mul, 1 add, 59 fma); 12 constants, 29 live values.
-/// Error: f32 rounding at most 9.8e-7 of the norm of a band, for every rotation matrix (3 times the
-///     worst of 256 measured, 3.3e-7; not proven).
+/// Operations: 127 (70 mul, 1 add, 56 fma); 12 constants, 29 live values.
+/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every rotation matrix (3 times the
+///     worst of 256 measured, 3.9e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 9]) -> [V; 9] {
-    let t0 = c[1] * T::lit(2.046653415892977);
-    let t1 = c[3].fma(T::lit(2.046653415892977), t0);
-    let t2 = T::lit(0.4886025119029199) * m[0][1];
-    let t3 = c[1] * T::lit(3.544907701811032);
-    let t4 = T::lit(0.5773502691896257) * m[1][1];
-    let t5 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fma(m[2][1], T::lit(0.5773502691896257).fms(m[0][1], t4));
-    let t6 = c[2].fms(T::lit(2.046653415892977), t0);
+    let t0 = c[1] * T::lit(3.544907701811032);
+    let t1 = T::lit(0.5773502691896257) * m[0][1];
+    let t2 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fma(m[2][1], T::lit(0.5773502691896257).fms(m[1][1], t1));
+    let t3 = c[1] * T::lit(2.046653415892977);
+    let t4 = c[3].fma(T::lit(2.046653415892977), t3);
+    let t5 = T::lit(0.4886025119029199) * m[0][1];
+    let t6 = c[2].fma(T::lit(2.046653415892977), t3);
     let t7 = T::lit(0.4886025119029199) * m[2][1];
-    let t8 = T::lit(0.5773502691896257) * m[1][2];
-    let t9 = T::lit(0.5773502691896257).fma(m[2][2], T::lit(0.5773502691896257).fms(m[0][2], t8));
-    let t10 = t6.fma(T::lit(0.4886025119029199) * m[2][2], t3.fms(T::lit(0.4886025119029199) * t9, t1 * (T::lit(0.4886025119029199) * m[0][2])));
-    let t11 = T::lit(0.4886025119029199) * m[0][0];
-    let t12 = T::lit(0.5773502691896257) * m[1][0];
-    let t13 = T::lit(0.5773502691896257).fma(m[2][0], T::lit(0.5773502691896257).fms(m[0][0], t12));
-    let t14 = T::lit(0.4886025119029199) * t13;
+    let t8 = T::lit(0.5773502691896257) * m[0][2];
+    let t9 = T::lit(0.5773502691896257).fma(m[2][2], T::lit(0.5773502691896257).fms(m[1][2], t8));
+    let t10 = t6.fms(T::lit(0.4886025119029199) * m[2][2], t0.fma(T::lit(0.4886025119029199) * t9, t4 * (T::lit(0.4886025119029199) * m[0][2])));
+    let t11 = T::lit(0.5773502691896257) * m[0][0];
+    let t12 = T::lit(0.5773502691896257).fma(m[2][0], T::lit(0.5773502691896257).fms(m[1][0], t11));
+    let t13 = T::lit(0.4886025119029199) * t12;
+    let t14 = T::lit(0.4886025119029199) * m[0][0];
     let t15 = T::lit(0.4886025119029199) * m[2][0];
-    let t16 = c[6].fma(T::lit(1.5853309190424043), c[8] * T::lit(0.915291232863769));
-    let t17 = c[7] * T::lit(1.3729368492956535);
-    let t18 = c[4].fma(T::lit(1.3729368492956535), t17);
-    let t19 = t16.fms(t7 * (T::lit(2.23606797749979) * m[2][0]), t18 * (t5 * (T::lit(2.23606797749979) * t13)));
-    let t20 = c[5] * T::lit(1.3729368492956535);
-    let t21 = t17 + t20;
-    let t22 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fma(m[2][1], T::lit(0.5773502691896257).fma(m[0][1], t4));
-    let t23 = T::lit(0.5773502691896257).fma(m[2][0], T::lit(0.5773502691896257).fma(m[0][0], t12));
-    let t24 = c[8] * T::lit(1.830582465727538);
-    let t25 = t24.fma(t2 * (T::lit(2.23606797749979) * m[0][0]), t21.fnma(t22 * (T::lit(2.23606797749979) * t23), t19));
-    let t26 = c[4].fma(T::lit(1.3729368492956535), t20);
-    let t27 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fma(m[2][1], T::lit(0.5773502691896257).fnma(m[0][1], t4));
-    let t28 = T::lit(0.5773502691896257).fma(m[2][0], T::lit(0.5773502691896257).fnma(m[0][0], t12));
-    let t29 = T::lit(2.23606797749979) * t9;
-    let t30 = T::lit(2.23606797749979) * m[2][2];
-    let t31 = T::lit(0.5773502691896257).fma(m[2][2], T::lit(0.5773502691896257).fma(m[0][2], t8));
-    let t32 = T::lit(2.23606797749979) * t31;
-    let t33 = T::lit(2.23606797749979) * m[0][2];
-    let t34 = T::lit(0.5773502691896257).fma(m[2][2], T::lit(0.5773502691896257).fnma(m[0][2], t8));
-    let t35 = T::lit(2.23606797749979) * t34;
-    let t36 = t26.fma(t27 * t35, t24.fnma(t2 * t33, t21.fma(t22 * t32, t18.fms(t5 * t29, t16 * (t7 * t30)))));
-    let t37 = t16.fms(T::lit(0.94617469575756).fms(m[2][2] * m[2][2], T::lit(0.31539156525252)), t18 * T::lit(0.94617469575756).fms(t9 * t9, T::lit(0.31539156525252)));
-    let t38 = t24.fma(T::lit(0.94617469575756).fms(m[0][2] * m[0][2], T::lit(0.31539156525252)), t21.fnma(T::lit(0.94617469575756).fms(t31 * t31, T::lit(0.31539156525252)), t37));
-    let t39 = T::lit(0.4886025119029199) * t23;
-    let t40 = T::lit(0.4886025119029199) * t28;
-    let t41 = t26.fma(t40 * t35, t24.fnma(t11 * t33, t21.fma(t39 * t32, t18.fms(t14 * t29, t16 * (t15 * t30)))));
-    let t42 = t16.fms(T::lit(2.2882280821594225) * t15.fms(t15, t7 * t7), t18 * (T::lit(2.2882280821594225) * t14.fms(t14, t5 * t5)));
-    let t43 = t24.fma(T::lit(2.2882280821594225) * t11.fms(t11, t2 * t2), t21.fnma(T::lit(2.2882280821594225) * t39.fms(t39, t22 * t22), t42));
+    let t16 = c[7] * T::lit(1.3729368492956535);
+    let t17 = c[4].fma(T::lit(1.3729368492956535), t16);
+    let t18 = T::lit(0.5773502691896257).fma(m[1][1], t1);
+    let t19 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fms(m[2][1], t18);
+    let t20 = T::lit(0.5773502691896257).fma(m[1][0], t11);
+    let t21 = T::lit(0.5773502691896257).fms(m[2][0], t20);
+    let t22 = c[8] * T::lit(1.830582465727538);
+    let t23 = t17.fma(t19 * (T::lit(2.23606797749979) * t21), t22 * (t5 * (T::lit(2.23606797749979) * m[0][0])));
+    let t24 = c[5] * T::lit(1.3729368492956535);
+    let t25 = t16 - t24;
+    let t26 = c[6].fma(T::lit(1.5853309190424043), c[8] * T::lit(0.915291232863769));
+    let t27 = t26.fma(t7 * (T::lit(2.23606797749979) * m[2][0]), t25.fma(t2 * (T::lit(2.23606797749979) * t12), t23));
+    let t28 = c[4].fms(T::lit(1.3729368492956535), t24);
+    let t29 = T::lit(0.4886025119029199) * T::lit(0.5773502691896257).fma(m[2][1], t18);
+    let t30 = T::lit(0.5773502691896257).fma(m[2][0], t20);
+    let t31 = T::lit(0.5773502691896257).fma(m[1][2], t8);
+    let t32 = T::lit(0.5773502691896257).fms(m[2][2], t31);
+    let t33 = T::lit(2.23606797749979) * t32;
+    let t34 = T::lit(2.23606797749979) * m[0][2];
+    let t35 = T::lit(2.23606797749979) * t9;
+    let t36 = T::lit(2.23606797749979) * m[2][2];
+    let t37 = T::lit(0.5773502691896257).fma(m[2][2], t31);
+    let t38 = T::lit(2.23606797749979) * t37;
+    let t39 = t28.fma(t29 * t38, t26.fma(t7 * t36, t25.fma(t2 * t35, t17.fma(t19 * t33, t22 * (t5 * t34)))));
+    let t40 = t17.fma(T::lit(0.94617469575756).fms(t32 * t32, T::lit(0.31539156525252)), t22 * T::lit(0.94617469575756).fms(m[0][2] * m[0][2], T::lit(0.31539156525252)));
+    let t41 = t26.fma(T::lit(0.94617469575756).fms(m[2][2] * m[2][2], T::lit(0.31539156525252)), t25.fma(T::lit(0.94617469575756).fms(t9 * t9, T::lit(0.31539156525252)), t40));
+    let t42 = T::lit(0.4886025119029199) * t21;
+    let t43 = T::lit(0.4886025119029199) * t30;
+    let t44 = t28.fma(t43 * t38, t26.fma(t15 * t36, t25.fma(t13 * t35, t17.fma(t42 * t33, t22 * (t14 * t34)))));
+    let t45 = t17.fma(T::lit(2.2882280821594225) * t42.fms(t42, t19 * t19), t22 * (T::lit(2.2882280821594225) * t14.fms(t14, t5 * t5)));
+    let t46 = t26.fma(T::lit(2.2882280821594225) * t15.fms(t15, t7 * t7), t25.fma(T::lit(2.2882280821594225) * t13.fms(t13, t2 * t2), t45));
     [
         c[0],
-        t6.fnma(t7, t1.fms(t2, t3 * t5)),
+        t6.fnma(t7, t0.fma(t2, t4 * t5)),
         t10,
-        t6.fnma(t15, t1.fms(t11, t3 * t14)),
-        t26.fnma(t27 * (T::lit(2.23606797749979) * t28), t25),
-        t36,
-        t26.fnma(T::lit(0.94617469575756).fms(t34 * t34, T::lit(0.31539156525252)), t38),
-        t41,
-        t26.fnma(T::lit(2.2882280821594225) * t40.fms(t40, t27 * t27), t43),
+        t6.fnma(t15, t0.fma(t13, t4 * t14)),
+        t28.fma(t29 * (T::lit(2.23606797749979) * t30), t27),
+        -t39,
+        t28.fma(T::lit(0.94617469575756).fms(t37 * t37, T::lit(0.31539156525252)), t41),
+        -t44,
+        t28.fma(T::lit(2.2882280821594225) * t43.fms(t43, t29 * t29), t46),
     ]
 }
 
@@ -800,7 +803,7 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 /// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 /// Operations: 13 (7 mul, 1 add, 5 fma); 6 constants, 9 live values.
 /// Error: f32 rounding at most 6.5e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 4.1e-7).
+///     arithmetic, contracted or not; the worst of 256 measured is 4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 9] {
@@ -809,14 +812,14 @@ pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 9] {
     let t2 = c[5] * T::lit(1.3729368492956535);
     [
         c[0] * T::lit(3.544907701811032),
+        -(c[1] * T::lit(3.544907701811032)),
         -c[3].fma(T::lit(2.046653415892977), t0),
-        c[1] * T::lit(3.544907701811032),
-        c[2].fms(T::lit(2.046653415892977), t0),
-        c[6].fma(T::lit(1.5853309190424043), c[8] * T::lit(0.915291232863769)),
-        -c[4].fma(T::lit(1.3729368492956535), t1),
-        -(t1 + t2),
+        c[2].fma(T::lit(2.046653415892977), t0),
+        c[4].fma(T::lit(1.3729368492956535), t1),
         c[8] * T::lit(1.830582465727538),
-        -c[4].fma(T::lit(1.3729368492956535), t2),
+        t1 - t2,
+        c[6].fma(T::lit(1.5853309190424043), c[8] * T::lit(0.915291232863769)),
+        c[4].fms(T::lit(1.3729368492956535), t2),
     ]
 }
 
@@ -836,20 +839,20 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 9]) -> [V; 9] {
-    let t0 = f[1] * T::lit(2.046653415892977);
-    let t1 = f[3] * T::lit(2.046653415892977);
+    let t0 = f[3] * T::lit(2.046653415892977);
+    let t1 = f[2] * T::lit(2.046653415892977);
     let t2 = f[8] * T::lit(1.3729368492956535);
     let t3 = f[6] * T::lit(1.3729368492956535);
     [
         f[0] * T::lit(3.544907701811032),
-        f[2].fms(T::lit(3.544907701811032), t0) - t1,
-        t1,
-        -t0,
-        -f[5].fma(T::lit(1.3729368492956535), t2),
+        t0 - f[1].fma(T::lit(3.544907701811032), t1),
+        t0,
+        -t1,
+        f[4].fma(T::lit(1.3729368492956535), t2),
         -(t2 + t3),
-        f[4] * T::lit(1.5853309190424043),
-        -f[5].fma(T::lit(1.3729368492956535), t3),
-        f[4].fma(T::lit(0.915291232863769), f[7] * T::lit(1.830582465727538)),
+        f[7] * T::lit(1.5853309190424043),
+        f[4].fma(T::lit(1.3729368492956535), t3),
+        f[5].fma(T::lit(1.830582465727538), f[7] * T::lit(0.915291232863769)),
     ]
 }
 

@@ -35,7 +35,11 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    let turns = |spec: &Spec| !matches!(spec.family, Family::Eval | Family::SwapYz);
+    let turns = |spec: &Spec| {
+        let family = &spec.family;
+        !matches!(family, Family::Eval | Family::SwapYz | Family::EvalMonomial | Family::ToMonomial)
+            && !matches!(family, Family::TiltScale | Family::TiltUnscale)
+    };
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()
 }
 

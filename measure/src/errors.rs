@@ -3,7 +3,6 @@
 //! its n² singular values what the paper calls the average error, their root mean square the rms error of a random
 //! signal, and |D L| / |L| the error of a lobe L.
 
-use crate::linear::singular_values;
 use crate::methods::{Method, Way, kernels};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
@@ -11,6 +10,7 @@ use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::eval::{Contraction, Program};
 use zonal_codegen::listing::Listing;
 use zonal_codegen::sh::exact::Exact;
+use zonal_codegen::sh::linear::singular_values;
 use zonal_codegen::sh::tables::{basis_factor, legendre_polynomial};
 
 /// The measures of an error, by the index that reports use.

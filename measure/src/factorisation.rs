@@ -1,13 +1,12 @@
 //! The sparse zonal factorisation of paper 003, its Tables I and II with ours beside: non-zeros of Â, conditions of Y,
 //! operations.
 
-use crate::linear::condition;
 use crate::papers::TABLE_2;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::sh::exact::Exact;
 use zonal_codegen::sh::tables::x90;
-use zonal_codegen::sh::zhf::{self, Lobe, LobeSet};
+use zonal_codegen::sh::zhf::{self, Lobe, LobeSet, Mode};
 
 /// One band with lobes of its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +19,8 @@ pub struct Band {
     pub condition: f64,
     /// The non-zeros of each row of Â: the lobes of each function, m = −l to l.
     pub lobes: Vec<usize>,
+    /// The seed of the search that found the set, and which of its tries.
+    pub found: [usize; 2],
 }
 
 /// An order whose bands share 2n − 1 lobes.
@@ -74,14 +75,20 @@ fn rows(a_hat: &[Vec<Exact>]) -> Vec<usize> {
 }
 
 fn condition_of(l: usize, lobes: &[Lobe]) -> f64 {
-    let values = zhf::lobe_values(l, lobes);
-    significant(condition(&values.iter().map(|row| row.iter().map(Exact::to_f64).collect()).collect::<Vec<_>>()))
+    significant(zhf::band_condition(l, lobes))
 }
 
 fn band(l: &usize) -> Band {
     let lobes = zhf::single_band(*l).expect("bands 2 to 10 have lobes");
     let lobes_of = rows(&zhf::a_hat(*l, lobes).expect("the lobes are independent"));
-    Band { l: *l, nonzeros: lobes_of.iter().sum(), condition: condition_of(*l, lobes), lobes: lobes_of }
+    let record = zhf::chosen(Mode::Band, *l).expect("bands 2 to 10 have lobes");
+    Band {
+        l: *l,
+        nonzeros: lobes_of.iter().sum(),
+        condition: condition_of(*l, lobes),
+        lobes: lobes_of,
+        found: [record.seed as usize, record.attempt],
+    }
 }
 
 fn shared(free: bool, set: &LobeSet) -> Shared {

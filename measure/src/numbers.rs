@@ -186,6 +186,22 @@ mod tests {
         }
     }
 
+    /// The crate half rounds f32 as hardware does.
+    #[test]
+    fn halves_are_those_of_the_crate_half() {
+        let mut random = zonal_codegen::samples::Random::new(16);
+        for _ in 0..200_000 {
+            let value = f32::from_bits(random.bits() as u32);
+            let (own, other) = (Half::round(f64::from(value)).0, half::f16::from_f32(value).to_f64());
+            assert!(own.to_bits() == other.to_bits() || own.is_nan() && other.is_nan(), "{value}: {own}, not {other}");
+        }
+        // Most of those overflow or vanish: once more where they do neither.
+        for _ in 0..200_000 {
+            let value = (random.signed() * 2f64.powi((random.bits() % 44) as i32 - 27)) as f32;
+            assert_eq!(Half::round(f64::from(value)).0, half::f16::from_f32(value).to_f64(), "{value}");
+        }
+    }
+
     #[test]
     fn twins_hold_a_hundred_bits() {
         let root = Twin::nearest(&Exact::sqrt_ratio(2, 1));

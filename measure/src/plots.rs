@@ -12,11 +12,11 @@ const METHODS: [(&str, usize); 4] = [("taylor1", 4), ("taylor15", 1), ("taylor2"
 const EXACT: usize = 6;
 const ANGLES: [f64; 9] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
 
-fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
+pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
     Key { label: label.to_owned(), colour, stroke }
 }
 
-fn file(name: &str, picture: &Picture) -> File {
+pub(crate) fn file(name: &str, picture: &Picture) -> File {
     File { name: format!("{name}.svg"), text: picture.svg() }
 }
 
@@ -275,7 +275,7 @@ fn factorisation(report: &Report) -> File {
 
 /// Every plot.
 pub fn files(report: &Report) -> Vec<File> {
-    vec![
+    let mut files = vec![
         error_over_angle(report, 5),
         error_over_angle(report, 8),
         figure_3(report),
@@ -283,5 +283,7 @@ pub fn files(report: &Report) -> Vec<File> {
         operations(report),
         rounding(report),
         factorisation(report),
-    ]
+    ];
+    files.extend(crate::stability::report::plots(&report.stability));
+    files
 }

@@ -6,6 +6,7 @@ use crate::errors::Curve;
 use crate::factorisation::Factorisation;
 use crate::fronts::Front;
 use crate::rounding::Rounding;
+use crate::stability::Stability;
 use crate::timing::Timing;
 use crate::{Progress, costs, errors, factorisation, fronts, rounding};
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,8 @@ pub struct Report {
     /// The proven rounding bounds beside what was measured last.
     #[serde(default)]
     pub bounds: Option<Vec<Bounds>>,
+    /// The extremes.
+    pub stability: Stability,
     /// How long kernels took where they were last timed.
     pub timing: Option<Timing>,
 }
@@ -48,6 +51,7 @@ impl Report {
             fronts: fronts::measure(progress),
             factorisation: factorisation::measure(progress),
             bounds: None,
+            stability: Stability::measure(progress),
             timing: None,
         }
     }

@@ -13,7 +13,7 @@ use zonal_codegen::catalog::ORDERS;
 const HEAD: &str = "<!-- Written by `cargo measure`; do not edit. -->";
 
 /// Three significant digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".to_owned();
@@ -30,12 +30,12 @@ fn short(value: f64) -> String {
     }
 }
 
-fn perhaps(value: Option<f64>) -> String {
+pub(crate) fn perhaps(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), short)
 }
 
 /// A table with its rows.
-fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+pub(crate) fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut text = format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()));
     for row in rows {
         text += &format!("| {} |\n", row.join(" | "));
@@ -43,7 +43,7 @@ fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Strin
     text
 }
 
-fn file(name: &str, title: &str, parts: &[String]) -> File {
+pub(crate) fn file(name: &str, title: &str, parts: &[String]) -> File {
     let body: Vec<&str> = parts.iter().map(|part| part.trim_end()).collect();
     File { name: format!("{name}.md"), text: format!("{HEAD}\n\n# {title}\n\n{}\n", body.join("\n\n")) }
 }
@@ -254,18 +254,24 @@ fn table_1(report: &Report) -> Vec<String> {
             band.nonzeros.to_string(),
             format!("{:.1} %", sparsity(band.l, band.nonzeros)),
             short(band.condition),
+            band.found[1].to_string(),
         ]
     });
+    let tries = sets.bands.iter().map(|band| band.found[1] + 1).max().unwrap_or(0);
+    let seed = sets.bands.first().map_or(0, |band| band.found[0]);
     let list = |lobes: &[usize]| lobes.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
     let lobes = sets.bands.iter().map(|band| {
         let printed = LOBES.get(band.l - 2).map_or_else(|| "–".to_owned(), |lobes| list(lobes));
         vec![band.l.to_string(), printed, list(&band.lobes)]
     });
     vec![
-        "## Table I: sparsity of a band's own lobes\n\nNon-zeros of Â and the share of zeros, as printed and ours; the \
-         condition number is that of our Y. Where the paper prints no counts, they are those that its percentage allows."
-            .to_owned(),
-        table(&["l", "printed non-zeros", "printed zeros", "our non-zeros", "our zeros", "condition"], rows),
+        format!(
+            "## Table I: sparsity of a band's own lobes\n\nNon-zeros of Â and the share of zeros, as printed and ours; the \
+             condition number is that of our Y. Where the paper prints no counts, they are those that its percentage \
+             allows. Ours are what `zonal search-lobes --mode band --size 2-10 --seed {seed} --tries {tries}` finds, in \
+             the try that is named."
+        ),
+        table(&["l", "printed non-zeros", "printed zeros", "our non-zeros", "our zeros", "condition", "try"], rows),
         "The lobes of each function, m = −l to l:".to_owned(),
         table(&["l", "printed", "ours"], lobes),
     ]
@@ -444,6 +450,7 @@ fn index(report: &Report) -> File {
         ("[fronts](fronts.md)", "the cheapest rotation for an error, by order and largest angle"),
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
+        ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
         ("[factorisation](factorisation.md)", "Tables I and II of paper 003, ours beside"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
@@ -473,6 +480,7 @@ pub fn files(report: &Report) -> Vec<File> {
         fronts(report),
         rounding(report),
         proven(report),
+        crate::stability::report::tables(&report.stability),
         factorisation(report),
         timing(report),
     ]

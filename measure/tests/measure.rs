@@ -1,5 +1,7 @@
 //! The docs are what is measured, and what is measured is what the papers' figures and the errors' laws say.
 
+mod stability;
+
 use std::path::Path;
 use std::sync::OnceLock;
 use zonal_codegen::accuracy::band_errors;

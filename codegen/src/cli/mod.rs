@@ -3,6 +3,7 @@
 mod commands;
 mod explore;
 mod render;
+mod search;
 mod vectors;
 
 use clap::{Parser, Subcommand};
@@ -123,6 +124,8 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "generated")]
         dir: PathBuf,
     },
+    /// Searches for lobe directions that make the zonal factorisation sparse.
+    SearchLobes(search::Arguments),
 }
 
 /// Why a command ends early.
@@ -202,6 +205,7 @@ pub fn main() -> ExitCode {
         Command::Explore { out, port, no_serve } => explore::explore(out, port, !no_serve),
         Command::Render { arguments } => render::render(&arguments),
         Command::Catalog { check, dir } => commands::catalog(&dir, check),
+        Command::SearchLobes(arguments) => search::run(&arguments),
     };
     match result {
         Ok(()) | Err(Failure::Closed) => ExitCode::SUCCESS,

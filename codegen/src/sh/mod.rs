@@ -2,5 +2,6 @@
 
 pub mod exact;
 pub mod index;
+pub mod linear;
 pub mod tables;
 pub mod zhf;

@@ -11,19 +11,26 @@
 //!   as y_l^0 turned to ω_d, its equations 7 to 9; a lobe here is √((2l+1)/4π) times that, and its equation 9 lacks
 //!   the inverse of this factor.)
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::exact::{Exact, Real};
+use super::linear::condition;
 use super::tables::{basis_factor, legendre_polynomial};
 
 /// The highest band whose roots may name a direction.
 const HIGHEST_BAND: usize = 64;
+
+/// The highest order, and the highest band of its own, that lobe sets are searched and kept for.
+pub const HIGHEST_SIZE: usize = 10;
+
+/// The largest condition number of a set that kernels use: rounding grows with it, and up to here less than it does on the
+/// way from a quaternion to the lobes' basis values.
+pub const LARGEST_CONDITION: f64 = 40.0;
 
 /// A direction: the pole, a point of the equator, or one whose z is a root of an associated Legendre function, which is
 /// what makes zeros in Y.
@@ -184,17 +191,21 @@ impl LobeSet {
 
 /// The directions for an order of 2 to 10 that band l uses the first 2l+1 of.
 pub fn shared(order: usize) -> Option<&'static LobeSet> {
-    sets().nested.get(&order)
+    static SETS: Sets<LobeSet> = [const { OnceLock::new() }; HIGHEST_SIZE + 1];
+    set_of(Mode::Nested, order, &SETS)
 }
 
 /// The directions for an order of 2 to 10 of which each band uses any 2l+1: Â is sparser than that of [`shared`].
 pub fn shared_free(order: usize) -> Option<&'static LobeSet> {
-    sets().free.get(&order)
+    static SETS: Sets<LobeSet> = [const { OnceLock::new() }; HIGHEST_SIZE + 1];
+    set_of(Mode::Free, order, &SETS)
 }
 
 /// The 2l+1 directions for a band `l` alone, 2 to 10, that make Â sparsest of all sets found.
 pub fn single_band(l: usize) -> Option<&'static [Lobe]> {
-    sets().band.get(&l).map(Vec::as_slice)
+    static SETS: Sets<Vec<Lobe>> = [const { OnceLock::new() }; HIGHEST_SIZE + 1];
+    let read = || Some(chosen(Mode::Band, l)?.directions().expect("data/lobes.toml names directions"));
+    SETS.get(l)?.get_or_init(read).as_deref()
 }
 
 /// `Y[d][m+l] = y_l^m(ω_d)`.
@@ -291,57 +302,201 @@ fn squared_root(l: usize, m: usize, rank: usize) -> Exact {
     Exact::real(roots.pop().unwrap_or_else(Real::zero))
 }
 
-struct Sets {
-    nested: BTreeMap<usize, LobeSet>,
-    free: BTreeMap<usize, LobeSet>,
-    band: BTreeMap<usize, Vec<Lobe>>,
+/// How the bands of a lobe set share its directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mode {
+    /// Band l of an order n takes the first 2l+1 of 2n−1 directions.
+    Nested,
+    /// Band l of an order n takes any 2l+1 of 2n−1 directions.
+    Free,
+    /// One band l with 2l+1 directions of its own.
+    Band,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Data {
-    nested: Vec<Nested>,
-    free: Vec<Free>,
-    band: Vec<Band>,
-}
+impl Mode {
+    /// All of them with their names.
+    pub const ALL: [(Self, &str); 3] = [(Self::Nested, "nested"), (Self::Free, "free"), (Self::Band, "band")];
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Nested {
-    order: usize,
-    lobes: Vec<String>,
-}
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(mode, _)| *mode == self).map_or("", |(_, name)| name)
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Free {
-    order: usize,
-    lobes: Vec<String>,
-    subsets: Vec<Vec<usize>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Band {
-    band: usize,
-    lobes: Vec<String>,
-}
-
-/// The sets that `data/lobes.toml` holds, which the tests read whole.
-fn sets() -> &'static Sets {
-    static SETS: OnceLock<Sets> = OnceLock::new();
-    SETS.get_or_init(|| {
-        let data: Data = toml::from_str(include_str!("../../data/lobes.toml")).expect("data/lobes.toml is as declared");
-        let read = |lobes: Vec<String>| -> Vec<Lobe> {
-            lobes.iter().map(|text| text.parse().expect("data/lobes.toml names directions")).collect()
-        };
-        let prefixes = |order: usize| (0..order).map(|l| (0..2 * l + 1).collect()).collect();
-        let nested = |s: Nested| (s.order, LobeSet::new(s.order, read(s.lobes), prefixes(s.order)));
-        let free = |s: Free| (s.order, LobeSet::new(s.order, read(s.lobes), s.subsets));
-        Sets {
-            nested: data.nested.into_iter().map(nested).collect(),
-            free: data.free.into_iter().map(free).collect(),
-            band: data.band.into_iter().map(|b| (b.band, read(b.lobes))).collect(),
+    /// The bands of a set of this size, which is an order or, for [`Mode::Band`], a band.
+    pub fn bands(self, size: usize) -> std::ops::Range<usize> {
+        match self {
+            Self::Band => size..size + 1,
+            _ => 0..size,
         }
-    })
+    }
+}
+
+/// A lobe set as a search finds it and as `data/lobes.toml` holds it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// How its bands share directions.
+    pub mode: Mode,
+    /// The order; for [`Mode::Band`] the band.
+    pub size: usize,
+    /// The seed of the search that found it.
+    pub seed: u32,
+    /// Which try of that search found it.
+    pub attempt: usize,
+    /// The non-zeros of Â in each band.
+    pub nonzeros: Vec<usize>,
+    /// The largest condition number of any band's Y, to four decimals.
+    pub condition: f64,
+    /// The directions, as [`Lobe`] writes them.
+    pub lobes: Vec<String>,
+    /// For [`Mode::Free`] the indices of each band's directions; otherwise empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub subsets: Vec<Vec<usize>>,
+}
+
+/// Why a record is no lobe set.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum RecordError {
+    /// A text that names no direction.
+    #[error(transparent)]
+    Lobe(#[from] LobeError),
+    /// The counts do not fit the size.
+    #[error("the {mode} set of size {size} has {found}, expected {expected}", mode = mode.name())]
+    Shape {
+        /// How its bands share directions.
+        mode: Mode,
+        /// Its size.
+        size: usize,
+        /// What it holds.
+        found: String,
+        /// What it should.
+        expected: String,
+    },
+    /// A band's directions are dependent.
+    #[error("the lobes of band {0} are dependent")]
+    Dependent(usize),
+    /// An entry of Â that is neither zero nor far from it.
+    #[error("an entry of Â of band {0} is below 2^-60 and no zero")]
+    Undecided(usize),
+}
+
+impl Record {
+    /// A set of these directions, its non-zeros and condition from exact numbers.
+    ///
+    /// # Errors
+    ///
+    /// If it is no lobe set.
+    pub fn new(
+        mode: Mode,
+        size: usize,
+        (seed, attempt): (u32, usize),
+        lobes: Vec<String>,
+        subsets: Vec<Vec<usize>>,
+    ) -> Result<Self, RecordError> {
+        let mut record = Self { mode, size, seed, attempt, nonzeros: vec![], condition: 0.0, lobes, subsets };
+        (record.nonzeros, record.condition) = record.counted()?;
+        Ok(record)
+    }
+
+    /// All non-zeros.
+    pub fn total(&self) -> usize {
+        self.nonzeros.iter().sum()
+    }
+
+    /// Each band with the indices of its directions.
+    pub fn parts(&self) -> Vec<(usize, Vec<usize>)> {
+        let prefix = |l: usize| (0..2 * l + 1).collect();
+        let of = |l: usize| self.subsets.get(l).cloned().unwrap_or_else(|| prefix(l));
+        self.mode.bands(self.size).map(|l| (l, of(l))).collect()
+    }
+
+    /// The non-zeros and the condition that the directions have, whatever the record says.
+    ///
+    /// # Errors
+    ///
+    /// If it is no lobe set.
+    pub fn counted(&self) -> Result<(Vec<usize>, f64), RecordError> {
+        let lobes = self.directions()?;
+        let mut nonzeros = Vec::new();
+        let mut largest = 0.0f64;
+        for (l, members) in self.parts() {
+            let lobes: Vec<Lobe> = members.iter().map(|&d| lobes[d].clone()).collect();
+            let change = a_hat(l, &lobes).ok_or(RecordError::Dependent(l))?;
+            let entries: Vec<f64> = change.iter().flatten().filter(|x| !x.is_zero()).map(Exact::to_f64).collect();
+            // Less than 2^-60 and no zero to 512 bits: not to be told from an error.
+            if entries.iter().any(|x| x.abs() < 2f64.powi(-60)) {
+                return Err(RecordError::Undecided(l));
+            }
+            nonzeros.push(entries.len());
+            largest = largest.max(band_condition(l, &lobes));
+        }
+        Ok((nonzeros, (largest * 1e4).round() / 1e4))
+    }
+
+    /// The directions, their number and that of the subsets checked.
+    fn directions(&self) -> Result<Vec<Lobe>, RecordError> {
+        let shape =
+            |found: String, expected: String| RecordError::Shape { mode: self.mode, size: self.size, found, expected };
+        let highest = match self.mode {
+            Mode::Band => self.size,
+            _ => self.size.max(1) - 1,
+        };
+        let count = 2 * highest + 1;
+        if self.lobes.len() != count {
+            return Err(shape(format!("{} directions", self.lobes.len()), count.to_string()));
+        }
+        let subsets = if self.mode == Mode::Free { self.size } else { 0 };
+        if self.subsets.len() != subsets {
+            return Err(shape(format!("{} subsets", self.subsets.len()), subsets.to_string()));
+        }
+        for (l, subset) in self.subsets.iter().enumerate() {
+            if subset.len() != 2 * l + 1 || subset.iter().any(|&d| d >= count) {
+                return Err(shape(format!("the subset {subset:?} for band {l}"), format!("{} indices", 2 * l + 1)));
+            }
+        }
+        self.lobes.iter().map(|text| Ok(text.parse()?)).collect()
+    }
+}
+
+/// The condition number of `Y` of band `l`: the quotient of its largest and its smallest singular value.
+pub fn band_condition(l: usize, lobes: &[Lobe]) -> f64 {
+    let values = lobe_values(l, lobes);
+    condition(&values.iter().map(|row| row.iter().map(Exact::to_f64).collect()).collect::<Vec<_>>())
+}
+
+/// A file of lobe sets.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Records {
+    /// The sets.
+    #[serde(default)]
+    pub set: Vec<Record>,
+}
+
+/// Every set that `data/lobes.toml` holds: for each mode and size those that no other beats in both non-zeros and
+/// condition.
+pub fn records() -> &'static [Record] {
+    static RECORDS: OnceLock<Records> = OnceLock::new();
+    let read = || toml::from_str(include_str!("../../data/lobes.toml")).expect("data/lobes.toml is as declared");
+    &RECORDS.get_or_init(read).set
+}
+
+/// The set that kernels use: the sparsest whose condition is at most [`LARGEST_CONDITION`], the better conditioned of two
+/// that are equally sparse.
+pub fn chosen(mode: Mode, size: usize) -> Option<&'static Record> {
+    let fits = |record: &&Record| record.mode == mode && record.size == size && record.condition <= LARGEST_CONDITION;
+    records().iter().filter(fits).min_by(|a, b| a.total().cmp(&b.total()).then(a.condition.total_cmp(&b.condition)))
+}
+
+/// One cell a size, filled when it is first asked for.
+type Sets<T> = [OnceLock<Option<T>>; HIGHEST_SIZE + 1];
+
+fn set_of(mode: Mode, order: usize, sets: &'static Sets<LobeSet>) -> Option<&'static LobeSet> {
+    let read = || {
+        let record = chosen(mode, order)?;
+        let lobes = record.directions().expect("data/lobes.toml names directions");
+        Some(LobeSet::new(order, lobes, record.parts().into_iter().map(|(_, members)| members).collect()))
+    };
+    sets.get(order)?.get_or_init(read).as_ref()
 }

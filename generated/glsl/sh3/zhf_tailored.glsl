@@ -13,20 +13,20 @@
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
 float[9] sh3_zhf_tailored(float[9] f) {
-    float t0 = 2.0466535 * f[1];
-    float t1 = 2.0466535 * f[3];
+    float t0 = 2.0466535 * f[3];
+    float t1 = 2.0466535 * f[2];
     float t2 = 1.3729368 * f[8];
     float t3 = 1.3729368 * f[6];
     return float[9](
         3.5449078 * f[0],
-        3.5449078 * f[2] - t0 - t1,
-        t1,
-        -t0,
-        -(t2 + 1.3729368 * f[5]),
+        t0 - (t1 + 3.5449078 * f[1]),
+        t0,
+        -t1,
+        t2 + 1.3729368 * f[4],
         -(t2 + t3),
-        1.585331 * f[4],
-        -(t3 + 1.3729368 * f[5]),
-        1.8305825 * f[7] + 0.91529125 * f[4]
+        1.585331 * f[7],
+        t3 + 1.3729368 * f[4],
+        0.91529125 * f[7] + 1.8305825 * f[5]
     );
 }
 

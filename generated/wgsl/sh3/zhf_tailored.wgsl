@@ -10,20 +10,20 @@
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
 fn sh3_zhf_tailored(f: array<f32, 9>) -> array<f32, 9> {
-    let t0 = 2.0466535 * f[1];
-    let t1 = 2.0466535 * f[3];
+    let t0 = 2.0466535 * f[3];
+    let t1 = 2.0466535 * f[2];
     let t2 = 1.3729368 * f[8];
     let t3 = 1.3729368 * f[6];
     return array<f32, 9>(
         3.5449078 * f[0],
-        3.5449078 * f[2] - t0 - t1,
-        t1,
-        -t0,
-        -(t2 + 1.3729368 * f[5]),
+        t0 - (t1 + 3.5449078 * f[1]),
+        t0,
+        -t1,
+        t2 + 1.3729368 * f[4],
         -(t2 + t3),
-        1.585331 * f[4],
-        -(t3 + 1.3729368 * f[5]),
-        1.8305825 * f[7] + 0.91529125 * f[4]
+        1.585331 * f[7],
+        t3 + 1.3729368 * f[4],
+        0.91529125 * f[7] + 1.8305825 * f[5]
     );
 }
 

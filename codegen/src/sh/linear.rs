@@ -1,4 +1,5 @@
-//! The little linear algebra that errors and conditions need: singular values.
+//! The little linear algebra that errors and conditions need: singular values, by no more than products, sums, quotients
+//! and square roots, so that they are the same to the last bit on every machine.
 
 /// The singular values of a matrix given by its columns (or rows), largest first, by one-sided Jacobi rotations.
 pub fn singular_values(columns: &[Vec<f64>]) -> Vec<f64> {
