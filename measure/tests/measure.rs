@@ -116,7 +116,9 @@ fn laws_hold_for_small_errors() {
             let mut held = 0;
             for (error, degrees) in curve.errors[MAX].iter().zip(&report.angles) {
                 let law = method.law(curve.order, degrees.to_radians());
-                if law > 1e-9 && law < 1e-2 {
+                // The law is the first term of a series in lβ.
+                let small = (curve.order - 1) as f64 * degrees.to_radians() < 1.0;
+                if law > 1e-9 && law < 1e-2 && small {
                     held += 1;
                     let name = (method.name, curve.order);
                     assert!((error / law - 1.0).abs() < 0.2, "{name:?} at {degrees}°: {error}, by law {law}");

@@ -185,7 +185,7 @@ fn the_command_refuses_what_it_cannot_use() {
         assert!(parts.iter().all(|part| err.contains(part)), "{arguments:?}: {err}");
     }
     for arguments in [["--size", "1"], ["--size", "5-3"], ["--size", "2-11"], ["--mode", "loose"], ["--tries", "0"]] {
-        let Run { code, err, .. } = folder.run(&[&["search-lobes"][..], &arguments[..]].concat());
+        let Run { code, err, .. } = folder.run([&["search-lobes"][..], &arguments[..]].concat());
         assert_eq!(code, Some(2), "{arguments:?}: {err}");
     }
     assert_eq!(folder.names(), before);
