@@ -59,7 +59,11 @@ fn the_tilt_on_prescaled_coefficients_is_the_tilt() {
             let stored = scale.run(&input[1..]);
             let tilted = Runner::<f64>::new(&prescaled).run(&[input[0].clone(), stored]);
             // 1e-13: a thousand f64 roundings of values of about one.
-            assert!(band_error(&unscale.run(std::slice::from_ref(&tilted)), &want) < 1e-13, "{}", text("tilt_prescaled"));
+            assert!(
+                band_error(&unscale.run(std::slice::from_ref(&tilted)), &want) < 1e-13,
+                "{}",
+                text("tilt_prescaled")
+            );
             // A light scaled the other way gives the same product.
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
             let product = dot(&tilted, &unscale.run(std::slice::from_ref(&light)));
