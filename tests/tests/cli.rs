@@ -618,3 +618,22 @@ fn the_explorer_is_written_and_served() {
     let Run { code, out, .. } = folder.run(["explore", "--no-serve", "--out", "page"]);
     assert!(code == Some(0) && out.contains(" 0 of them changed"), "{out}");
 }
+
+#[test]
+fn a_plan_is_plotted_if_asked() {
+    let folder = Folder::new();
+    let rotation = "[[rotation]]\nkind = \"quaternion\"\norder = 4\nmax_angle = 10\nmax_error = 0.01\n";
+    folder.put("good.toml", format!("name = \"a\"\n{rotation}"));
+    assert_eq!(folder.run(["plan", "good.toml", "--plot", "plots/a.svg"]).code, Some(0));
+    let svg = std::fs::read_to_string(folder.path("plots/a.svg")).expect("is written");
+    // Every method that was weighed is a line of its own with a label.
+    for text in ["<svg", "rotate:4 ", "rotate_small:4:taylor1", "rotate_small:4:lf5", ", chosen", "of the worst band"] {
+        assert!(svg.contains(text), "{text}:\n{svg}");
+    }
+    let refused = folder.run(["plan", "good.toml", "--plot", "a.png"]);
+    assert!(refused.code == Some(1) && refused.err.contains("`.svg`"), "{}", refused.err);
+    folder.put("plain.toml", "name = \"a\"\n[[kernel]]\nspec = \"eval:3\"\n");
+    let refused = folder.run(["plan", "plain.toml", "--plot", "b.svg"]);
+    assert!(refused.code == Some(1) && refused.err.contains("nothing to plot"), "{}", refused.err);
+    assert!(!folder.path("b.svg").exists(), "nothing is half-written");
+}

@@ -21,7 +21,7 @@ fn halves() -> Vec<Spec> {
 }
 
 fn text(spec: &Spec) -> String {
-    let module = Module { functions: build(&[spec.clone()]), origin: spec.to_string(), ..Module::default() };
+    let module = Module { functions: build(std::slice::from_ref(spec)), origin: spec.to_string(), ..Module::default() };
     file(&module, Target::Wgsl, spec.name()).unwrap_or_else(|error| panic!("{spec}: {error}")).text
 }
 

@@ -212,7 +212,7 @@ fn what_is_not_on_the_front_is_left_out() {
     // Four shears of (1 − ½√2, ½√2, ½√2, 1 − ½√2) T, the linear part of the cubic error taken off: 4/3 of LF3's shears.
     let root = 0.5f64.sqrt();
     let four = |l: usize, beta: f64| -> f64 {
-        let p = if l % 2 == 0 { (l * l) as f64 / 8.0 } else { (3 * l * l + 1) as f64 / 24.0 };
+        let p = if l.is_multiple_of(2) { (l * l) as f64 / 8.0 } else { (3 * l * l + 1) as f64 / 24.0 };
         let t = beta * (1.0 - 6.0 * (root / 2.0 - 1.0 / 3.0) * p * beta * beta);
         (1..=l)
             .map(|k| {

@@ -1,7 +1,6 @@
 //! What scenes require: on all eight maps and four reflectances the measured error stays under the budget, and what is
 //! left out is what can be.
 
-use std::path::PathBuf;
 use zonal_codegen::environment::Map;
 use zonal_codegen::picture::brdf::Brdf;
 use zonal_codegen::picture::requirement::Requirement;
@@ -114,7 +113,7 @@ fn a_scene_with_a_reflectance_takes_the_order_that_it_needs() {
         )
     };
     let order = |brdf: &str| {
-        let scene = Scene::parse("a.toml", &text(brdf), Maps::Folder(PathBuf::from(repository("scenes/maps"))))
+        let scene = Scene::parse("a.toml", &text(brdf), Maps::Folder(repository("scenes/maps")))
             .unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         let shown = plan.to_string();

@@ -1,6 +1,6 @@
 //! What the commands print. All of it comes from the library; here it is only laid out.
 
-use super::{Failure, out, out_json, progress, spec_of};
+use super::{Failure, out, out_json, plot, progress, spec_of};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -10,7 +10,7 @@ use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::environment::{Map, Projection};
-use zonal_codegen::files::{self, Difference};
+use zonal_codegen::files::{self, Difference, File};
 use zonal_codegen::plan::{Chosen, Plan, short, table};
 use zonal_codegen::scene::{Maps, Scene};
 
@@ -80,14 +80,35 @@ pub fn generate(path: Option<PathBuf>, folder: Option<PathBuf>) -> Result<(), Fa
     out(&text)
 }
 
-pub fn plan(path: Option<PathBuf>, json: bool) -> Result<(), Failure> {
+pub fn plan(path: Option<PathBuf>, json: bool, picture: Option<PathBuf>) -> Result<(), Failure> {
+    if let Some(path) = picture.as_ref().filter(|path| path.extension().is_none_or(|extension| extension != "svg")) {
+        let message = format!("{}: a plot is an SVG file", path.display());
+        return Err(Diagnostic::nowhere(message, "give it a name that ends in `.svg`").into());
+    }
     let bar = progress("planning");
     let plan = scene(path)?;
     drop(bar);
+    if let Some(path) = picture {
+        write_plot(&plan, &path)?;
+    }
     match json {
         true => out_json(&plan),
         false => out(&plan.to_string()),
     }
+}
+
+fn write_plot(plan: &Plan, path: &Path) -> Result<(), Failure> {
+    let name = path.display();
+    let drawn =
+        plot::svg(plan).map_err(|error| Diagnostic::nowhere(format!("{name}: cannot be drawn ({error})"), ""))?;
+    let text = drawn.ok_or_else(|| {
+        let help = "add a `[[rotation]]` with its `max_error`";
+        Diagnostic::nowhere("there is nothing to plot: the scene bounds no rotation", help)
+    })?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    files::write(folder, &[File { path: file, text }]).map_err(builder::Error::from)?;
+    Ok(())
 }
 
 pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), Failure> {

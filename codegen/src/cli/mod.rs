@@ -2,6 +2,7 @@
 
 mod commands;
 mod explore;
+mod plot;
 mod render;
 mod search;
 mod vectors;
@@ -44,6 +45,9 @@ enum Command {
         /// Prints JSON.
         #[arg(long)]
         json: bool,
+        /// Writes a plot too: each method's error over the angle, with what the scene allows.
+        #[arg(long, value_name = "FILE.svg")]
+        plot: Option<PathBuf>,
     },
     /// Lists the standard specs with their costs and errors.
     List {
@@ -197,7 +201,7 @@ fn spec_of(text: &str) -> Result<Spec, Failure> {
 pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Generate { scene, out } => commands::generate(scene, out),
-        Command::Plan { scene, json } => commands::plan(scene, json),
+        Command::Plan { scene, json, plot } => commands::plan(scene, json, plot),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
         Command::Show { spec, target } => commands::show(&spec, &target),
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
