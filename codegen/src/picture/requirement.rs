@@ -119,9 +119,9 @@ impl Requirement {
     ///
     /// # Panics
     ///
-    /// If `max_order` is not one of a kernel's, or `budget` is not above 0.
+    /// If `max_order` is not one of a kernel's, or `budget` is below 0.
     pub fn new(map: &Map, brdf: &Brdf, budget: f64, max_order: usize, half: bool) -> Self {
-        assert!(budget > 0.0, "budget {budget}");
+        assert!(budget >= 0.0, "budget {budget}");
         let light = Light { coefficients: map.project(max_order).coefficients, order: max_order };
         let mut weights = vec![0.0; max_order];
         for (view, share) in views(brdf, 0.0) {

@@ -166,7 +166,9 @@ impl Cases {
         };
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
-        let by_band = Measure::of(&function.spec) == Measure::Bands && function.spec.family != Family::Angles;
+        // The conversion to monomials mixes bands.
+        let mixes = matches!(function.spec.family, Family::Angles | Family::ToMonomial);
+        let by_band = Measure::of(&function.spec) == Measure::Bands && !mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
         for case in 0..count {

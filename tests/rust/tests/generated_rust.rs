@@ -80,6 +80,7 @@ adapters! {
     signal(C: [&]);
     value_signal(A: [], C: [&]);
     list_signal(A: [&], C: [&]);
+    value_value_signal(A: [], B: [], C: [&]);
     list_value_signal(A: [&], B: [], C: [&]);
 }
 
@@ -112,14 +113,29 @@ macro_rules! order {
             value: basis, angles, basis_loop;
             signal: swap_yz / swap_yz_rgb, rotate_x_plus_90deg / rotate_x_plus_90deg_rgb,
                 rotate_x_minus_90deg / rotate_x_minus_90deg_rgb, zhf_weights / zhf_weights_rgb,
-                zhf_tailored / zhf_tailored_rgb;
+                zhf_tailored / zhf_tailored_rgb, to_monomial / to_monomial_rgb;
             value_signal: eval / eval_rgb, rotate_z / rotate_z_rgb, rotate_y / rotate_y_rgb, rotate / rotate_rgb,
                 rotate_zxzxz / rotate_zxzxz_rgb, rotate_align / rotate_align_rgb, rotate_zonal / rotate_zonal_rgb,
                 tilt / tilt_rgb, taylor1_y / taylor1_y_rgb, taylor15_y / taylor15_y_rgb, taylor2_y / taylor2_y_rgb,
-                lf3_y / lf3_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop;
+                lf3_y / lf3_y_rgb, lf5_y / lf5_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop,
+                eval_monomial / eval_monomial_rgb, rotate_small / rotate_small_rgb;
             list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb;
             list_value_signal: taylor1_zyz / taylor1_zyz_rgb, taylor15_zyz / taylor15_zyz_rgb,
-                taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb;
+                taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb, lf5_zyz / lf5_zyz_rgb;
+            $($more)*
+        }
+    };
+}
+
+/// The same with what there is from order 4 on.
+macro_rules! order_from_4 {
+    ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
+        order! {
+            $scalar, $table, $module,
+            value_signal: lf5_tilt / lf5_tilt_rgb, lf5_rotate_small / lf5_rotate_small_rgb,
+                tilt_prescaled / tilt_prescaled_rgb, lf5_tilt_prescaled / lf5_tilt_prescaled_rgb;
+            signal: tilt_scale / tilt_scale_rgb, tilt_unscale / tilt_unscale_rgb;
+            value_value_signal: rotate_adaptive / rotate_adaptive_rgb;
             $($more)*
         }
     };
@@ -134,15 +150,15 @@ macro_rules! every_order {
         order!($scalar, table, sh3,
             value_signal: rotate_zyz / rotate_tensor_rgb, rotate_zyz_loop / rotate_rgb_loop;
             list_signal: rotate_matrix / rotate_matrix_rgb;);
-        order!($scalar, table, sh4, value_signal: rotate_loop / rotate_rgb_loop;);
-        order!($scalar, table, sh5,
+        order_from_4!($scalar, table, sh4, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh5,
             value_signal: rotate_loop / rotate_rgb_loop, bands_0_1_2_4_eval / bands_0_1_2_4_eval_rgb,
                 taylor15_taylor15_taylor15_taylor1_y;);
-        order!($scalar, table, sh6, value_signal: rotate_loop / rotate_rgb_loop;);
-        order!($scalar, table, sh7, value_signal: rotate_loop / rotate_rgb_loop;);
-        order!($scalar, table, sh8, value_signal: rotate_loop / rotate_rgb_loop;);
-        order!($scalar, table, sh9, value_signal: rotate_loop / rotate_rgb_loop;);
-        order!($scalar, table, sh10, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh6, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh7, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh8, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh9, value_signal: rotate_loop / rotate_rgb_loop;);
+        order_from_4!($scalar, table, sh10, value_signal: rotate_loop / rotate_rgb_loop;);
         table
     }};
 }
