@@ -128,7 +128,7 @@ pub fn markdown(measured: &Measured) -> String {
 }
 
 /// How much a written error may differ from a measured one: drivers' versions round differently.
-const LEEWAY: f64 = 2.0;
+pub const LEEWAY: f64 = 2.0;
 
 /// Compares a written table with what was measured: the same columns, the same families, and errors that differ by a
 /// factor of [`LEEWAY`] at most, or are zero in both.
