@@ -6,8 +6,10 @@ use crate::code::Code;
 use crate::eval::{Contraction, Number, Program};
 use crate::kernels::y_rotation::{about_y, small_y};
 use crate::kernels::{rotate, tilt};
+use crate::law;
 use crate::listing::Listing;
 use crate::samples;
+use crate::sh::linear::singular_values;
 use crate::spec::{Family, MAX_ORDER, Method, Spec};
 use half::f16;
 
@@ -194,24 +196,15 @@ pub fn method_error(spec: &Spec, angle: f64) -> f64 {
     method_errors(spec, &[angle])[0]
 }
 
-/// [`method_error`] at several angles.
+/// [`method_error`] at several angles, by the [law](crate::law).
 pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
-    band_errors(spec, angles).into_iter().map(|bands| bands.into_iter().fold(0.0, larger)).collect()
+    let error = |&angle: &f64| law::errors(spec, angle).iter().map(|error| error.max).fold(0.0, larger);
+    angles.iter().map(error).collect()
 }
 
-/// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it.
+/// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it, from the
+/// kernel's own matrix: what the [law](crate::law) is checked against.
 pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
-    band_norms(spec, angles, spectral_norm)
-}
-
-/// The same as a root mean square: over all signals whose bands have norm one, not for the worst of them.
-pub fn typical_band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
-    band_norms(spec, angles, |columns| {
-        (columns.iter().flatten().map(|x| x * x).sum::<f64>() / columns.len() as f64).sqrt()
-    })
-}
-
-fn band_norms(spec: &Spec, angles: &[f64], norm: fn(&[Vec<f64>]) -> f64) -> Vec<Vec<f64>> {
     let order = spec.order;
     let approximate = match &spec.family {
         Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => about_y(order, methods),
@@ -243,31 +236,12 @@ fn band_norms(spec: &Spec, angles: &[f64], norm: fn(&[Vec<f64>]) -> f64) -> Vec<
             let band = |l: usize| -> Vec<Vec<f64>> {
                 columns[..2 * l + 1].iter().map(|column| column[l * l..(l + 1) * (l + 1)].to_vec()).collect()
             };
-            (0..order).map(|l| norm(&band(l))).collect()
+            (0..order).map(|l| spectral_norm(&band(l))).collect()
         })
         .collect()
 }
 
-/// The spectral norm of a square matrix by the power iteration on MᵀM, started from every unit vector's image.
+/// The spectral norm of a matrix given by its columns.
 pub fn spectral_norm(columns: &[Vec<f64>]) -> f64 {
-    let n = columns.len();
-    let gram: Vec<Vec<f64>> =
-        columns.iter().map(|a| columns.iter().map(|b| a.iter().zip(b).map(|(x, y)| x * y).sum()).collect()).collect();
-    let scale = gram.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    if scale == 0.0 || !scale.is_finite() {
-        return scale;
-    }
-    // Squaring the matrix doubles the exponent of the iteration: twenty squarings are 2^20 steps.
-    let mut power: Vec<Vec<f64>> = gram.iter().map(|row| row.iter().map(|x| x / scale).collect()).collect();
-    for _ in 0..20 {
-        let square: Vec<Vec<f64>> =
-            (0..n).map(|i| (0..n).map(|j| (0..n).map(|k| power[i][k] * power[k][j]).sum()).collect()).collect();
-        let size = square.iter().flatten().fold(0.0f64, |m: f64, x: &f64| m.max(x.abs()));
-        power = square.into_iter().map(|row| row.into_iter().map(|x| x / size).collect()).collect();
-    }
-    // Every column is now close to the leading eigenvector; take the Rayleigh quotient of the longest.
-    let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
-    let lead = power.iter().max_by(|a, b| length(a).total_cmp(&length(b))).expect("a matrix has a row");
-    let image: Vec<f64> = gram.iter().map(|row| row.iter().zip(lead).map(|(x, y)| x * y).sum()).collect();
-    (image.iter().zip(lead).map(|(x, y)| x * y).sum::<f64>() / length(lead)).sqrt()
+    singular_values(columns)[0]
 }

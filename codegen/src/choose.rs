@@ -107,7 +107,7 @@ impl Budget {
 }
 
 /// The small-angle family of a rotation with these methods.
-fn family(turn: Turn, methods: Vec<Small>) -> Family {
+pub(crate) fn family(turn: Turn, methods: Vec<Small>) -> Family {
     match turn {
         Turn::Y => Family::SmallY(methods),
         Turn::Zyz => Family::Rotate(Method::Small(methods)),

@@ -93,16 +93,7 @@ impl Branch {
     /// What both ways cost for so many channels, the condition included: the cheaper one first.
     pub fn costs(&self, channels: usize) -> [Cost; 2] {
         let condition = self.condition.cost(channels);
-        let mut both = [&self.below, &self.above].map(|listing| {
-            let cost = listing.cost(channels);
-            Cost {
-                mul: cost.mul + condition.mul,
-                add: cost.add + condition.add,
-                fma: cost.fma + condition.fma,
-                special: cost.special + condition.special,
-                total: cost.total + condition.total,
-            }
-        });
+        let mut both = [&self.below, &self.above].map(|listing| listing.cost(channels) + condition);
         both.sort_by_key(|cost| cost.total);
         both
     }

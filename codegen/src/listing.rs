@@ -93,6 +93,20 @@ pub struct Cost {
     pub total: usize,
 }
 
+impl std::ops::Add for Cost {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            mul: self.mul + other.mul,
+            add: self.add + other.add,
+            fma: self.fma + other.fma,
+            special: self.special + other.special,
+            total: self.total + other.total,
+        }
+    }
+}
+
 /// What a kernel needs besides operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Footprint {

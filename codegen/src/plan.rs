@@ -178,9 +178,9 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
 /// The methods that turn a signal as the scene asks, exact ones first, and those that are listed only to say why not.
 fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static str>)> {
     let exact = Family::Rotate(Spec::default_method(order, rgb));
-    let all = |make: &dyn Fn(Vec<Small>) -> Family, why| -> Vec<(Family, Option<&'static str>)> {
-        Small::ALL.map(|(method, _)| (make(vec![method; order - 1]), why)).to_vec()
-    };
+    // Every small-angle method in all bands, as the rotation `of` takes it.
+    let small =
+        |of: Turn, why| Small::ALL.map(|(method, _)| (choose::family(of, vec![method; order - 1]), why)).to_vec();
     let families = match kind {
         Turn::Tilt => {
             let why = "takes angles, which a normal gives by trigonometry only, none at n = z";
@@ -192,15 +192,12 @@ fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static
             if order > 3 {
                 families.insert(1, (Family::Tilt(Small::Lf5.from_band_3(order)), None));
             }
-            [families, all(&|methods| Family::Rotate(Method::Small(methods)), Some(why))].concat()
+            [families, small(Turn::Zyz, Some(why))].concat()
         }
-        Turn::Y => [vec![(Family::RotateY, None)], all(&Family::SmallY, None)].concat(),
-        Turn::Zyz => {
-            let families = vec![(exact, None), (Family::Rotate(Method::Euler), None)];
-            [families, all(&|methods| Family::Rotate(Method::Small(methods)), None)].concat()
-        }
+        Turn::Y => [vec![(Family::RotateY, None)], small(Turn::Y, None)].concat(),
+        Turn::Zyz => [vec![(exact, None), (Family::Rotate(Method::Euler), None)], small(Turn::Zyz, None)].concat(),
         Turn::Quaternion => {
-            let small = |(method, _): (Small, _)| (Family::RotateSmall(method.from_band_3(order)), None);
+            let small = |(method, _): (Small, _)| (choose::family(kind, method.from_band_3(order)), None);
             [vec![(exact, None)], Small::ALL.map(small).to_vec()].concat()
         }
     };
@@ -678,7 +675,7 @@ mod environment {
         #[cfg(feature = "picture")]
         let requirement = scene.brdf.filter(|_| wanted.signal == Light::Radiance).map(|brdf| {
             let half = scene.targets[..] == [Target::Wgsl];
-            Requirement::new(&map, &brdf, wanted.budget, max_order, half)
+            Requirement::new(&signal, &brdf, wanted.budget, max_order, half)
         });
         #[cfg(feature = "picture")]
         if let Some(requirement) = &requirement {

@@ -86,6 +86,13 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 
+/// The unit quaternion (x, y, z, w) of Rz(α) Ry(β) Rz(γ).
+pub fn quaternion_of_angles(alpha: f64, beta: f64, gamma: f64) -> Vec<f64> {
+    let (cos, sin) = ((beta / 2.0).cos(), (beta / 2.0).sin());
+    let (sum, difference) = ((alpha + gamma) / 2.0, (alpha - gamma) / 2.0);
+    vec![-sin * difference.sin(), sin * difference.cos(), cos * sum.sin(), cos * sum.cos()]
+}
+
 /// The Hamilton product of two quaternions (x, y, z, w): first `b`, then `a`.
 pub fn quaternion_product(a: &[f64], b: &[f64]) -> Vec<f64> {
     let [x, y, z, w] = [a[0], a[1], a[2], a[3]];

@@ -5,7 +5,7 @@ use zonal_codegen::accuracy::{band_errors, method_errors};
 use zonal_codegen::built;
 use zonal_codegen::eval::Contraction;
 use zonal_codegen::samples::{self, Random};
-use zonal_tests::{Runner, band_error, norm, spec};
+use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 
 /// Runs a kernel of any form in f64.
 fn run(text: &str, inputs: &[&[f64]]) -> Vec<f64> {
@@ -14,13 +14,6 @@ fn run(text: &str, inputs: &[&[f64]]) -> Vec<f64> {
 
 fn signal(random: &mut Random, order: usize) -> Vec<f64> {
     (0..order * order).map(|_| random.signed()).collect()
-}
-
-/// A unit quaternion z, y, z with these angles.
-fn quaternion(alpha: f64, beta: f64, gamma: f64) -> Vec<f64> {
-    let (cos, sin) = ((beta / 2.0).cos(), (beta / 2.0).sin());
-    let (sum, difference) = ((alpha + gamma) / 2.0, (alpha - gamma) / 2.0);
-    vec![-sin * difference.sin(), sin * difference.cos(), cos * sum.sin(), cos * sum.cos()]
 }
 
 #[test]
@@ -145,7 +138,7 @@ fn the_small_rotation_errs_by_what_its_method_says() {
         let exact = format!("rotate:{}:zyz", spec.order);
         for degrees in [1e-6, 1.0, 10.0, 25.0] {
             let beta = f64::to_radians(degrees);
-            let q = quaternion(random.signed() * 3.0, beta, random.signed() * 3.0);
+            let q = quaternion_of_angles(random.signed() * 3.0, beta, random.signed() * 3.0);
             let c = signal(&mut random, spec.order);
             let (got, want) = (run(text, &[&q, &c]), run(&exact, &[&q, &c]));
             for (l, &most) in band_errors(&spec, &[beta])[0].iter().enumerate() {
@@ -175,7 +168,7 @@ fn the_adaptive_rotation_takes_one_of_two_ways() {
                 3 => largest * (1.0 + 1e-9),
                 _ => largest * 2.0 * random.signed().abs(),
             };
-            let q = quaternion(random.signed() * 3.0, beta, random.signed() * 3.0);
+            let q = quaternion_of_angles(random.signed() * 3.0, beta, random.signed() * 3.0);
             let c = signal(&mut random, order);
             let want = if beta <= largest { small } else { exact };
             let same = run(adaptive, &[&q, &[limit], &c]) == run(want, &[&q, &c]);

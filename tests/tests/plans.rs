@@ -10,7 +10,7 @@ use zonal_codegen::code::{Code, Runner};
 use zonal_codegen::eval::{Contraction, Number};
 use zonal_codegen::samples::Random;
 use zonal_codegen::spec::{Family, Spec};
-use zonal_tests::norm;
+use zonal_tests::{norm, quaternion_of_angles};
 
 const DEGREES: [f64; 5] = [5.0, 10.0, 15.0, 25.0, 45.0];
 const BUDGETS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
@@ -20,11 +20,7 @@ const CASES: usize = 10_000;
 
 /// A turn by β about y between two turns about z, as a kernel of a family takes it, and the quaternion of the same.
 fn parameters(spec: &Spec, beta: f64, [alpha, gamma]: [f64; 2]) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let turns = |alpha: f64, gamma: f64| {
-        let (cos, sin) = ((beta / 2.0).cos(), (beta / 2.0).sin());
-        let (sum, difference) = ((alpha + gamma) / 2.0, (alpha - gamma) / 2.0);
-        vec![-sin * difference.sin(), sin * difference.cos(), cos * sum.sin(), cos * sum.cos()]
-    };
+    let turns = |alpha: f64, gamma: f64| quaternion_of_angles(alpha, beta, gamma);
     match &spec.family {
         Family::SmallY(_) => (vec![vec![beta]], turns(0.0, 0.0)),
         Family::RotateY => (vec![vec![beta.cos(), beta.sin()]], turns(0.0, 0.0)),

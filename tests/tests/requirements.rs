@@ -1,7 +1,7 @@
 //! What scenes require: on all eight maps and four reflectances the measured error stays under the budget, and what is
 //! left out is what can be.
 
-use zonal_codegen::environment::Map;
+use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::picture::brdf::Brdf;
 use zonal_codegen::picture::requirement::Requirement;
 use zonal_codegen::plan::Plan;
@@ -11,8 +11,8 @@ use zonal_tests::repository;
 const MAPS: [&str; 8] = ["city", "courtyard", "forest", "interior", "night", "studio", "sunrise", "sunset"];
 const BRDFS: [&str; 4] = ["lambert", "phong:20", "ward:0.4", "ward:0.3:0.6"];
 
-fn map(name: &str) -> Map {
-    Map::read(&repository(&format!("scenes/maps/{name}_256x128.hdr"))).expect("is a map")
+fn light(name: &str) -> Projection {
+    Map::read(&repository(&format!("scenes/maps/{name}_256x128.hdr"))).expect("is a map").project(10)
 }
 
 fn brdf(text: &str) -> Brdf {
@@ -23,10 +23,10 @@ fn brdf(text: &str) -> Brdf {
 fn every_map_keeps_its_budget_with_what_is_left() {
     println!("| map | reflectance | budget | order | f16 | predicted | measured | operations | bytes |");
     for name in MAPS {
-        let map = map(name);
+        let light = light(name);
         for text in BRDFS {
             for (budget, half) in [(0.1, true), (0.02, false)] {
-                let required = Requirement::new(&map, &brdf(text), budget, 10, half);
+                let required = Requirement::new(&light, &brdf(text), budget, 10, half);
                 println!(
                     "| {name} | {text} | {budget} | {} | {} | {:.4} | {:.4} | {} of {} | {} of {} |",
                     required.order,
@@ -51,7 +51,7 @@ fn every_map_keeps_its_budget_with_what_is_left() {
 #[test]
 fn a_diffuse_surface_needs_neither_band_3_nor_more_than_a_few() {
     for name in MAPS {
-        let required = Requirement::new(&map(name), &brdf("lambert"), 1e-3, 10, false);
+        let required = Requirement::new(&light(name), &brdf("lambert"), 1e-3, 10, false);
         // The cosine lobe holds nothing in odd bands from 3 on.
         assert!(required.bands.iter().all(|l| *l < 3 || l % 2 == 0), "{name}: {:?}", required.bands);
         assert!(required.isotropic && required.left_out().iter().any(|line| line.contains("band 3")), "{name}");
@@ -61,8 +61,8 @@ fn a_diffuse_surface_needs_neither_band_3_nor_more_than_a_few() {
 #[test]
 fn sharper_lobes_need_more_bands_and_real_light_has_no_symmetry() {
     for name in ["city", "studio", "sunset"] {
-        let map = map(name);
-        let order = |text: &str| Requirement::new(&map, &brdf(text), 0.05, 10, false);
+        let light = light(name);
+        let order = |text: &str| Requirement::new(&light, &brdf(text), 0.05, 10, false);
         let [dull, middle, sharp] = ["phong:2", "phong:8", "phong:80"].map(order);
         assert!(dull.order < middle.order && middle.order <= sharp.order, "{name}");
         assert!(!sharp.zonal && !sharp.mirror && sharp.channels == 3, "{name}");
@@ -70,13 +70,13 @@ fn sharper_lobes_need_more_bands_and_real_light_has_no_symmetry() {
 }
 
 /// A map that is made: a value for each direction.
-fn made(value: impl Fn([f64; 3]) -> [f64; 3]) -> Map {
+fn made(value: impl Fn([f64; 3]) -> [f64; 3]) -> Projection {
     let (width, height) = (64, 32);
     let mut map = Map { width, height, texels: vec![[0.0; 3]; width * height] };
     let directions: Vec<[f64; 3]> =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| map.direction(x, y)).collect();
     map.texels = directions.into_iter().map(value).collect();
-    map
+    map.project(8)
 }
 
 #[test]
@@ -98,8 +98,8 @@ fn symmetries_of_the_light_are_found_and_kept_apart() {
 
 #[test]
 fn f16_is_taken_where_the_budget_has_room_only() {
-    let map = map("sunset");
-    let of = |budget: f64, half: bool| Requirement::new(&map, &brdf("lambert"), budget, 5, half);
+    let light = light("sunset");
+    let of = |budget: f64, half: bool| Requirement::new(&light, &brdf("lambert"), budget, 5, half);
     assert!(of(0.05, true).half && !of(0.05, false).half);
     assert!(!of(0.001, true).half, "2⁻¹¹ times a few is above a thousandth");
     assert!(of(0.05, true).bytes[0] * 2 == of(0.05, false).bytes[0]);

@@ -282,17 +282,7 @@ impl Table {
     /// If `order` is not one of a kernel's.
     pub fn new(brdf: &Brdf, order: usize) -> Self {
         assert!((MIN_ORDER..=MAX_ORDER).contains(&order), "order {order}");
-        // Over a step of h, linear interpolation errs by (l h)²/8 in band l, and a lobe sinks below the horizon within
-        // its width.
-        let width = match *brdf {
-            Brdf::Lambert => f64::INFINITY,
-            Brdf::Phong { exponent } => exponent.sqrt().recip(),
-            Brdf::Ward { alpha: [a, b] } => a.min(b),
-        };
-        let steps =
-            if width.is_infinite() { 1 } else { (7 * order).max((7.0 / width).ceil() as usize).next_multiple_of(2) };
-        let elevations = steps + 1;
-        let azimuths = if brdf.is_isotropic() { 1 } else { 2 * steps };
+        let [elevations, azimuths] = Self::shape(brdf, order);
         let mut table = Self { order, elevations, azimuths, values: vec![] };
         // Views of the first quarter; the others are mirror images.
         let quarter = azimuths / 4;
@@ -313,6 +303,20 @@ impl Table {
         };
         table.values = (0..elevations * azimuths).flat_map(|i| mirrored(i / azimuths, i % azimuths)).collect();
         table
+    }
+
+    /// How many elevations and azimuths the table of a reflectance has.
+    pub fn shape(brdf: &Brdf, order: usize) -> [usize; 2] {
+        // Over a step of h, linear interpolation errs by (l h)²/8 in band l, and a lobe sinks below the horizon within
+        // its width.
+        let width = match *brdf {
+            Brdf::Lambert => f64::INFINITY,
+            Brdf::Phong { exponent } => exponent.sqrt().recip(),
+            Brdf::Ward { alpha: [a, b] } => a.min(b),
+        };
+        let steps =
+            if width.is_infinite() { 1 } else { (7 * order).max((7.0 / width).ceil() as usize).next_multiple_of(2) };
+        [steps + 1, if brdf.is_isotropic() { 1 } else { 2 * steps }]
     }
 
     /// The numbers of one view: `order`², rounded up to a multiple of 4.

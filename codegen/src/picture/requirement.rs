@@ -6,7 +6,7 @@
 //! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget.
 
 use crate::built;
-use crate::environment::Map;
+use crate::environment::Projection;
 use crate::eval::{Contraction, Number, Program};
 use crate::listing::Listing;
 use crate::picture::brdf::{Brdf, Table, gauss_legendre};
@@ -52,7 +52,7 @@ pub struct Requirement {
     pub half: bool,
     /// The relative rms error that all this should cost.
     pub predicted: f64,
-    /// What it does cost, over views and frames that were not used to decide.
+    /// What it does cost, over seeded frames.
     pub measured: f64,
     /// Operations a pixel, of a rotation and the product with the light: what is needed, and all.
     pub operations: [usize; 2],
@@ -75,25 +75,17 @@ fn views(brdf: &Brdf, shift: f64) -> Vec<([f64; 3], f64)> {
     views
 }
 
-/// What may be left out of the light besides bands.
-struct Light {
-    coefficients: Vec<[f64; 3]>,
-    order: usize,
-}
-
-impl Light {
-    /// The share of the reflected energy that a change of the light takes away.
-    fn share(&self, weights: &[f64], changed: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> f64 {
-        let energy = |of: &dyn Fn(usize) -> [f64; 3]| -> f64 {
-            let one = |i: usize| of(i).iter().map(|x| x * x).sum::<f64>() * weights[band_degree(i).0];
-            (0..self.order * self.order).map(one).sum()
-        };
-        let difference = |i: usize| {
-            let (own, other) = (self.coefficients[i], changed(i, self.coefficients[i]));
-            [0, 1, 2].map(|c| own[c] - other[c])
-        };
-        energy(&difference) / energy(&|i| self.coefficients[i])
+/// The share of the reflected energy that a change of the light takes away.
+fn share(light: &[[f64; 3]], weights: &[f64], changed: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> f64 {
+    let (mut lost, mut all) = (0.0, 0.0);
+    for (i, &own) in light.iter().enumerate() {
+        let (other, weight) = (changed(i, own), weights[band_degree(i).0]);
+        for c in 0..3 {
+            lost += weight * (own[c] - other[c]).powi(2);
+            all += weight * own[c] * own[c];
+        }
     }
+    lost / all
 }
 
 fn grey(_: usize, [r, g, b]: [f64; 3]) -> [f64; 3] {
@@ -114,15 +106,15 @@ fn is_even(m: isize) -> bool {
 }
 
 impl Requirement {
-    /// What `map` seen by `brdf` requires for a relative rms error of `budget` against all of `max_order`; `half` says
+    /// What a map's radiance seen by `brdf` requires for a relative rms error of `budget` against all of `max_order`; `half` says
     /// whether f16 may be taken.
     ///
     /// # Panics
     ///
-    /// If `max_order` is not one of a kernel's, or `budget` is below 0.
-    pub fn new(map: &Map, brdf: &Brdf, budget: f64, max_order: usize, half: bool) -> Self {
+    /// If `max_order` is not one of a kernel's or beyond that of `radiance`, or `budget` is below 0.
+    pub fn new(radiance: &Projection, brdf: &Brdf, budget: f64, max_order: usize, half: bool) -> Self {
         assert!(budget >= 0.0, "budget {budget}");
-        let light = Light { coefficients: map.project(max_order).coefficients, order: max_order };
+        let light = &radiance.coefficients[..max_order * max_order];
         let mut weights = vec![0.0; max_order];
         for (view, share) in views(brdf, 0.0) {
             let b = brdf.coefficients(view, max_order);
@@ -130,7 +122,7 @@ impl Requirement {
                 *weight += share * b[band(l)].iter().map(|x| x * x).sum::<f64>() / (2 * l + 1) as f64;
             }
         }
-        let of_band = |l: usize| weights[l] * light.coefficients[band(l)].iter().flatten().map(|x| x * x).sum::<f64>();
+        let of_band = |l: usize| weights[l] * light[band(l)].iter().flatten().map(|x| x * x).sum::<f64>();
         let mut energy: Vec<f64> = (0..max_order).map(of_band).collect();
         let all: f64 = energy.iter().sum();
         energy.iter_mut().for_each(|share| *share /= all);
@@ -144,9 +136,9 @@ impl Requirement {
             spent += if fits { share } else { 0.0 };
             fits
         };
-        let zonal = take(light.share(&weights, only(is_zonal)));
-        let mirror = zonal || take(light.share(&weights, only(is_even)));
-        let channels = if take(light.share(&weights, grey)) { 1 } else { 3 };
+        let zonal = take(share(light, &weights, only(is_zonal)));
+        let mirror = zonal || take(share(light, &weights, only(is_even)));
+        let channels = if take(share(light, &weights, grey)) { 1 } else { 3 };
         // Light and reflectance rounded to 2⁻¹¹ at worst, and as many sums as the root of the products, each as much.
         let rounding = (order as f64 + 2.0) / 2048.0;
         let half = half && order <= MAX_HALF_ORDER && take(rounding * rounding);
@@ -169,7 +161,7 @@ impl Requirement {
             energy,
         };
         requirement.count(brdf);
-        requirement.measured = requirement.measure(&light, brdf);
+        requirement.measured = requirement.measure(light, brdf);
         requirement
     }
 
@@ -196,25 +188,23 @@ impl Requirement {
         let all = self.max_order * self.max_order;
         let kept = self.coefficients();
         self.operations = [rotation(self.order) + self.channels * kept, rotation(self.max_order) + 3 * all];
-        let table = |order: usize| Table::new(brdf, order);
-        let (small, whole) = (table(self.order), table(self.max_order));
+        let [elevations, azimuths] = Table::shape(brdf, self.order);
+        let [all_elevations, all_azimuths] = Table::shape(brdf, self.max_order);
         // A table that knows nothing of symmetry has as many azimuths as one of a reflectance without it.
-        let round =
-            |table: &Table| table.elevations * if self.isotropic { 2 * (table.elevations - 1) } else { table.azimuths };
+        let all_azimuths = if self.isotropic { 2 * (all_elevations - 1) } else { all_azimuths };
         let columns = |l: &usize| if self.isotropic { l + 1 } else { 2 * l + 1 };
-        let entries = small.elevations * small.azimuths * self.bands.iter().map(columns).sum::<usize>();
+        let entries = elevations * azimuths * self.bands.iter().map(columns).sum::<usize>();
         let bytes = if self.half { 2 } else { 4 };
-        self.bytes = [(self.channels * kept + entries) * bytes, (3 * all + round(&whole) * all) * 4];
+        self.bytes = [(self.channels * kept + entries) * bytes, (3 + all_elevations * all_azimuths) * all * 4];
     }
 
     /// The relative rms error over views and frames.
-    fn measure(&self, light: &Light, brdf: &Brdf) -> f64 {
+    fn measure(&self, light: &[[f64; 3]], brdf: &Brdf) -> f64 {
         let spec: Spec = format!("rotate:{}:zyz", self.max_order).parse().expect("is a spec");
         let rotate = Program::<f64>::new(&Listing::new(&built::kernel(&spec)));
-        let channel = |c: usize| -> Vec<f64> { light.coefficients.iter().map(|value| value[c]).collect() };
+        let channel = |c: usize| -> Vec<f64> { light.iter().map(|value| value[c]).collect() };
         let lights = [channel(0), channel(1), channel(2)];
         let kept: Vec<[f64; 3]> = light
-            .coefficients
             .iter()
             .enumerate()
             .map(|(i, &value)| {

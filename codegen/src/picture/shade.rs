@@ -17,13 +17,13 @@
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.
 
 use super::normal_map::LEAST_Z;
-use crate::accuracy;
 use crate::catalog;
 use crate::emit::dialect::{Dialect, Target, shader_literal};
 use crate::emit::{Function, Limit, Module, docs, results};
 use crate::graph::Kind;
 use crate::kernel::{Param, Shape};
 use crate::kernels::y_rotation::Small;
+use crate::law;
 use crate::listing::Cost;
 use crate::spec::{self, Family, Spec};
 use serde::{Deserialize, Serialize};
@@ -91,7 +91,7 @@ impl Method {
     /// For each angle in radians between the two normals, the error of each band as a spectral norm.
     pub fn band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
         match self.spec(order) {
-            Some(spec) => accuracy::band_errors(&spec, angles),
+            Some(spec) => by_law(&spec, angles, |error| error.max),
             None => left_out(order, angles, |shares| shares.iter().copied().fold(0.0, f64::max).sqrt()),
         }
     }
@@ -99,7 +99,7 @@ impl Method {
     /// The same as a root mean square over all signals.
     pub fn typical_band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
         match self.spec(order) {
-            Some(spec) => accuracy::typical_band_errors(&spec, angles),
+            Some(spec) => by_law(&spec, angles, |error| error.mean),
             None => left_out(order, angles, |shares| (shares.iter().sum::<f64>() / shares.len() as f64).sqrt()),
         }
     }
@@ -124,6 +124,11 @@ impl FromStr for Method {
         let found = Self::ALL.into_iter().find(|method| method.name() == text);
         found.ok_or_else(|| format!("`{text}` is no way to turn coefficients; {}", spec::hint(text, &names)))
     }
+}
+
+/// One of the errors of each band, at each angle.
+fn by_law(spec: &Spec, angles: &[f64], which: fn(&law::Error) -> f64) -> Vec<Vec<f64>> {
+    angles.iter().map(|&angle| law::errors(spec, angle).iter().map(which).collect()).collect()
 }
 
 /// What leaving a rotation out does to each band: its eigenvalues are e^{imβ}, and `norm` is given the squares of their
@@ -378,7 +383,7 @@ mod tests {
                         (l * l..(l + 1) * (l + 1)).map(|i| turned[i] - unit[i]).collect()
                     })
                     .collect();
-                let norm = accuracy::spectral_norm(&columns);
+                let norm = crate::accuracy::spectral_norm(&columns);
                 assert!((errors[l] - norm).abs() < 1e-9, "{l} {angle}: {} {norm}", errors[l]);
                 let square = columns.iter().flatten().map(|x| x * x).sum::<f64>() / columns.len() as f64;
                 assert!((typical[l] - square.sqrt()).abs() < 1e-12, "{l} {angle}: {} {square}", typical[l]);

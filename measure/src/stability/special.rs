@@ -2,6 +2,7 @@
 //! negated, zero or no number. What is promised is in the docs of the crate `zonal`; here it is tried on every kernel that
 //! turns a signal.
 
+use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::built::code;
@@ -96,10 +97,6 @@ impl Bench {
     }
 }
 
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 fn coefficients(bench: &Bench, name: &str, value: f32) -> Outcome {
     let own = BAND * BAND..(BAND + 1) * (BAND + 1);
     let mut outcome = Outcome {
@@ -120,8 +117,8 @@ fn coefficients(bench: &Bench, name: &str, value: f32) -> Outcome {
         outcome.finite &= after[own.clone()].iter().all(|x| x.is_finite());
         let want = &bench.wide(&parameter, &special)[own.clone()];
         let away: Vec<f64> = want.iter().zip(&after[own.clone()]).map(|(a, b)| a - f64::from(*b)).collect();
-        error = error.max(norm(&away) / norm(want));
-        units = units.max(norm(&away) / f64::from(f32::from_bits(1)));
+        error = error.max(norm(away.iter().copied()) / norm(want.iter().copied()));
+        units = units.max(norm(away.iter().copied()) / f64::from(f32::from_bits(1)));
     }
     if outcome.finite && value.is_finite() {
         outcome.error = Some(significant(error)).filter(|error| error.is_finite());
@@ -176,8 +173,8 @@ fn bent(bench: &Bench, kind: usize) -> Bent {
         for l in 1..bench.spec.order {
             let band = l * l..(l + 1) * (l + 1);
             let away = before[band.clone()].iter().zip(&after[band.clone()]).map(|(a, b)| f64::from(a - b));
-            let change = norm(&away.collect::<Vec<f64>>());
-            let size = norm(&c[band].iter().map(|x| f64::from(*x)).collect::<Vec<f64>>());
+            let change = norm(away);
+            let size = norm(c[band].iter().map(|x| f64::from(*x)));
             worst = worst.max(change / (l as f64 * size));
         }
     }
