@@ -17,8 +17,6 @@ use half::f16;
 pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
 /// How many inputs rounding is measured over.
 const SAMPLES: usize = 256;
-/// How many for a loop, whose interpreter is slower; its unrolled twin has the others.
-const LOOP_SAMPLES: usize = 128;
 /// How many for a loop beyond the orders of unrolled kernels, whose every run is a hundred thousand operations.
 const LONG_LOOP_SAMPLES: usize = 8;
 /// Where nothing is proven, the measured worst case is multiplied by this before it is promised.
@@ -161,9 +159,8 @@ impl Accuracy {
     /// Measures a kernel.
     pub fn of(spec: &Spec, code: &Code) -> Self {
         let samples = match code {
-            Code::Straight(_) | Code::Branch(_) => SAMPLES,
-            Code::Loop(_) if spec.order <= MAX_ORDER => LOOP_SAMPLES,
-            Code::Loop(_) => LONG_LOOP_SAMPLES,
+            Code::Loop(_) if spec.order > MAX_ORDER => LONG_LOOP_SAMPLES,
+            _ => SAMPLES,
         };
         let measure = |contraction| match spec.half {
             true => rounding::<f16>(spec, code, SEED, samples, contraction),

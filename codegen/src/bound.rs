@@ -1,4 +1,4 @@
-//! Proven bounds of the f32 rounding error of a straight-line kernel, in the measure of [`crate::accuracy`] (MATH section
+//! Proven bounds of the f32 rounding error of a kernel, in the measure of [`crate::accuracy`] (MATH section
 //! 11). What is bounded is the distance between the kernel's f32 result and the same formula in exact arithmetic on the
 //! same f32 inputs.
 //!
@@ -18,8 +18,10 @@
 
 pub mod boxes;
 pub mod domain;
+mod lobes;
 pub mod norm;
 pub mod phases;
+pub mod plain;
 pub mod section;
 
 use crate::code::Code;
@@ -27,10 +29,11 @@ use crate::graph::Kind;
 use crate::kernel::Shape;
 use crate::kernels::rotate;
 use crate::listing::{Listing, Op, Operand};
-use crate::spec::{Family, Form, Method, Spec};
+use crate::spec::{Family, MAX_ORDER, Method, Spec};
 use domain::{Domain, Root};
 use norm::{Matrix, SLACK};
 use phases::{INPUT, Phase, Phases};
+use plain::plain;
 use section::{Both, Run, Section, Start, U, larger, larger_of};
 use std::collections::{HashMap, HashSet};
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -62,8 +65,14 @@ impl Bound {
 /// What adding the tiny number to a quaternion's w and y changes in band l, divided by l: the quaternion turns by 3e-15.
 const NUDGE: f64 = 1e-13;
 
-/// The bound of a spec's kernel in either form.
+/// The bound of a spec's kernel in any form.
 pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
+    within(spec, code, spec.max_angle())
+}
+
+/// The same for an approximate rotation by at most this angle in radians, which is at most [`Spec::max_angle`].
+pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound> {
+    let prove = |spec: &Spec, listing: &Listing| prove_within(spec, listing, max_angle);
     match code {
         Code::Straight(listing) => prove(spec, listing),
         Code::Branch(branch) => {
@@ -78,17 +87,19 @@ pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
                 bands: below.bands.iter().zip(&above.bands).map(|(a, b)| larger(a, b)).collect(),
             })
         }
-        Code::Loop(_) => None,
+        // Beyond these orders the proof of a basis takes longer than a build may.
+        Code::Loop(_) if spec.family == Family::Basis && spec.order > MAX_ORDER => None,
+        Code::Loop(kernel) => prove(spec, &plain(&Listing::from(kernel))),
     }
 }
 
-/// The bound of a spec's kernel, laid out. None for loops, for `zhf` (whose basis is taken at 2n − 1 turned lobes), and
-/// for a listing whose set-up is not recognised.
+/// The bound of a spec's kernel, laid out. None for a listing whose set-up is not recognised.
 pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
-    if spec.form == Form::Loop || spec.family == Family::Zhf {
-        return None;
-    }
-    let prover = Prover::new(spec, listing)?;
+    prove_within(spec, listing, spec.max_angle())
+}
+
+fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Option<Bound> {
+    let prover = Prover::new(spec, listing, max_angle)?;
     match spec.family {
         Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
         Family::Eval | Family::EvalMonomial => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
@@ -97,6 +108,7 @@ pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)
         }
         Family::ToMonomial => Bound::of(&prover.mixed()?, true),
+        Family::Zhf => Bound::of(&prover.turned_lobes()?, true),
         _ => Bound::of(&prover.bands()?, true),
     }
 }
@@ -128,6 +140,8 @@ impl Part {
 struct Prover<'a> {
     spec: &'a Spec,
     listing: &'a Listing,
+    /// The largest y angle or tilt of an approximate rotation.
+    max_angle: Option<f64>,
     phases: Phases,
     /// Inputs that are functions of a circle's angle but no phases.
     others: HashMap<Operand, (Start, usize)>,
@@ -139,7 +153,7 @@ struct Prover<'a> {
 static KNOWN: LazyLock<Mutex<HashMap<String, Part>>> = LazyLock::new(Mutex::default);
 
 impl<'a> Prover<'a> {
-    fn new(spec: &'a Spec, listing: &'a Listing) -> Option<Self> {
+    fn new(spec: &'a Spec, listing: &'a Listing, max_angle: Option<f64>) -> Option<Self> {
         let mut others = HashMap::new();
         let roots = match &spec.family {
             Family::Angles | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
@@ -159,7 +173,7 @@ impl<'a> Prover<'a> {
                 _ => vec![],
             },
         };
-        Some(Self { spec, listing, phases: Phases::new(listing, roots), others, roundoff: U })
+        Some(Self { spec, listing, max_angle, phases: Phases::new(listing, roots), others, roundoff: U })
     }
 
     /// What the errors of this listing's results, the kernel `angles`, do to a rotation by them.
@@ -182,7 +196,8 @@ impl<'a> Prover<'a> {
                 (Start { root, spread: 5.0 * INPUT, error: self.scalars(&[self.unsigned(output)])? }, 1),
             );
         }
-        Some(Prover { spec: self.spec, listing: rotation, phases: Phases::new(rotation, pairs), others, roundoff: 0.0 })
+        let phases = Phases::new(rotation, pairs);
+        Some(Prover { listing: rotation, phases, others, roundoff: 0.0, ..*self })
     }
 
     /// Without a negation, which changes no norm.
@@ -252,24 +267,23 @@ impl<'a> Prover<'a> {
 
     /// What an angle may be: β, the last of a quaternion's, is small where it is approximate.
     fn circle(&self, circle: usize) -> Domain {
-        match (&self.spec.family, self.spec.max_angle()) {
+        match (&self.spec.family, self.max_angle) {
             (Family::RotateSmall(_), Some(most)) if circle == phases::POLAR => Domain::Arc(most * (1.0 + 4.0 * INPUT)),
             _ => Domain::Circle,
         }
     }
 
     fn parameter(&self, param: usize) -> Option<Domain> {
-        let max_angle = self.spec.max_angle();
         let domain = match (&self.spec.family, self.listing.params[param].shape) {
             (Family::Basis | Family::Eval | Family::EvalMonomial | Family::Rotate(Method::Zonal), Shape::Vec3) => {
                 Domain::Sphere
             }
             (Family::Tilt(_) | Family::TiltPrescaled(_), Shape::Vec3) => {
-                Domain::Cap(max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
+                Domain::Cap(self.max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
             }
             (Family::Rotate(Method::Tensor), Shape::Vec4) => Domain::Quaternion,
-            (Family::Rotate(Method::Matrix), Shape::Mat3) => Domain::Rotation,
-            (_, Shape::Scalar) => Domain::Small(max_angle?),
+            (Family::Rotate(Method::Matrix) | Family::Zhf, Shape::Mat3) => Domain::Rotation,
+            (_, Shape::Scalar) => Domain::Small(self.max_angle?),
             _ => return None,
         };
         domain.is_valid().then_some(domain)

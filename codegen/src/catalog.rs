@@ -179,8 +179,7 @@ impl Row {
 pub fn markdown(rows: &[Row]) -> String {
     let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition or a fused \
                     multiply-add is one operation; an inverse\nsquare root or a reciprocal (special) is counted apart. \
-                    Rounding is in f32, relative to what each file's head says: proven, but for loops and `zhf`, \
-                    where it is measured, times a margin.\n\n\
+                    Rounding is in f32, relative to what each file's head says, and proven.\n\n\
                     | spec | total | mul | add | fma | special | constants | live | f32 rounding |\n\
                     |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();

@@ -4,7 +4,7 @@ use crate::eval::{Contraction, Number, Program};
 use crate::graph::Kind;
 use crate::kernel::{Param, Shape};
 use crate::listing::{Cost, Footprint, Listing};
-use crate::program::{LoopKernel, LoopProgram, Stmt};
+use crate::program::{LoopKernel, Stmt};
 
 /// The operations of a kernel.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl Code {
     pub fn cost(&self, channels: usize) -> Cost {
         match self {
             Self::Straight(listing) => listing.cost(channels),
-            Self::Loop(kernel) => kernel.cost(channels),
+            Self::Loop(kernel) => Listing::from(kernel).cost(channels),
             Self::Branch(branch) => branch.costs(channels)[1],
         }
     }
@@ -81,7 +81,7 @@ impl Code {
     pub fn runner<T: Number>(&self) -> Runner<T> {
         match self {
             Self::Straight(listing) => Runner::Straight(Program::new(listing)),
-            Self::Loop(kernel) => Runner::Loop(LoopProgram::new(kernel)),
+            Self::Loop(kernel) => Runner::Straight(Program::new(&Listing::from(kernel))),
             Self::Branch(branch) => {
                 Runner::Branch(Box::new([&branch.condition, &branch.below, &branch.above].map(Program::new)))
             }
@@ -120,10 +120,8 @@ fn array_items(body: &[Stmt]) -> usize {
 /// A kernel that can be run again and again in `T`.
 #[derive(Clone, Debug)]
 pub enum Runner<T> {
-    /// Straight lines.
+    /// Straight lines, or what a loop does.
     Straight(Program<T>),
-    /// Tables and a loop.
-    Loop(LoopProgram<T>),
     /// One of two: the condition's two scalars, what is done where the first is at most the second, and elsewhere.
     Branch(Box<[Program<T>; 3]>),
 }
@@ -137,7 +135,6 @@ impl<T: Number> Runner<T> {
     pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
         match self {
             Self::Straight(program) => program.run(inputs, contraction),
-            Self::Loop(program) => program.run(inputs, contraction),
             Self::Branch(programs) => {
                 let [condition, below, above] = &**programs;
                 let sides = condition.run(inputs, contraction);

@@ -55,6 +55,19 @@ pub enum Op {
 }
 
 impl Op {
+    /// The same operation on other operands.
+    pub fn map(self, mut of: impl FnMut(Operand) -> Operand) -> Self {
+        match self {
+            Self::Neg(a) => Self::Neg(of(a)),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
+            Self::Fma(a, b, c, sign) => Self::Fma(of(a), of(b), of(c), sign),
+            Self::Recip(a) => Self::Recip(of(a)),
+            Self::Rsqrt(a) => Self::Rsqrt(of(a)),
+        }
+    }
+
     /// The operands, in the order in which they are written.
     pub fn operands(&self) -> impl Iterator<Item = Operand> + use<> {
         let (a, b, c) = match *self {
@@ -292,7 +305,7 @@ impl Listing {
         }
     }
 
-    fn count_uses(&mut self) {
+    pub(crate) fn count_uses(&mut self) {
         let mut uses = vec![0; self.steps.len()];
         for operand in self.steps.iter().flat_map(|step| step.op.operands()).chain(self.outputs.iter().copied()) {
             if let Operand::Step(step) = operand {

@@ -3,6 +3,8 @@
 //! an environment, the smallest order whose missing bands cost less than the budget. All figures are the kernels' own.
 
 use crate::accuracy::{self, round_up};
+use crate::bound;
+use crate::built::Built;
 use crate::catalog::{self, Row};
 use crate::choose::{self, Budget, Norm, Precision, Turn};
 use crate::diagnostic::{Diagnostic, Place};
@@ -259,7 +261,7 @@ impl<'a> Contest<'a> {
         let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
         let cost = built.code.cost(spec.channels());
         let method_error = self.budget.predict(spec);
-        let rounding_f32 = built.accuracy.rounding_f32;
+        let rounding_f32 = self.rounding(built);
         let limit = spec.max_angle().filter(|limit| degrees.to_radians() > *limit);
         let refused = match (why, limit) {
             (Some(why), _) => Some(why.to_owned()),
@@ -281,6 +283,19 @@ impl<'a> Contest<'a> {
             verdict: refused.unwrap_or_else(|| "keeps the error".to_owned()),
         };
         self.entries.push((function, rival));
+    }
+
+    /// What f32 may round off up to the largest angle that is asked for; less than the head says for a method's whole
+    /// domain.
+    fn rounding(&self, built: &Built) -> f64 {
+        let whole = built.accuracy.rounding_f32;
+        match built.spec.max_angle() {
+            Some(limit) if !built.spec.half => {
+                let within = bound::within(&built.spec, &built.code, Some(limit.min(self.budget.max_angle)));
+                within.map_or(whole, |bound| round_up(bound.value()))
+            }
+            _ => whole,
+        }
     }
 
     /// Every kernel again in f16, or there alone, if the scene says so.

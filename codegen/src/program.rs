@@ -1,12 +1,11 @@
 //! Loops, the second, equal form of a kernel: tables and a few statements over them, for orders at which straight lines
-//! are too long. The interpreter here runs a loop kernel and counts its operations; it knows nothing of text.
+//! are too long. A loop is laid out as the operations that it does, one by one: so it is run, counted and proven as
+//! straight lines are.
 
-use crate::eval::{Contraction, Number};
 use crate::graph::Kind;
 use crate::kernel::{Param, Shape};
-use crate::listing::{Cost, Sign};
+use crate::listing::{Listing, Op, Operand, Sign, Step};
 use crate::sh::exact::Exact;
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops;
 
@@ -93,6 +92,9 @@ pub enum Stmt {
     Array(Name, usize, Kind),
     /// Stores an item of an array.
     Store(Name, Int, Num),
+    /// So many items of an array from a place on are a stage of a proof; see [`crate::graph::Graph::stage`]. Nothing is
+    /// done.
+    Stage(Name, Int, Int),
     /// Repeats.
     For {
         /// The variable.
@@ -262,74 +264,53 @@ impl Stmt {
     }
 }
 
-impl LoopKernel {
-    /// What it costs for a signal of so many channels.
-    pub fn cost(&self, channels: usize) -> Cost {
-        let blank = |len: usize| vec![0.0f32; len];
-        let program = LoopProgram {
-            kernel: self.clone(),
-            tables: self.tables.iter().map(|table| blank(table.values.len())).collect(),
-        };
-        let inputs: Vec<Vec<f32>> = self.params.iter().map(|p| blank(p.shape.len())).collect();
-        let inputs: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
-        let [scalar, signal] = program.execute(&inputs, Contraction::Separate).counts;
-        let of = |count: fn(&Cost) -> usize| count(&scalar) + channels * count(&signal);
-        let (mul, add, fma) = (of(|c| c.mul), of(|c| c.add), of(|c| c.fma));
-        Cost { mul, add, fma, special: of(|c| c.special), total: mul + add + fma }
-    }
-}
-
-/// A loop kernel with its tables rounded to `T`.
-#[derive(Clone, Debug)]
-pub struct LoopProgram<T> {
-    kernel: LoopKernel,
-    tables: Vec<Vec<T>>,
-}
-
-impl<T: Number> LoopProgram<T> {
-    /// Rounds the tables of a kernel.
-    pub fn new(kernel: &LoopKernel) -> Self {
-        let round = |table: &Table| table.values.iter().map(T::nearest).collect();
-        Self { kernel: kernel.clone(), tables: kernel.tables.iter().map(round).collect() }
-    }
-
-    /// Runs it for one channel. `inputs` holds one slice a parameter, of as many numbers as its shape says; the result
-    /// has as many numbers as the kernel's.
+impl From<&LoopKernel> for Listing {
+    /// The operations that a loop does, in the order in which it does them.
     ///
     /// # Panics
     ///
-    /// If a slice is shorter than its parameter's shape, or the kernel names what it has not declared, leaves an array
-    /// or has a signal as the second factor of a product.
-    pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
-        self.execute(inputs, contraction).floats[self.kernel.output].1.to_vec()
-    }
-
-    fn execute<'a>(&'a self, inputs: &[&'a [T]], contraction: Contraction) -> Machine<'a, T> {
-        let kernel = &self.kernel;
-        let params = kernel.params.iter().zip(inputs);
-        let params = params.map(|(param, &input)| (param.name, (param.kind, Cow::Borrowed(input))));
-        let tables = kernel.tables.iter().zip(&self.tables);
-        let tables = tables.map(|(table, values)| (table.name, (Kind::Scalar, Cow::Borrowed(&values[..]))));
-        let mut machine = Machine {
-            contraction,
-            ints: HashMap::new(),
-            floats: params.chain(tables).collect(),
-            counts: [Cost::default(); 2],
+    /// If the kernel names what it has not declared, reads what it has not stored, leaves an array or has a signal as
+    /// the second factor of a product.
+    fn from(kernel: &LoopKernel) -> Self {
+        let mut constants: Vec<Exact> = Vec::new();
+        let mut floats: HashMap<Name, (Kind, Vec<Option<Operand>>)> = HashMap::new();
+        for (param, of) in kernel.params.iter().enumerate() {
+            let items = (0..of.shape.len()).map(|index| Some(Operand::Input { param, index }));
+            floats.insert(of.name, (of.kind, items.collect()));
+        }
+        for table in &kernel.tables {
+            let first = constants.len();
+            constants.extend(table.values.iter().cloned());
+            let items = (first..constants.len()).map(|place| Some(Operand::Const(place)));
+            floats.insert(table.name, (Kind::Scalar, items.collect()));
+        }
+        let mut trace = Trace { ints: HashMap::new(), floats, constants, steps: vec![], stages: vec![] };
+        trace.block(&kernel.body);
+        let outputs = trace.floats[kernel.output].1.iter().map(|item| item.expect("the result is stored")).collect();
+        let mut listing = Self {
+            params: kernel.params.clone(),
+            constants: trace.constants,
+            steps: trace.steps,
+            outputs,
+            stages: trace.stages,
+            result: kernel.result,
+            result_kind: kernel.result_kind,
+            result_doc: kernel.result_doc.clone(),
         };
-        machine.block(&kernel.body);
-        machine
+        listing.count_uses();
+        listing
     }
 }
 
-struct Machine<'a, T: Clone> {
-    contraction: Contraction,
+struct Trace {
     ints: HashMap<Name, usize>,
-    floats: HashMap<Name, (Kind, Cow<'a, [T]>)>,
-    /// Operations on scalars, then on signals.
-    counts: [Cost; 2],
+    floats: HashMap<Name, (Kind, Vec<Option<Operand>>)>,
+    constants: Vec<Exact>,
+    steps: Vec<Step>,
+    stages: Vec<Vec<Operand>>,
 }
 
-impl<T: Number> Machine<'_, T> {
+impl Trace {
     fn block(&mut self, body: &[Stmt]) {
         for stmt in body {
             self.stmt(stmt);
@@ -346,16 +327,18 @@ impl<T: Number> Machine<'_, T> {
             }
             Stmt::Let(name, value) | Stmt::Var(name, value) | Stmt::Set(name, value) => {
                 let (value, kind) = self.num(value);
-                self.floats.insert(name, (kind, Cow::Owned(vec![value])));
+                self.floats.insert(name, (kind, vec![Some(value)]));
             }
             Stmt::Array(name, len, kind) => {
-                let unknown = vec![T::from_f64(f64::NAN); *len];
-                self.floats.insert(name, (*kind, Cow::Owned(unknown)));
+                self.floats.insert(name, (*kind, vec![None; *len]));
             }
             Stmt::Store(name, index, value) => {
                 let (index, (value, _)) = (self.int(index), self.num(value));
-                let array = self.floats.get_mut(name).expect("the array is declared");
-                array.1.to_mut()[index] = value;
+                self.floats.get_mut(name).expect("the array is declared").1[index] = Some(value);
+            }
+            Stmt::Stage(name, from, count) => {
+                let (from, count) = (self.int(from), self.int(count));
+                self.stages.push((from..from + count).map(|index| self.item(name, index).0).collect());
             }
             Stmt::For { name, from, to, step, body } => {
                 for i in (self.int(from)..self.int(to)).step_by(*step) {
@@ -374,54 +357,37 @@ impl<T: Number> Machine<'_, T> {
         }
     }
 
-    fn item(&self, name: Name, index: usize) -> (T, Kind) {
+    fn item(&self, name: Name, index: usize) -> (Operand, Kind) {
         let (kind, items) = &self.floats[name];
-        (items[index], *kind)
+        (items[index].expect("the item is stored"), *kind)
     }
 
-    fn num(&mut self, value: &Num) -> (T, Kind) {
+    fn num(&mut self, value: &Num) -> (Operand, Kind) {
         let (op, args) = match value {
-            Num::Const(value) => return (T::nearest(value), Kind::Scalar),
-            Num::Tiny => return (T::TINY, Kind::Scalar),
+            Num::Const(value) => {
+                self.constants.push(value.clone());
+                return (Operand::Const(self.constants.len() - 1), Kind::Scalar);
+            }
+            Num::Tiny => return (Operand::Tiny, Kind::Scalar),
             Num::Name(name) => return self.item(name, 0),
             Num::Item(name, index) => return self.item(name, self.int(index)),
             Num::Op(op, args) => (*op, args),
         };
-        let mut values = [(T::ZERO, Kind::Scalar); 3];
-        for (value, arg) in values.iter_mut().zip(args) {
-            *value = self.num(arg);
-        }
-        let [(a, _), (b, second), (c, _)] = values;
+        let values: Vec<(Operand, Kind)> = args.iter().map(|arg| self.num(arg)).collect();
         let kind = values.iter().map(|(_, kind)| *kind).max().unwrap_or(Kind::Scalar);
         let product = matches!(op, NumOp::Mul | NumOp::Fma(_));
-        assert!(!product || second == Kind::Scalar, "a signal is the second factor of {value:?}");
-        let count = &mut self.counts[kind as usize];
-        match op {
-            NumOp::Neg => {}
-            NumOp::Add | NumOp::Sub => count.add += 1,
-            NumOp::Mul => count.mul += 1,
-            NumOp::Fma(_) => count.fma += 1,
-            NumOp::Recip | NumOp::Rsqrt => count.special += 1,
-        }
-        let value = match op {
-            NumOp::Neg => -a,
-            NumOp::Add => a + b,
-            NumOp::Sub => a - b,
-            NumOp::Mul => a * b,
-            NumOp::Recip => T::ONE / a,
-            NumOp::Rsqrt => T::ONE / a.root(),
-            NumOp::Fma(sign) => {
-                let (a, c) = match sign {
-                    Sign::Plus => (a, c),
-                    Sign::MinusAddend => (a, -c),
-                    Sign::MinusProduct => (-a, c),
-                };
-                match self.contraction {
-                    Contraction::Fused => a.fused(b, c),
-                    Contraction::Separate => a * b + c,
-                }
-            }
+        assert!(!product || values[1].1 == Kind::Scalar, "a signal is the second factor of {value:?}");
+        let of = |i: usize| values[i].0;
+        let op = match op {
+            NumOp::Neg => Op::Neg(of(0)),
+            NumOp::Add => Op::Add(of(0), of(1)),
+            NumOp::Sub => Op::Sub(of(0), of(1)),
+            NumOp::Mul => Op::Mul(of(0), of(1)),
+            NumOp::Fma(sign) => Op::Fma(of(0), of(1), of(2), sign),
+            NumOp::Recip => Op::Recip(of(0)),
+            NumOp::Rsqrt => Op::Rsqrt(of(0)),
         };
-        (value, kind)
+        self.steps.push(Step { op, kind, uses: 0 });
+        (Operand::Step(self.steps.len() - 1), kind)
     }
 }

@@ -128,7 +128,9 @@ impl Real for f64 {
         self <= limit
     }
 }
-/// A signal of `N` channels that share the parameters: `Channels<f32, 3>` is RGB.
+/// A signal of `N` channels that share the parameters: `Channels<f32, 3>` is RGB. `Channels<f32, N>` may have
+/// parameters of `f64`, so that a rotation's set-up is done in f64 and only its bands in f32: from a quaternion
+/// that is normalised in f64 its error is then the same at every order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Channels<T, const N: usize>(pub [T; N]);
@@ -176,6 +178,31 @@ impl<T: Real, const N: usize> Signal<T> for Channels<T, N> {
     #[inline(always)]
     fn fnma(self, t: T, c: Self) -> Self {
         Self(core::array::from_fn(#[inline(always)] |i| self.0[i].fnma(t, c.0[i])))
+    }
+}
+impl<const N: usize> Mul<f64> for Channels<f32, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, t: f64) -> Self {
+        self * t as f32
+    }
+}
+impl<const N: usize> Signal<f64> for Channels<f32, N> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self([0.0; N])
+    }
+    #[inline(always)]
+    fn fma(self, t: f64, c: Self) -> Self {
+        Signal::<f32>::fma(self, t as f32, c)
+    }
+    #[inline(always)]
+    fn fms(self, t: f64, c: Self) -> Self {
+        Signal::<f32>::fms(self, t as f32, c)
+    }
+    #[inline(always)]
+    fn fnma(self, t: f64, c: Self) -> Self {
+        Signal::<f32>::fnma(self, t as f32, c)
     }
 }
 /// `N` numbers that are worked on at once, one a problem: the layout that vector units like. A kernel on `Lanes`

@@ -299,15 +299,7 @@ impl Section {
 
     fn step(&mut self, op: Op, kind: Kind, known: &HashMap<Operand, usize>) -> Option<usize> {
         let slot = |operand: Operand| Operand::Step(known[&operand]);
-        let op = match op {
-            Op::Neg(a) => Op::Neg(slot(a)),
-            Op::Add(a, b) => Op::Add(slot(a), slot(b)),
-            Op::Sub(a, b) => Op::Sub(slot(a), slot(b)),
-            Op::Mul(a, b) => Op::Mul(slot(a), slot(b)),
-            Op::Fma(a, b, c, sign) => Op::Fma(slot(a), slot(b), slot(c), sign),
-            Op::Recip(a) => Op::Recip(slot(a)),
-            Op::Rsqrt(a) => Op::Rsqrt(slot(a)),
-        };
+        let op = op.map(slot);
         let of = |operand: Operand| self.degrees[place(operand)];
         let product = |a: Degree, b: Degree| std::array::from_fn(|i| a[i] + b[i]);
         let sum = |a: Degree, b: Degree| std::array::from_fn(|i| a[i].max(b[i]));

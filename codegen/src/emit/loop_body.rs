@@ -154,6 +154,7 @@ impl Printer<'_> {
             Stmt::Store(name, index, value) => {
                 self.line(&format!("{name}[{}] = {};", self.int(index).text, self.num(value).text));
             }
+            Stmt::Stage(..) => {}
             Stmt::For { name, from, to, step, body } => {
                 let (from, to) = (self.int(from).text, self.int(to).text);
                 let variable = if self.dialect.target == Target::Wgsl { "var" } else { "int" };

@@ -144,11 +144,30 @@ pub fn real(std: Std) -> String {
         #narrow
         #wide
 
-        /// A signal of `N` channels that share the parameters: `Channels<f32, 3>` is RGB.
+        /// A signal of `N` channels that share the parameters: `Channels<f32, 3>` is RGB. `Channels<f32, N>` may have
+        /// parameters of `f64`, so that a rotation's set-up is done in f64 and only its bands in f32: from a quaternion
+        /// that is normalised in f64 its error is then the same at every order.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(transparent)]
         pub struct Channels<T, const N: usize>(pub [T; N]);
         #channels
+        // A signal of f32 whose parameters are f64: angles and their multiples are then as good as exact, at any order,
+        // and each is rounded once where it meets the signal.
+        impl<const N: usize> Mul<f64> for Channels<f32, N> {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, t: f64) -> Self { self * t as f32 }
+        }
+        impl<const N: usize> Signal<f64> for Channels<f32, N> {
+            #[inline(always)]
+            fn zero() -> Self { Self([0.0; N]) }
+            #[inline(always)]
+            fn fma(self, t: f64, c: Self) -> Self { Signal::<f32>::fma(self, t as f32, c) }
+            #[inline(always)]
+            fn fms(self, t: f64, c: Self) -> Self { Signal::<f32>::fms(self, t as f32, c) }
+            #[inline(always)]
+            fn fnma(self, t: f64, c: Self) -> Self { Signal::<f32>::fnma(self, t as f32, c) }
+        }
 
         /// `N` numbers that are worked on at once, one a problem: the layout that vector units like. A kernel on `Lanes`
         /// does what it does on each number, but that one with a branch takes the same way for all.

@@ -158,7 +158,7 @@ fn exchange(order: usize) -> Vec<Exact> {
 
 /// J of one band: from its place in `r` to `swapped`. `even` and `low` are one in even rows and in rows before the
 /// middle, and say where a row's columns start.
-fn swap(l: &Int) -> [Stmt; 2] {
+fn swap(l: &Int) -> [Stmt; 3] {
     let [k, row, even, start, first] = ["k", "row", "even", "start", "first"].map(Int::Name);
     let term = |i: &Int| Num::item("r", l * l + i) * Num::item("J", &k);
     let rows = vec![
@@ -177,11 +177,16 @@ fn swap(l: &Int) -> [Stmt; 2] {
         },
         Stmt::store("swapped", &row, "sum"),
     ];
-    [Stmt::Counter("k", l * (l * l + 2) / 3 - 1), Stmt::each("row", 0, l * 2 + 1, rows)]
+    let width = l * 2 + 1;
+    [
+        Stmt::Counter("k", l * (l * l + 2) / 3 - 1),
+        Stmt::each("row", 0, &width, rows),
+        Stmt::Stage("swapped", Int::Literal(0), width),
+    ]
 }
 
 /// One band about z by a row of the phases: from an array, in which the band's middle has this place, to `r`.
-fn about_z(order: usize, angle: Int, l: &Int, from: Name, place: &Int) -> [Stmt; 2] {
+fn about_z(order: usize, angle: Int, l: &Int, from: Name, place: &Int) -> [Stmt; 3] {
     let (m, middle) = (Int::Name("m"), Int::Name("middle"));
     let phase = &angle * order + &m;
     let [plus, minus] = ["plus", "minus"].map(Num::Name);
@@ -193,7 +198,11 @@ fn about_z(order: usize, angle: Int, l: &Int, from: Name, place: &Int) -> [Stmt;
         Stmt::store("r", &middle + &m, &plus * "co" - &minus * "si"),
         Stmt::store("r", &middle - &m, &minus * "co" + &plus * "si"),
     ];
-    [Stmt::store("r", &middle, Num::item(from, place)), Stmt::each("m", 1, l + 1, turn)]
+    [
+        Stmt::store("r", &middle, Num::item(from, place)),
+        Stmt::each("m", 1, l + 1, turn),
+        Stmt::Stage("r", l * l, l * 2 + 1),
+    ]
 }
 
 /// A row of multiples each for −β, α and γ: the phases of a quaternion as [`crate::kernels::rotate`] has them, without
@@ -226,7 +235,7 @@ fn phases(order: usize) -> Vec<Stmt> {
         Stmt::Let("zy", Num::from("z_unit") * &y),
         Stmt::Let("wx", Num::from("w_unit") * &x),
         Stmt::store("phase_cos", beta, Num::from("ww_zz") - "xx_yy"),
-        Stmt::store("phase_sin", beta, -(Num::from(Exact::int(2)) * "product" * "scale")),
+        Stmt::store("phase_sin", beta, -(Num::from(Exact::int(2)) * (Num::from("product") * "scale"))),
         Stmt::store("phase_cos", alpha, &wy + &zx),
         Stmt::store("phase_sin", alpha, &zy - &wx),
         Stmt::store("phase_cos", gamma, &wy - &zx),

@@ -51,12 +51,14 @@ pub fn rotate(order: usize) -> Kernel {
     let z = weights(&mut builder, &c, order);
     let set = lobes(order);
     let g = &mut builder.graph;
+    (0..order).for_each(|l| g.stage(&z[l * l..(l + 1) * (l + 1)]));
     let values: Vec<Vec<Id>> = set
         .directions
         .iter()
         .map(|lobe| {
             let xyz = lobe.xyz();
             let turned: Vec<Id> = (0..3).map(|row| g.dot(&xyz, &[m[row], m[3 + row], m[6 + row]])).collect();
+            g.stage(&turned);
             basis::values(g, &turned, order, basis::orthonormal)
         })
         .collect();

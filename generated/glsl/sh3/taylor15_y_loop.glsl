@@ -11,9 +11,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 41 (18 mul, 0 add, 23 fma); 18 constants, 9 live values.
-// Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 9.1e-8; not proven). Method error, the worst band's in spectral norm:
-//     6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 3.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8). Method error, the
+//     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
+//     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const float[9] SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[9](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0

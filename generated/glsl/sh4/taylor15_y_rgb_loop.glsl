@@ -11,9 +11,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 194 (92 mul, 0 add, 102 fma); 32 constants, 16 live values.
-// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 1.4e-7; not proven). Method error, the worst band's in spectral norm:
-//     1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+//     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+//     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const float[16] SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[16](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

@@ -8,9 +8,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1286 (596 mul, 0 add, 690 fma); 200 constants, 100 live values.
-// Error: f32 rounding at most 8.5e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 2.9e-7; not proven). Method error, the worst band's in spectral norm:
-//     1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
+//     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
+//     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH10_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 100>(
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

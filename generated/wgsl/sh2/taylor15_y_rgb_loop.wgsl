@@ -8,9 +8,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 38 (20 mul, 0 add, 18 fma); 8 constants, 4 live values.
-// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 7.4e-8; not proven). Method error, the worst band's in spectral norm:
-//     1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
+//     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+//     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 4>(
     0.0, 0.0, 0.0, -1.0

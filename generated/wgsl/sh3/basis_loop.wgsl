@@ -7,8 +7,8 @@
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
 // Operations: 23 (15 mul, 0 add, 8 fma); 8 constants, 9 live values.
-// Error: f32 rounding at most 2.5e-7 of one, for dir of unit length (3 times the worst of 128
-//     measured, 8.2e-8; not proven).
+// Error: f32 rounding at most 3.9e-7 of one, for dir of unit length (proven for IEEE arithmetic,
+//     contracted or not; the worst of 256 measured is 1e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
 const SH3_BASIS_LOOP_A = array<f32, 3>(
     1.7320508, 1.9364917, 2.236068

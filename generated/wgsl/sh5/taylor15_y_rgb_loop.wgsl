@@ -8,9 +8,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 311 (146 mul, 0 add, 165 fma); 50 constants, 25 live values.
-// Error: f32 rounding at most 3.1e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 1.1e-7; not proven). Method error, the worst band's in spectral norm:
-//     2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 6.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
+//     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+//     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 25>(
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

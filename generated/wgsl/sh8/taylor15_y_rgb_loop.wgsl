@@ -8,9 +8,10 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 818 (380 mul, 0 add, 438 fma); 128 constants, 64 live values.
-// Error: f32 rounding at most 6e-7 of the norm of a band, for an angle up to 25 degrees (3 times the
-//     worst of 128 measured, 2e-7; not proven). Method error, the worst band's in spectral norm:
-//     9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows without bound beyond.
+// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+//     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
+//     band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows
+//     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
 const SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = array<f32, 64>(
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,

@@ -5,9 +5,9 @@ use crate::numbers::{Half, Twin};
 use crate::stability::truth::{Band, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::eval::{Contraction, Number};
+use zonal_codegen::eval::{Contraction, Number, Program};
 use zonal_codegen::kernels::loops::basis_loop;
-use zonal_codegen::program::LoopProgram;
+use zonal_codegen::listing::Listing;
 use zonal_codegen::samples::Random;
 
 /// The orders that tables show.
@@ -60,7 +60,7 @@ fn directions(place: usize) -> Vec<[f64; 3]> {
 }
 
 fn curve<T: Number>(name: &str, order: usize, place: usize, truth: &[Band]) -> Curve {
-    let program = LoopProgram::<T>::new(&basis_loop(order));
+    let program = Program::<T>::new(&Listing::from(&basis_loop(order)));
     let mut errors = vec![0.0f64; truth.len()];
     let mut not_finite = 0;
     for direction in directions(place) {

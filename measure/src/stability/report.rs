@@ -95,8 +95,8 @@ fn rotation(stability: &Stability) -> Vec<String> {
              {}: what an angle is off by, its multiples are off by as many times. From a quaternion it is {}. With its \
              set-up and the multiples done in f64, from the same f32 quaternion, it is {}: an f32 quaternion is of unit \
              length only to a rounding, which moves β. Normalised in f64 besides, {}. So who wants order 64 flat in f32 \
-             normalises, sets up and multiplies in f64, once a rotation, and rotates any number of signals in f32: \
-             `angles:n` in f64, `rotate:n:angles` in f32.",
+             normalises, sets up and multiplies in f64, and rotates in f32: in Rust a quaternion of f64 and a signal \
+             of `Channels<f32, N>`, to order 10 also `angles:n` in f64, `rotate:n:angles` in f32.",
             short(bands),
             short(ROTATION_TARGET),
             short(pairs),

@@ -14,7 +14,7 @@ use zonal_codegen::kernels::loops::rotate_loop;
 use zonal_codegen::kernels::phases;
 use zonal_codegen::kernels::rotate::{YPhases, y_band, z_band};
 use zonal_codegen::listing::Listing;
-use zonal_codegen::program::{LoopKernel, LoopProgram, Stmt};
+use zonal_codegen::program::{LoopKernel, Stmt};
 use zonal_codegen::samples::Random;
 
 /// The order of the loop.
@@ -180,14 +180,15 @@ fn straight_input<T: Number>([alpha, beta, gamma]: &[Vec<Pair>; 3], l: usize) ->
 /// What every way shares: the truth, the loop with its tables rounded, and without its set-up; straight lines.
 struct Bench<'a, T> {
     swaps: &'a [Swap],
-    whole: LoopProgram<T>,
-    given: LoopProgram<T>,
+    whole: Program<T>,
+    given: Program<T>,
     straight: Vec<Program<T>>,
 }
 
 impl<'a, T: Number> Bench<'a, T> {
     fn new(swaps: &'a [Swap], kernel: &LoopKernel, given: &LoopKernel, straight: &[Listing]) -> Self {
-        let (whole, given) = rayon::join(|| LoopProgram::new(kernel), || LoopProgram::new(given));
+        let (whole, given) =
+            rayon::join(|| Program::new(&Listing::from(kernel)), || Program::new(&Listing::from(given)));
         Self { swaps, whole, given, straight: straight.iter().map(Program::new).collect() }
     }
 }
