@@ -45,7 +45,9 @@
 //!
 //! The modules [`sh2`] to [`sh10`] hold all kernels of an order, more than the functions below: methods to compare,
 //! small-angle rotations, sparse zonal factorisation. They are generic over [`real::Real`] and [`real::Signal`], so that
-//! one kernel serves `f32`, `f64`, [`real::Channels`] and [`real::Lanes`]. `shaders` holds their WGSL and GLSL.
+//! one kernel serves `f32`, `f64`, [`real::Channels`] and [`real::Lanes`]. A signal of `Channels<f32, N>` may be rotated
+//! by a quaternion of f64: then no angle is rounded to f32, and a band errs by no more at a high order than at a low one.
+//! `shaders` holds their WGSL and GLSL.
 //!
 //! # Features
 //!
