@@ -53,7 +53,7 @@ fn error_over_angle(report: &Report, order: usize) -> File {
     let picture = Picture {
         title: format!("Error of small rotations at order {order}"),
         subtitle: format!("The largest error of any signal of norm one, {} coefficients", order * order),
-        size: [900.0, 520.0],
+        size: [715.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -62,7 +62,6 @@ fn error_over_angle(report: &Report, order: usize) -> File {
             series,
         }],
         keys,
-        legend: 185.0,
     };
     file(&format!("error_order{order}"), &picture)
 }
@@ -88,11 +87,10 @@ fn figure_3(report: &Report) -> File {
     let picture = Picture {
         title: "Errors of Taylor expansions and of LF3 over the angle".to_owned(),
         subtitle: "Křivánek et al. 2005, Figure 3, reproduced; LF3 is ours".to_owned(),
-        size: [960.0, 1020.0],
+        size: [810.0, 1020.0],
         columns: 2,
         panels,
         keys: method_keys(),
-        legend: 150.0,
     };
     file("figure3", &picture)
 }
@@ -133,11 +131,10 @@ fn fronts(report: &Report) -> File {
         subtitle: format!(
             "The cheapest choice of a method for each band; the last drop is the exact rotation, all that there is above {SMALL_ANGLE_DEGREES}°"
         ),
-        size: [1100.0, 720.0],
+        size: [970.0, 720.0],
         columns: 3,
         panels,
         keys,
-        legend: 130.0,
     };
     file("fronts", &picture)
 }
@@ -164,7 +161,7 @@ fn operations(report: &Report) -> File {
     let picture = Picture {
         title: "Operations of a full rotation".to_owned(),
         subtitle: "One channel; a multiplication, an addition or a multiply-add each".to_owned(),
-        size: [900.0, 520.0],
+        size: [695.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -178,7 +175,6 @@ fn operations(report: &Report) -> File {
             series,
         }],
         keys,
-        legend: 205.0,
     };
     file("operations", &picture)
 }
@@ -228,11 +224,10 @@ fn rounding(report: &Report) -> File {
     let picture = Picture {
         title: "Rounding over the order".to_owned(),
         subtitle: "The largest error of a band, relative to its norm; what is missing gives no number".to_owned(),
-        size: [1200.0, 500.0],
+        size: [995.0, 500.0],
         columns: 3,
         panels,
         keys: rows.iter().map(|(label, colour, _)| key(label, *colour, Stroke::Dotted)).collect(),
-        legend: 205.0,
     };
     file("rounding", &picture)
 }
@@ -258,7 +253,7 @@ fn factorisation(report: &Report) -> File {
     let picture = Picture {
         title: "Zonal factorisation: sparsity against condition".to_owned(),
         subtitle: "A dot is a band of a lobe set, bands 2 to 10".to_owned(),
-        size: [900.0, 520.0],
+        size: [695.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -267,7 +262,6 @@ fn factorisation(report: &Report) -> File {
             series,
         }],
         keys,
-        legend: 205.0,
     };
     file("factorisation", &picture)
 }
