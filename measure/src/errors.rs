@@ -4,6 +4,7 @@
 //! signal, and |D L| / |L| the error of a lobe L.
 
 use crate::methods::{METHODS, Method};
+use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::accuracy::Difference;
@@ -82,8 +83,7 @@ impl Comparison {
     fn lobe_error(&self, angle: f64, lobe: &[f64]) -> f64 {
         let mut signal = vec![0.0; self.order * self.order];
         lobe.iter().enumerate().for_each(|(l, c)| signal[l * (l + 1)] = *c);
-        let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        norm(&self.difference.of(angle, &signal)) / norm(&signal)
+        norm(self.difference.of(angle, &signal)) / norm(signal)
     }
 
     /// The error in each of [`NORMS`] at an angle in radians.

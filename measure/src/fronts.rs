@@ -3,6 +3,7 @@
 //! errs by in f32, on the signals that it errs most on.
 
 use crate::errors::{LEVELS, SHOWN};
+use crate::stability::truth::norm;
 use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -106,19 +107,15 @@ fn given(parameter: &str, angles: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
         _ => vec![beta],
     };
     let rounded: Vec<f64> = exact.iter().map(|x| f64::from(*x as f32)).collect();
-    let size = norm(&rounded);
+    let size = norm(rounded.iter().copied());
     let meant = match (parameter, &rounded[..]) {
         ("n", [x, y, z]) => vec![-y, *x, 0.0, size + z],
         ("cs", [cos, sin]) => vec![0.0, *sin, 0.0, size + cos],
         (_, [beta]) => quaternion([0.0, *beta, 0.0]).to_vec(),
         _ => rounded.clone(),
     };
-    let size = norm(&meant);
+    let size = norm(meant.iter().copied());
     (rounded, meant.into_iter().map(|x| x / size).collect())
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The largest error of any band, over its norm, that a kernel has in f32 at angles up to one in radians.
@@ -148,10 +145,10 @@ fn measured(turn: Turn, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f
                 let want = exact.run(&[&meant, &wide], Contraction::Separate);
                 for contraction in [Contraction::Separate, Contraction::Fused] {
                     let got = narrow.run(&[&parameter, &signal], contraction);
-                    let error: Vec<f64> = got.iter().zip(&want).map(|(a, b)| f64::from(*a) - b).collect();
                     for l in 0..order {
                         let band = l * l..(l + 1) * (l + 1);
-                        worst = worst.max(norm(&error[band.clone()]) / norm(&wide[band]));
+                        let error = norm(band.clone().map(|i| f64::from(got[i]) - want[i]));
+                        worst = worst.max(error / norm(wide[band].iter().copied()));
                     }
                 }
             }
