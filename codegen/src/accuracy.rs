@@ -6,11 +6,11 @@ use crate::code::Code;
 use crate::eval::{Contraction, Number, Program};
 use crate::kernels::y_rotation::{about_y, small_y};
 use crate::kernels::{rotate, tilt};
-use crate::law;
+use crate::law::{self, Given};
 use crate::listing::Listing;
 use crate::samples;
 use crate::sh::linear::singular_values;
-use crate::spec::{Family, MAX_ORDER, Method, Spec};
+use crate::spec::{Family, MAX_ORDER, Spec};
 use half::f16;
 
 /// The tilts in degrees at which a file's head says the method's error.
@@ -199,43 +199,63 @@ pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
     angles.iter().map(error).collect()
 }
 
+/// An approximate rotation about y, or a tilt of z towards x, less the exact one, by the kernels' own operations.
+pub struct Difference {
+    order: usize,
+    /// The approximate one and what it is given; none for an exact kernel.
+    approximate: Option<(Program<f64>, Given)>,
+    exact: Program<f64>,
+}
+
+impl Difference {
+    /// Of a spec's kernel.
+    pub fn new(spec: &Spec) -> Self {
+        let order = spec.order;
+        let approximate = law::methods(&spec.family).map(|(methods, given)| {
+            let kernel = match given {
+                Given::Angle => about_y(order, methods),
+                Given::Phase => small_y(order, methods),
+                Given::Normal => tilt::tilt(order, methods, false),
+            };
+            (Program::new(&Listing::new(&kernel)), given)
+        });
+        Self { order, approximate, exact: Program::new(&Listing::new(&rotate::rotate_y(order))) }
+    }
+
+    /// What becomes of a signal at an angle in radians.
+    pub fn of(&self, angle: f64, signal: &[f64]) -> Vec<f64> {
+        let Some((approximate, given)) = &self.approximate else { return vec![0.0; signal.len()] };
+        let (sin, cos) = angle.sin_cos();
+        let parameter = match given {
+            Given::Angle => vec![angle],
+            Given::Phase => vec![cos, sin],
+            Given::Normal => vec![sin, 0.0, cos],
+        };
+        let want = self.exact.run(&[&[cos, sin], signal], Contraction::Separate);
+        let got = approximate.run(&[&parameter, signal], Contraction::Separate);
+        got.iter().zip(&want).map(|(a, b)| a - b).collect()
+    }
+
+    /// The matrix of each band by its columns.
+    pub fn bands(&self, angle: f64) -> Vec<Vec<Vec<f64>>> {
+        // No band mixes with another, so that one run gives a column of every band.
+        let columns: Vec<Vec<f64>> = (0..2 * self.order - 1)
+            .map(|j| {
+                let mut unit = vec![0.0; self.order * self.order];
+                (0..self.order).filter(|l| j <= 2 * l).for_each(|l| unit[l * l + j] = 1.0);
+                self.of(angle, &unit)
+            })
+            .collect();
+        let band = |l: usize| columns[..2 * l + 1].iter().map(move |column| column[l * l..(l + 1) * (l + 1)].to_vec());
+        (0..self.order).map(|l| band(l).collect()).collect()
+    }
+}
+
 /// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it, from the
 /// kernel's own matrix: what the [law](crate::law) is checked against.
 pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
-    let order = spec.order;
-    let approximate = match &spec.family {
-        Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => about_y(order, methods),
-        Family::Tilt(methods) | Family::TiltPrescaled(methods) => tilt::tilt(order, methods, false),
-        Family::RotateSmall(methods) | Family::RotateAdaptive(methods) => small_y(order, methods),
-        _ => return vec![vec![0.0; order]; angles.len()],
-    };
-    let approximate = Program::<f64>::new(&Listing::new(&approximate));
-    let exact = Program::<f64>::new(&Listing::new(&rotate::rotate_y(order)));
-    angles
-        .iter()
-        .map(|&angle| {
-            let turn = [angle.cos(), angle.sin()];
-            let parameter = match spec.family {
-                Family::Tilt(_) | Family::TiltPrescaled(_) => vec![turn[1], 0.0, turn[0]],
-                Family::RotateSmall(_) | Family::RotateAdaptive(_) => turn.to_vec(),
-                _ => vec![angle],
-            };
-            // No band mixes with another, so that one run gives a column of every band.
-            let columns: Vec<Vec<f64>> = (0..2 * order - 1)
-                .map(|j| {
-                    let mut unit = vec![0.0; order * order];
-                    (0..order).filter(|l| j <= 2 * l).for_each(|l| unit[l * l + j] = 1.0);
-                    let want = exact.run(&[&turn, &unit], Contraction::Separate);
-                    let got = approximate.run(&[&parameter, &unit], Contraction::Separate);
-                    got.iter().zip(&want).map(|(a, b)| a - b).collect()
-                })
-                .collect();
-            let band = |l: usize| -> Vec<Vec<f64>> {
-                columns[..2 * l + 1].iter().map(|column| column[l * l..(l + 1) * (l + 1)].to_vec()).collect()
-            };
-            (0..order).map(|l| spectral_norm(&band(l))).collect()
-        })
-        .collect()
+    let difference = Difference::new(spec);
+    angles.iter().map(|&angle| difference.bands(angle).iter().map(|band| spectral_norm(band)).collect()).collect()
 }
 
 /// The spectral norm of a matrix given by its columns.

@@ -519,15 +519,7 @@ fn malformed(name: &str, message: &str) -> MapError {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers that look random, from −1 to 1.
-    fn random() -> impl FnMut() -> f64 {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-    }
+    use crate::samples::Random;
 
     /// A map whose texels hold the value of `radiance`, by column, row and direction, in all channels.
     fn map(height: usize, radiance: impl Fn(usize, usize, [f64; 3]) -> f64) -> Map {
@@ -568,10 +560,10 @@ mod tests {
     #[test]
     fn basis_is_orthonormal_with_condon_shortley_phase() {
         let nu = (3.0 / (4.0 * PI)).sqrt();
-        let mut random = random();
+        let mut random = Random::new(1);
         let mut directions = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]];
         for _ in 0..20 {
-            let [x, y, z] = [random(), random(), random()];
+            let [x, y, z] = [random.signed(), random.signed(), random.signed()];
             let length = (x * x + y * y + z * z).sqrt();
             directions.push([x / length, y / length, z / length]);
         }
@@ -699,8 +691,8 @@ mod tests {
 
     #[test]
     fn a_sampled_series_comes_back() {
-        let mut random = random();
-        let coefficients = (0..25).map(|_| [random(), random(), random()]).collect();
+        let mut random = Random::new(1);
+        let coefficients = (0..25).map(|_| [random.signed(), random.signed(), random.signed()]).collect();
         let series = Projection { order: 5, coefficients, beyond: 0.0 };
         let error = |height: usize| {
             let mut map = map(height, |_, _, _| 0.0);
@@ -719,8 +711,8 @@ mod tests {
 
     #[test]
     fn shifting_columns_turns_the_series_about_z() {
-        let mut random = random();
-        let texels = (0..16 * 8).map(|_| [random(), random(), random()]).collect();
+        let mut random = Random::new(1);
+        let texels = (0..16 * 8).map(|_| [random.signed(), random.signed(), random.signed()]).collect();
         let map = Map { width: 16, height: 8, texels };
         let mut turned = map.clone();
         turned.texels.chunks_exact_mut(16).for_each(|row| row.rotate_left(3));
@@ -740,8 +732,9 @@ mod tests {
 
     #[test]
     fn energies_obey_parseval_even_for_orders_beyond_the_map() {
-        let mut random = random();
-        let texels = (0..8 * 4).map(|_| [random().abs(), random().abs(), random().abs()]).collect();
+        let mut random = Random::new(1);
+        let texels =
+            (0..8 * 4).map(|_| [random.signed().abs(), random.signed().abs(), random.signed().abs()]).collect();
         let map = Map { width: 8, height: 4, texels };
         let whole = map.project(60);
         assert!((whole.energy() / map.energy() - 1.0).abs() < 1e-14);
@@ -849,13 +842,13 @@ mod tests {
         // Runs of length 0 multiply the decoder's counter until it overflows.
         let overflow = [[9, 9, 9, 9].as_slice(), &[1, 1, 1, 0].repeat(40)].concat();
         assert!(error(&hdr(&overflow)).contains("cannot be decoded"));
-        let mut random = random();
+        let mut random = Random::new(1);
         for good in [&good_hdr, &good_exr] {
             for _ in 0..2000 {
                 let mut bytes = good.clone();
                 for _ in 0..3 {
-                    let i = (random().abs() * bytes.len() as f64) as usize;
-                    bytes[i] = (random() * 128.0) as i8 as u8;
+                    let i = (random.signed().abs() * bytes.len() as f64) as usize;
+                    bytes[i] = (random.signed() * 128.0) as i8 as u8;
                 }
                 let message = error(&bytes);
                 assert!(!message.contains('\n'), "{message}");

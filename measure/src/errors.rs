@@ -3,15 +3,16 @@
 //! its n² singular values what the paper calls the average error, their root mean square the rms error of a random
 //! signal, and |D L| / |L| the error of a lobe L.
 
-use crate::methods::{Method, Way, kernels};
+use crate::methods::{METHODS, Method};
+use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
+use zonal_codegen::accuracy::Difference;
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::eval::{Contraction, Program};
-use zonal_codegen::listing::Listing;
 use zonal_codegen::sh::exact::Exact;
 use zonal_codegen::sh::linear::singular_values;
 use zonal_codegen::sh::tables::{basis_factor, legendre_polynomial};
+use zonal_codegen::spec::Spec;
 
 /// The measures of an error, by the index that reports use.
 pub const NORMS: [&str; 5] = ["max", "mean singular value", "rms", "lobe cos⁵", "lobe cos²⁰"];
@@ -65,65 +66,29 @@ pub fn lobe(exponent: i64, order: usize) -> Vec<f64> {
         .collect()
 }
 
-/// A method and the exact rotation, ready to run.
-#[derive(Debug)]
+/// A method's kernel against the exact rotation, ready to run.
 pub struct Comparison {
     order: usize,
-    way: Way,
-    approximate: Program<f64>,
-    exact: Program<f64>,
+    difference: Difference,
     lobes: [Vec<f64>; 2],
 }
 
 impl Comparison {
-    /// Of a method at an order.
-    pub fn new(way: Way, order: usize) -> Self {
-        let [approximate, exact] = kernels(way, order).map(|kernel| Program::new(&Listing::new(&kernel)));
-        Self { order, way, approximate, exact, lobes: [5, 20].map(|exponent| lobe(exponent, order)) }
-    }
-
-    /// D(β) applied to a signal.
-    fn difference(&self, angle: f64, signal: &[f64]) -> Vec<f64> {
-        let (sin, cos) = angle.sin_cos();
-        let parameter = match self.way {
-            Way::Tilt => vec![sin, 0.0, cos],
-            _ => vec![angle],
-        };
-        let want = self.exact.run(&[&[cos, sin], signal], Contraction::Separate);
-        let mut got = self.approximate.run(&[&parameter, signal], Contraction::Separate);
-        if self.way == Way::ExactThenLf3 {
-            let exact = want.len().min(9);
-            got[..exact].copy_from_slice(&want[..exact]);
-        }
-        got.iter().zip(&want).map(|(a, b)| a - b).collect()
-    }
-
-    /// The singular values of each band of D(β), largest first.
-    pub fn bands(&self, angle: f64) -> Vec<Vec<f64>> {
-        // No band mixes with another, so that one run gives a column of every band.
-        let columns: Vec<Vec<f64>> = (0..2 * self.order - 1)
-            .map(|j| {
-                let mut unit = vec![0.0; self.order * self.order];
-                (0..self.order).filter(|l| j <= 2 * l).for_each(|l| unit[l * l + j] = 1.0);
-                self.difference(angle, &unit)
-            })
-            .collect();
-        let band = |l: usize| -> Vec<Vec<f64>> {
-            columns[..2 * l + 1].iter().map(|column| column[l * l..(l + 1) * (l + 1)].to_vec()).collect()
-        };
-        (0..self.order).map(|l| singular_values(&band(l))).collect()
+    /// Of a spec's kernel.
+    pub fn new(spec: &Spec) -> Self {
+        let order = spec.order;
+        Self { order, difference: Difference::new(spec), lobes: [5, 20].map(|exponent| lobe(exponent, order)) }
     }
 
     fn lobe_error(&self, angle: f64, lobe: &[f64]) -> f64 {
         let mut signal = vec![0.0; self.order * self.order];
         lobe.iter().enumerate().for_each(|(l, c)| signal[l * (l + 1)] = *c);
-        let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        norm(&self.difference(angle, &signal)) / norm(&signal)
+        norm(self.difference.of(angle, &signal)) / norm(signal)
     }
 
     /// The error in each of [`NORMS`] at an angle in radians.
     pub fn errors(&self, angle: f64) -> [f64; 5] {
-        let values: Vec<f64> = self.bands(angle).concat();
+        let values: Vec<f64> = self.difference.bands(angle).iter().flat_map(|band| singular_values(band)).collect();
         let count = values.len() as f64;
         let [five, twenty] = [0, 1].map(|i| self.lobe_error(angle, &self.lobes[i]));
         [
@@ -166,11 +131,11 @@ impl Comparison {
     }
 }
 
-/// Every method at every order, for which it is no exact rotation.
+/// Every method at every order for which it is no exact rotation.
 pub fn measure(progress: &dyn Progress) -> Vec<Curve> {
-    let tasks: Vec<(usize, Method)> = ORDERS
-        .flat_map(|order| Method::all().into_iter().map(move |method| (order, method)))
-        .filter(|(order, method)| *order > 3 || matches!(method.way, Way::Uniform(_)))
-        .collect();
-    each(progress, "errors over the angle", &tasks, |(order, method)| Comparison::new(method.way, *order).curve(method))
+    let at = |order: usize| METHODS.iter().filter(move |method| order >= method.first_order).map(move |m| (order, m));
+    let tasks: Vec<(usize, &Method)> = ORDERS.flat_map(at).collect();
+    each(progress, "errors over the angle", &tasks, |(order, method)| {
+        Comparison::new(&method.spec(*order)).curve(method)
+    })
 }

@@ -1,33 +1,38 @@
-//! What a budget buys: for each order and largest angle the y rotations that no other one beats in both operations and
-//! error. A y rotation may do each band in its own way. The largest error of any band is what counts, so that for an
-//! error e every band takes the cheapest way that keeps e; exact bands share the multiples of the angle, whose cost is
-//! that of the highest exact band, so that each choice of that band is tried.
+//! What a budget buys, by the generator's own choice: for each order and largest angle the rotations that no other one
+//! beats in both operations and error, and the cheapest one within each error, with what is predicted of it and what it
+//! errs by in f32, on the signals that it errs most on.
 
-use crate::errors::{Comparison, LEVELS, SHOWN};
-use crate::methods::{Band, Way, mixed_cost, restricted};
-use crate::{Progress, each, significant};
+use crate::errors::{LEVELS, SHOWN};
+use crate::stability::truth::norm;
+use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernels::rotate::rotate_y;
-use zonal_codegen::kernels::y_rotation::about_y;
-use zonal_codegen::listing::Listing;
+use zonal_codegen::accuracy::Difference;
+use zonal_codegen::built::{self, Built};
+use zonal_codegen::choose::{Budget, Norm, Turn, cheapest, exact};
+use zonal_codegen::code::Runner;
+use zonal_codegen::eval::Contraction;
+use zonal_codegen::samples::Random;
+use zonal_codegen::sh::linear::largest_input;
+use zonal_codegen::spec::Spec;
 
 /// The orders that are weighed.
 pub const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
-/// The largest error is sought at so many angles up to the largest.
-const FRACTIONS: usize = 8;
+/// The rotations that are planned; the first has the fronts, since only it may mix exact bands with others.
+pub const TURNS: [Turn; 3] = [Turn::Quaternion, Turn::Y, Turn::Tilt];
+/// A plan is run at so many angles up to its largest, each with so many turns about z before and after.
+const ANGLES: usize = 8;
+const TURNED: usize = 4;
+const SEED: u64 = 0xf407;
 
-/// A y rotation: how, for how much, how well.
+/// A rotation: which, for how much, how well.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// The way of each band from 1, joined by `+`, or of all bands.
-    pub bands: String,
+    /// The spec.
+    pub spec: String,
     /// Its operations.
     pub operations: usize,
-    /// Its largest error up to the largest angle.
-    pub error: f64,
-    /// The same by the methods' laws.
+    /// Its largest error up to the largest angle, by its law.
     pub law: f64,
 }
 
@@ -40,144 +45,154 @@ pub struct Front {
     pub degrees: f64,
     /// What no other choice beats, cheapest first.
     pub points: Vec<Choice>,
-    /// Every band in the same way.
-    pub uniform: Vec<Choice>,
 }
 
-impl Front {
-    /// The cheapest of a list that keeps an error.
-    pub fn cheapest(choices: &[Choice], error: f64) -> Option<&Choice> {
-        choices.iter().filter(|choice| choice.error <= error).min_by_key(|choice| choice.operations)
+/// The cheapest rotation within an error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// Which rotation is wanted.
+    pub turn: Turn,
+    /// The order.
+    pub order: usize,
+    /// The largest angle in degrees.
+    pub degrees: f64,
+    /// The error.
+    pub budget: f64,
+    /// What was chosen.
+    pub choice: Choice,
+    /// What f32 may add to its law, as the planner has it.
+    pub rounding: f64,
+    /// The largest error that it was seen to have in f32.
+    pub measured: f64,
+}
+
+impl Plan {
+    /// What the planner promises.
+    pub fn predicted(&self) -> f64 {
+        self.choice.law + self.rounding
     }
 }
 
-/// The errors of every way: `[band way][angle of SHOWN][l]`.
-fn errors() -> Vec<Vec<Vec<f64>>> {
-    let order = *ORDERS.end();
-    Band::all()
-        .map(|band| {
-            let Band::Small(small) = band else {
-                return vec![vec![0.0; order]; SHOWN.len()];
-            };
-            let comparison = Comparison::new(Way::Uniform(small), order);
-            let at = |degrees: f64| -> Vec<f64> {
-                let angles = (1..=FRACTIONS).map(|i| degrees.to_radians() * i as f64 / FRACTIONS as f64);
-                angles.fold(vec![0.0; order], |worst, angle| {
-                    worst.iter().zip(comparison.bands(angle)).map(|(a, b)| b[0].max(*a)).collect()
-                })
-            };
-            SHOWN.map(at).to_vec()
-        })
-        .collect()
+fn within(degrees: f64, error: f64) -> Budget {
+    Budget { max_angle: degrees.to_radians(), error, norm: Norm::Max, energy: vec![] }
 }
 
-/// The fronts of one order.
-struct Weighing<'a> {
-    order: usize,
-    ways: Vec<Band>,
-    errors: &'a [Vec<Vec<f64>>],
-    exact: zonal_codegen::kernel::Kernel,
-    /// `estimates[way][l]`: what a band costs by itself, an exact one without its multiples.
-    estimates: Vec<Vec<usize>>,
-    /// What the multiples cost up to the highest exact band.
-    set_up: Vec<usize>,
-    known: HashMap<Vec<Band>, usize>,
+fn front(order: usize, degrees: f64) -> Front {
+    let mut points: Vec<Choice> = Vec::new();
+    let mut error = f64::INFINITY;
+    while error > 0.0 {
+        let (spec, operations, law) = cheapest(TURNS[0], order, &within(degrees, error));
+        points.retain(|point| point.operations < operations);
+        points.push(Choice { spec: spec.to_string(), operations, law });
+        error = law.next_down();
+    }
+    Front { order, degrees, points }
 }
 
-impl<'a> Weighing<'a> {
-    fn new(order: usize, errors: &'a [Vec<Vec<f64>>]) -> Self {
-        let exact = rotate_y(order);
-        let ways: Vec<Band> = Band::all().collect();
-        let of_kind = |listing: &Listing, kind: Kind| -> usize {
-            let mut part = listing.clone();
-            part.steps.retain(|step| step.kind == kind);
-            part.cost(1).total
-        };
-        let alone: Vec<Listing> = (0..order).map(|l| restricted(&exact, |band| band == l)).collect();
-        let estimates = ways
-            .iter()
-            .map(|way| match way {
-                Band::Exact => alone.iter().map(|listing| of_kind(listing, Kind::Signal)).collect(),
-                Band::Small(small) => {
-                    let kernel = about_y(order, &vec![*small; order - 1]);
-                    (0..order).map(|l| restricted(&kernel, |band| band == l).cost(1).total).collect()
+/// A turn by β about y between two turns about z, as a unit quaternion (x, y, z, w).
+fn quaternion([alpha, beta, gamma]: [f64; 3]) -> [f64; 4] {
+    let (sum, difference) = (((alpha + gamma) / 2.0).sin_cos(), ((alpha - gamma) / 2.0).sin_cos());
+    let (sin, cos) = (beta / 2.0).sin_cos();
+    [-sin * difference.0, sin * difference.1, cos * sum.0, cos * sum.1]
+}
+
+/// What a kernel takes for such a turn, rounded to f32, and the rotation that this is.
+fn given(parameter: &str, angles: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
+    let [alpha, beta, _] = angles;
+    let (sin, cos) = beta.sin_cos();
+    let exact = match parameter {
+        "q" => quaternion(angles).to_vec(),
+        "n" => vec![sin * alpha.cos(), sin * alpha.sin(), cos],
+        "cs" => vec![cos, sin],
+        _ => vec![beta],
+    };
+    let rounded: Vec<f64> = exact.iter().map(|x| f64::from(*x as f32)).collect();
+    let size = norm(rounded.iter().copied());
+    let meant = match (parameter, &rounded[..]) {
+        ("n", [x, y, z]) => vec![-y, *x, 0.0, size + z],
+        ("cs", [cos, sin]) => vec![0.0, *sin, 0.0, size + cos],
+        (_, [beta]) => quaternion([0.0, *beta, 0.0]).to_vec(),
+        _ => rounded.clone(),
+    };
+    let size = norm(meant.iter().copied());
+    (rounded, meant.into_iter().map(|x| x / size).collect())
+}
+
+/// The largest error of any band, over its norm, that a kernel has in f32 at angles up to one in radians.
+fn measured(turn: Turn, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f64 {
+    let (order, narrow) = (built.spec.order, built.code.runner::<f32>());
+    let difference = Difference::new(&built.spec);
+    let mut random = Random::new(SEED);
+    let mut worst = 0.0f64;
+    for step in 1..=ANGLES {
+        let beta = max_angle * step as f64 / ANGLES as f64;
+        let most: Vec<f64> = difference.bands(beta).iter().flat_map(|band| largest_input(band)).collect();
+        for _ in 0..TURNED {
+            let [alpha, gamma] = [random.signed(), random.signed()].map(|x| x * std::f64::consts::PI);
+            let [alpha, gamma] = match turn {
+                Turn::Y => [0.0; 2],
+                Turn::Tilt => [alpha, -alpha],
+                _ => [alpha, gamma],
+            };
+            let (parameter, meant) = given(built.code.params()[0].name, [alpha, beta, gamma]);
+            // The turn before the one about y is taken off beforehand.
+            let most = exact.run(&[&quaternion([0.0, 0.0, -gamma]), &most], Contraction::Separate);
+            let any: Vec<f64> = (0..order * order).map(|_| random.signed()).collect();
+            for signal in [most, any] {
+                let signal: Vec<f32> = signal.into_iter().map(|x| x as f32).collect();
+                let wide: Vec<f64> = signal.iter().map(|x| f64::from(*x)).collect();
+                let parameter: Vec<f32> = parameter.iter().map(|x| *x as f32).collect();
+                let want = exact.run(&[&meant, &wide], Contraction::Separate);
+                for contraction in [Contraction::Separate, Contraction::Fused] {
+                    let got = narrow.run(&[&parameter, &signal], contraction);
+                    for l in 0..order {
+                        let band = l * l..(l + 1) * (l + 1);
+                        let error = norm(band.clone().map(|i| f64::from(got[i]) - want[i]));
+                        worst = worst.max(error / norm(wide[band].iter().copied()));
+                    }
                 }
-            })
-            .collect();
-        let set_up = alone.iter().map(|listing| of_kind(listing, Kind::Scalar)).collect();
-        Self { order, ways, errors, exact, estimates, set_up, known: HashMap::new() }
-    }
-
-    /// The cheapest way of each band that keeps an error, no band above `highest` exact.
-    fn mixture(&self, angle: usize, error: f64, highest: usize) -> Option<(usize, Vec<Band>)> {
-        let mut total = self.set_up[highest];
-        let mut bands = Vec::new();
-        for l in 1..self.order {
-            let keeps =
-                |way: &usize| self.errors[*way][angle][l] <= error && (l <= highest || self.ways[*way] != Band::Exact);
-            let way = (0..self.ways.len()).filter(keeps).min_by_key(|way| self.estimates[*way][l])?;
-            total += self.estimates[way][l];
-            bands.push(self.ways[way]);
-        }
-        Some((total, bands))
-    }
-
-    fn choice(&mut self, angle: usize, bands: &[Band]) -> Choice {
-        let operations = match self.known.get(bands) {
-            Some(known) => *known,
-            None => mixed_cost(&self.exact, bands),
-        };
-        self.known.insert(bands.to_vec(), operations);
-        let way = |band: &Band| self.ways.iter().position(|way| way == band).expect("is one of them");
-        let error = bands.iter().zip(1..).map(|(band, l)| self.errors[way(band)][angle][l]).fold(0.0, f64::max);
-        let law = bands.iter().zip(1..).map(|(band, l)| band.law(l, SHOWN[angle].to_radians())).fold(0.0, f64::max);
-        let same = bands.iter().all(|band| *band == bands[0]);
-        let names: Vec<&str> = bands.iter().map(|band| band.name()).collect();
-        Choice {
-            bands: if same { names[0].to_owned() } else { names.join("+") },
-            operations,
-            error: significant(error),
-            law: significant(law),
+            }
         }
     }
+    worst
+}
 
-    fn front(&mut self, angle: usize) -> Front {
-        let mut thresholds: Vec<f64> =
-            self.errors.iter().flat_map(|way| way[angle][1..self.order].iter().copied()).collect();
-        thresholds.sort_by(f64::total_cmp);
-        thresholds.dedup();
-        let mut points: Vec<Choice> = Vec::new();
-        for error in thresholds {
-            let all = (0..self.order).filter_map(|highest| self.mixture(angle, error, highest));
-            let (_, bands) = all.min_by_key(|(total, _)| *total).expect("every band can be exact");
-            points.push(self.choice(angle, &bands));
+/// The plans of a turn at an order: the cheapest kernels whose law and rounding together keep each error.
+fn plans(turn: Turn, order: usize) -> Vec<Plan> {
+    let reference = built::code(&exact(Turn::Quaternion, order, false)).runner();
+    let mut known: HashMap<Spec, Built> = HashMap::new();
+    let mut plans = Vec::new();
+    for degrees in SHOWN {
+        for budget in LEVELS.into_iter().rev() {
+            let mut left = budget;
+            let (built, operations, law) = loop {
+                let (spec, operations, law) = cheapest(turn, order, &within(degrees, left));
+                let built = known.entry(spec).or_insert_with_key(Built::new);
+                if law + built.accuracy.rounding_f32 <= budget || law == 0.0 {
+                    break (built, operations, law);
+                }
+                left = budget - built.accuracy.rounding_f32;
+            };
+            plans.push(Plan {
+                turn,
+                order,
+                degrees,
+                budget,
+                choice: Choice { spec: built.spec.to_string(), operations, law },
+                rounding: built.accuracy.rounding_f32,
+                measured: measured(turn, built, &reference, degrees.to_radians()),
+            });
         }
-        let ways = self.ways.clone();
-        let uniform: Vec<Choice> = ways.iter().map(|way| self.choice(angle, &vec![*way; self.order - 1])).collect();
-        points.extend(uniform.iter().cloned());
-        points.sort_by(|a, b| a.operations.cmp(&b.operations).then(a.error.total_cmp(&b.error)));
-        let mut best = f64::INFINITY;
-        points.retain(|point| {
-            let better = point.error < best;
-            best = best.min(point.error);
-            better
-        });
-        Front { order: self.order, degrees: SHOWN[angle], points, uniform }
     }
+    plans
 }
 
 /// Every order and angle.
-pub fn measure(progress: &dyn Progress) -> Vec<Front> {
-    let errors = errors();
-    let orders: Vec<usize> = ORDERS.collect();
-    let fronts = each(progress, "cost against error", &orders, |order| {
-        let mut weighing = Weighing::new(*order, &errors);
-        (0..SHOWN.len()).map(|angle| weighing.front(angle)).collect::<Vec<_>>()
-    });
-    fronts.concat()
-}
-
-/// The cheapest choices of a front for [`LEVELS`], the largest error first.
-pub fn budgets(choices: &[Choice]) -> Vec<(f64, Option<&Choice>)> {
-    LEVELS.iter().rev().map(|level| (*level, Front::cheapest(choices, *level))).collect()
+pub fn measure(progress: &dyn Progress) -> (Vec<Front>, Vec<Plan>) {
+    let at: Vec<(usize, f64)> = ORDERS.flat_map(|order| SHOWN.map(|degrees| (order, degrees))).collect();
+    let fronts = each(progress, "cost against error", &at, |(order, degrees)| front(*order, *degrees));
+    let tasks: Vec<(usize, Turn)> = ORDERS.flat_map(|order| TURNS.map(|turn| (order, turn))).collect();
+    let mut plans = each(progress, "plans", &tasks, |(order, turn)| plans(*turn, *order)).concat();
+    plans.sort_by_key(|plan| TURNS.iter().position(|turn| *turn == plan.turn));
+    (fronts, plans)
 }

@@ -56,6 +56,13 @@ fn last(folder: &Path) -> Option<Report> {
     serde_json::from_str(&text).ok()
 }
 
+/// A part of the report that a folder holds, which may be of an earlier form in its other parts.
+fn kept<T: serde::de::DeserializeOwned>(folder: &Path, part: &str) -> Option<T> {
+    let text = std::fs::read_to_string(folder.join("measure.json")).ok()?;
+    let mut report: serde_json::Value = serde_json::from_str(&text).ok()?;
+    serde_json::from_value(report.get_mut(part)?.take()).ok()
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let folder = &arguments.output;
@@ -84,9 +91,9 @@ fn main() -> ExitCode {
     }
     report.timing = match arguments.no_timing {
         false => Some(timing::measure(&bar)),
-        true => last(folder).and_then(|old| old.timing),
+        true => kept(folder, "timing"),
     };
-    report.bounds = last(folder).and_then(|old| old.bounds);
+    report.bounds = kept(folder, "bounds");
     bar.0.lock().expect("no holder panics").finish();
     written(folder, &report)
 }

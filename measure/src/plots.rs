@@ -2,14 +2,17 @@
 
 use crate::errors::{LOBE, MAX, MEAN};
 use crate::factorisation::sparsity;
-use crate::methods::Method;
+use crate::methods::named;
 use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
 use crate::{File, Report};
+use zonal_codegen::accuracy::method_error;
 use zonal_codegen::catalog::ORDERS;
+use zonal_codegen::spec::SMALL_ANGLE_DEGREES;
 
-/// The colour of each method that is about y, and of what is exact.
-const METHODS: [(&str, usize); 4] = [("taylor1", 4), ("taylor15", 1), ("taylor2", 3), ("lf3", 0)];
+/// The colour of each method that is about y, of what is exact, and of laws.
+const PLOTTED: [(&str, usize); 4] = [("taylor1", 4), ("taylor15", 1), ("taylor2", 3), ("lf3", 0)];
 const EXACT: usize = 6;
+const LAW: usize = 7;
 const ANGLES: [f64; 9] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
 
 pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
@@ -21,29 +24,23 @@ pub(crate) fn file(name: &str, picture: &Picture) -> File {
 }
 
 fn method_keys() -> Vec<Key> {
-    METHODS.iter().map(|(name, colour)| key(crate::methods::label(name), *colour, Stroke::Solid)).collect()
+    let label = |name| named(name).map_or("", |method| method.label);
+    PLOTTED.iter().map(|(name, colour)| key(label(name), *colour, Stroke::Solid)).collect()
 }
 
 fn over_angles(report: &Report, values: &[f64]) -> Vec<(f64, f64)> {
     report.angles.iter().copied().zip(values.iter().copied()).collect()
 }
 
-/// The law of a method's largest error.
-fn method_law(name: &str, order: usize, degrees: f64) -> f64 {
-    let method = Method::all().into_iter().find(|method| method.name == name);
-    method.map_or(f64::NAN, |method| method.law(order, degrees.to_radians()))
-}
-
 /// The largest error over the angle, the laws as dashes, the rounding of the exact rotation below.
 fn error_over_angle(report: &Report, order: usize) -> File {
     let mut series = Vec::new();
-    for (name, colour) in METHODS {
-        let Some(curve) = report.curve(name, order) else { continue };
-        let solid = over_angles(report, &curve.errors[MAX]);
-        let law = |degrees: &f64| method_law(name, order, *degrees);
-        let law: Vec<f64> = report.angles.iter().map(law).collect();
-        series.push(Series { colour, stroke: Stroke::Dashed, points: over_angles(report, &law) });
-        series.push(Series { colour, stroke: Stroke::Solid, points: solid });
+    for (name, colour) in PLOTTED {
+        let (Some(curve), Some(method)) = (report.curve(name, order), named(name)) else { continue };
+        let spec = method.spec(order);
+        let law: Vec<f64> = report.angles.iter().map(|degrees| method_error(&spec, degrees.to_radians())).collect();
+        series.push(Series { colour, stroke: Stroke::Solid, points: over_angles(report, &curve.errors[MAX]) });
+        series.push(Series { colour: LAW, stroke: Stroke::Dashed, points: over_angles(report, &law) });
     }
     let floor = report.rounding_of("rotate:n:zyz", order).and_then(|rounding| rounding.f32);
     if let Some(floor) = floor {
@@ -52,11 +49,11 @@ fn error_over_angle(report: &Report, order: usize) -> File {
     }
     let mut keys = method_keys();
     keys.push(key("exact zyz, f32", EXACT, Stroke::Solid));
-    keys.push(key("law, small angle", 7, Stroke::Dashed));
+    keys.push(key("law, closed form", LAW, Stroke::Dashed));
     let picture = Picture {
         title: format!("Error of small rotations at order {order}"),
         subtitle: format!("The largest error of any signal of norm one, {} coefficients", order * order),
-        size: [900.0, 520.0],
+        size: [715.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -65,7 +62,6 @@ fn error_over_angle(report: &Report, order: usize) -> File {
             series,
         }],
         keys,
-        legend: 185.0,
     };
     file(&format!("error_order{order}"), &picture)
 }
@@ -84,35 +80,34 @@ fn figure_3(report: &Report) -> File {
                 title: format!("order {order}: {title}"),
                 x: Axis::linear("angle about y in degrees", 0.0, 45.0, &[0.0, 10.0, 20.0, 30.0, 40.0]),
                 y: Axis::linear("error", 0.0, 1.0, &[0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
-                series: METHODS.into_iter().filter_map(curve).collect(),
+                series: PLOTTED.into_iter().filter_map(curve).collect(),
             }
         })
         .collect();
     let picture = Picture {
         title: "Errors of Taylor expansions and of LF3 over the angle".to_owned(),
         subtitle: "Křivánek et al. 2005, Figure 3, reproduced; LF3 is ours".to_owned(),
-        size: [960.0, 1020.0],
+        size: [810.0, 1020.0],
         columns: 2,
         panels,
         keys: method_keys(),
-        legend: 150.0,
     };
     file("figure3", &picture)
 }
 
-/// The fronts of cost against error.
+/// The fronts of cost against error, from a quaternion.
 fn fronts(report: &Report) -> File {
-    let colours = [(5.0, 4), (10.0, 5), (15.0, 2), (25.0, 1), (45.0, 0)];
+    let colours = [(5.0, 4), (10.0, 5), (15.0, 2), (25.0, 1)];
     let orders = [3, 4, 5, 6, 8, 10];
     let panels = orders
         .into_iter()
         .map(|order| {
-            let exact = report.cost("rotate_y:n", order).map_or(1, |costs| costs.operations) as f64;
+            let exact = report.cost("rotate:n", order).map_or(1, |costs| costs.operations) as f64;
             // An exact rotation has no error of its own; its step begins at the lower edge.
             let curves = colours.iter().flat_map(|(degrees, colour)| {
                 let front = report.fronts.iter().find(|front| front.order == order && front.degrees == *degrees);
                 let points: Vec<(f64, f64)> = front.map_or_else(Vec::new, |front| {
-                    front.points.iter().map(|point| (point.operations as f64, point.error.max(1e-6))).collect()
+                    front.points.iter().map(|point| (point.operations as f64, point.law.max(1e-6))).collect()
                 });
                 [Series { colour: *colour, stroke: Stroke::Steps, points }]
             });
@@ -132,13 +127,14 @@ fn fronts(report: &Report) -> File {
         colours.iter().map(|(degrees, colour)| key(&format!("up to {degrees}°"), *colour, Stroke::Solid)).collect();
     keys.reverse();
     let picture = Picture {
-        title: "What an error costs: rotations about y".to_owned(),
-        subtitle: "The cheapest choice of a method for each band; the last drop is the exact rotation".to_owned(),
-        size: [1100.0, 720.0],
+        title: "What an error costs: rotations from a quaternion whose y angle is bounded".to_owned(),
+        subtitle: format!(
+            "The cheapest choice of a method for each band; the last drop is the exact rotation, all that there is above {SMALL_ANGLE_DEGREES}°"
+        ),
+        size: [970.0, 720.0],
         columns: 3,
         panels,
         keys,
-        legend: 130.0,
     };
     file("fronts", &picture)
 }
@@ -165,7 +161,7 @@ fn operations(report: &Report) -> File {
     let picture = Picture {
         title: "Operations of a full rotation".to_owned(),
         subtitle: "One channel; a multiplication, an addition or a multiply-add each".to_owned(),
-        size: [900.0, 520.0],
+        size: [695.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -179,7 +175,6 @@ fn operations(report: &Report) -> File {
             series,
         }],
         keys,
-        legend: 205.0,
     };
     file("operations", &picture)
 }
@@ -229,11 +224,10 @@ fn rounding(report: &Report) -> File {
     let picture = Picture {
         title: "Rounding over the order".to_owned(),
         subtitle: "The largest error of a band, relative to its norm; what is missing gives no number".to_owned(),
-        size: [1200.0, 500.0],
+        size: [995.0, 500.0],
         columns: 3,
         panels,
         keys: rows.iter().map(|(label, colour, _)| key(label, *colour, Stroke::Dotted)).collect(),
-        legend: 205.0,
     };
     file("rounding", &picture)
 }
@@ -259,7 +253,7 @@ fn factorisation(report: &Report) -> File {
     let picture = Picture {
         title: "Zonal factorisation: sparsity against condition".to_owned(),
         subtitle: "A dot is a band of a lobe set, bands 2 to 10".to_owned(),
-        size: [900.0, 520.0],
+        size: [695.0, 520.0],
         columns: 1,
         panels: vec![Panel {
             title: String::new(),
@@ -268,7 +262,6 @@ fn factorisation(report: &Report) -> File {
             series,
         }],
         keys,
-        legend: 205.0,
     };
     file("factorisation", &picture)
 }

@@ -4,7 +4,7 @@ use crate::bounds::Bounds;
 use crate::costs::Costs;
 use crate::errors::Curve;
 use crate::factorisation::Factorisation;
-use crate::fronts::Front;
+use crate::fronts::{Front, Plan};
 use crate::rounding::Rounding;
 use crate::stability::Stability;
 use crate::timing::Timing;
@@ -29,6 +29,8 @@ pub struct Report {
     pub rounding: Vec<Rounding>,
     /// What a budget buys.
     pub fronts: Vec<Front>,
+    /// The cheapest rotation within each budget, predicted and measured.
+    pub plans: Vec<Plan>,
     /// The lobe sets of the zonal factorisation.
     pub factorisation: Factorisation,
     /// The proven rounding bounds beside what was measured last.
@@ -43,12 +45,14 @@ pub struct Report {
 impl Report {
     /// Measures everything but times and the bounds' million inputs.
     pub fn measure(progress: &dyn Progress) -> Self {
+        let (fronts, plans) = fronts::measure(progress);
         Self {
             angles: errors::grid(),
             errors: errors::measure(progress),
             costs: costs::measure(progress),
             rounding: rounding::measure(progress),
-            fronts: fronts::measure(progress),
+            fronts,
+            plans,
             factorisation: factorisation::measure(progress),
             bounds: None,
             stability: Stability::measure(progress),

@@ -7,6 +7,10 @@ use std::fmt::Write;
 pub const COLOURS: [&str; 8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#7f7f7f"];
 
 const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+const SIZE: f64 = 13.0;
+const BOLD: &str = " font-weight=\"bold\"";
+/// What stands between a label and the edge.
+const EDGE: f64 = 8.0;
 const INK: &str = "#222222";
 const GRID: &str = "#e3e3e3";
 
@@ -121,14 +125,14 @@ pub struct Key {
     pub stroke: Stroke,
 }
 
-/// A picture: panels in rows, a legend to their right.
+/// A picture: panels in rows, a legend to their right. It is as large as its labels need.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// What it shows.
     pub title: String,
     /// A line below the title.
     pub subtitle: String,
-    /// Its size.
+    /// Its size without the legend.
     pub size: [f64; 2],
     /// How many panels stand side by side.
     pub columns: usize,
@@ -136,8 +140,6 @@ pub struct Picture {
     pub panels: Vec<Panel>,
     /// The legend.
     pub keys: Vec<Key>,
-    /// How wide the legend is.
-    pub legend: f64,
 }
 
 /// A rectangle: left, top, width, height.
@@ -155,11 +157,57 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-fn text(out: &mut String, (x, y): (f64, f64), attributes: &str, words: &str) {
-    if words.is_empty() {
-        return;
+/// At most how wide words are, in any font of [`FONT`].
+fn width(words: &str, size: f64) -> f64 {
+    let of = |c: char| match c {
+        'i' | 'j' | 'l' | 'f' | 't' | 'r' | ' ' | ',' | '.' | ':' | ';' | '(' | ')' => 0.42,
+        'm' | 'w' | '−' | '≤' => 1.0,
+        c if c.is_uppercase() => 0.99,
+        _ => 0.66,
+    };
+    words.chars().map(of).sum::<f64>() * size
+}
+
+/// What is drawn, and the rectangle that it fills: left, top, right, bottom.
+struct Canvas {
+    out: String,
+    filled: [f64; 4],
+}
+
+/// Which point of a label its place is.
+#[derive(Clone, Copy, PartialEq)]
+enum Anchor {
+    Start,
+    Middle,
+    End,
+    /// The middle of a label that is turned and reads upwards.
+    Upwards,
+}
+
+impl Canvas {
+    fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, (size, attributes): (f64, &str), words: &str) {
+        if words.is_empty() {
+            return;
+        }
+        let long = width(words, size);
+        let (before, turn) = match anchor {
+            Anchor::Start => (0.0, String::new()),
+            Anchor::Middle => (long / 2.0, " text-anchor=\"middle\"".to_owned()),
+            Anchor::End => (long, " text-anchor=\"end\"".to_owned()),
+            Anchor::Upwards => (long / 2.0, format!(" text-anchor=\"middle\" transform=\"rotate(-90 {x:.1} {y:.1})\"")),
+        };
+        let [left, top, right, bottom] = match anchor {
+            Anchor::Upwards => [x - size, y - before, x + size, y + before],
+            _ => [x - before, y - size, x - before + long, y + size],
+        };
+        let [l, t, r, b] = self.filled;
+        self.filled = [l.min(left - EDGE), t.min(top - EDGE), r.max(right + EDGE), b.max(bottom + EDGE)];
+        let _ = writeln!(
+            self.out,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\"{turn}{attributes}>{}</text>",
+            escaped(words)
+        );
     }
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" {attributes}>{}</text>", escaped(words));
 }
 
 fn line(out: &mut String, (x1, y1): (f64, f64), (x2, y2): (f64, f64), colour: &str, width: f64) {
@@ -200,19 +248,20 @@ fn stroke(out: &mut String, points: &[(f64, f64)], colour: usize, stroke: Stroke
 }
 
 impl Panel {
-    fn draw(&self, out: &mut String, frame: Frame, place: usize) {
+    fn draw(&self, canvas: &mut Canvas, frame: Frame, place: usize) {
         let [left, top, width, height] = frame.0;
-        text(out, (left + width / 2.0, top - 9.0), "text-anchor=\"middle\" font-weight=\"bold\"", &self.title);
+        canvas.text((left + width / 2.0, top - 9.0), Anchor::Middle, (SIZE, BOLD), &self.title);
         for (value, label) in &self.x.ticks {
             let (x, _) = frame.at(self, (*value, self.y.low));
-            line(out, (x, top), (x, top + height), GRID, 1.0);
-            text(out, (x, top + height + 17.0), "text-anchor=\"middle\"", label);
+            line(&mut canvas.out, (x, top), (x, top + height), GRID, 1.0);
+            canvas.text((x, top + height + 17.0), Anchor::Middle, (SIZE, ""), label);
         }
         for (value, label) in &self.y.ticks {
             let (_, y) = frame.at(self, (self.x.low, *value));
-            line(out, (left, y), (left + width, y), GRID, 1.0);
-            text(out, (left - 7.0, y + 4.0), "text-anchor=\"end\"", label);
+            line(&mut canvas.out, (left, y), (left + width, y), GRID, 1.0);
+            canvas.text((left - 7.0, y + 4.0), Anchor::End, (SIZE, ""), label);
         }
+        let out = &mut canvas.out;
         let _ = writeln!(
             out,
             "<clipPath id=\"panel{place}\"><rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" \
@@ -228,9 +277,8 @@ impl Panel {
             "</g>\n<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" \
              stroke=\"{INK}\"/>"
         );
-        text(out, (left + width / 2.0, top + height + 38.0), "text-anchor=\"middle\"", &self.x.label);
-        let (x, y) = (left - 48.0, top + height / 2.0);
-        text(out, (x, y), &format!("text-anchor=\"middle\" transform=\"rotate(-90 {x:.1} {y:.1})\""), &self.y.label);
+        canvas.text((left + width / 2.0, top + height + 38.0), Anchor::Middle, (SIZE, ""), &self.x.label);
+        canvas.text((left - 48.0, top + height / 2.0), Anchor::Upwards, (SIZE, ""), &self.y.label);
     }
 }
 
@@ -238,38 +286,69 @@ impl Picture {
     /// The text of the file.
     pub fn svg(&self) -> String {
         let [width, height] = self.size;
-        let mut out = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} \
-             {height}\" font-family=\"{FONT}\" font-size=\"13\" fill=\"{INK}\" role=\"img\">\n<title>{}</title>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
-            escaped(&self.title)
-        );
-        text(&mut out, (20.0, 28.0), "font-size=\"18\" font-weight=\"bold\"", &self.title);
-        text(&mut out, (20.0, 49.0), "fill=\"#555555\"", &self.subtitle);
+        let mut canvas = Canvas { out: String::new(), filled: [0.0, 0.0, width, height] };
+        canvas.text((20.0, 28.0), Anchor::Start, (18.0, BOLD), &self.title);
+        canvas.text((20.0, 49.0), Anchor::Start, (SIZE, " fill=\"#555555\""), &self.subtitle);
         let rows = self.panels.len().div_ceil(self.columns);
-        let (across, down) = ((width - self.legend) / self.columns as f64, (height - 60.0) / rows as f64);
+        let (across, down) = (width / self.columns as f64, (height - 60.0) / rows as f64);
         for (place, panel) in self.panels.iter().enumerate() {
             let (column, row) = (place % self.columns, place / self.columns);
             let (left, top) = (across * column as f64 + 68.0, 60.0 + down * row as f64 + 28.0);
-            panel.draw(&mut out, Frame([left, top, across - 86.0, down - 80.0]), place);
+            panel.draw(&mut canvas, Frame([left, top, across - 86.0, down - 80.0]), place);
         }
         for (place, key) in self.keys.iter().enumerate() {
-            let (x, y) = (width - self.legend + 8.0, 98.0 + 24.0 * place as f64);
+            let (x, y) = (width + 8.0, 98.0 + 24.0 * place as f64);
             let ends = match key.stroke {
                 Stroke::Dots => vec![(x + 15.0, y)],
                 Stroke::Dotted => vec![(x + 2.0, y), (x + 28.0, y)],
                 _ => vec![(x, y), (x + 30.0, y)],
             };
-            stroke(&mut out, &ends, key.colour, if key.stroke == Stroke::Steps { Stroke::Solid } else { key.stroke });
-            text(&mut out, (x + 38.0, y + 4.5), "", &key.label);
+            let solid = if key.stroke == Stroke::Steps { Stroke::Solid } else { key.stroke };
+            stroke(&mut canvas.out, &ends, key.colour, solid);
+            canvas.text((x + 38.0, y + 4.5), Anchor::Start, (SIZE, ""), &key.label);
         }
-        out + "</svg>\n"
+        let [left, top, right, bottom] = canvas.filled.map(f64::round);
+        let (width, height) = (right - left, bottom - top);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"{left} {top} {width} \
+             {height}\" font-family=\"{FONT}\" fill=\"{INK}\" role=\"img\">\n<title>{}</title>\n\
+             <rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            escaped(&self.title),
+            canvas.out
+        )
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_is_as_large_as_its_labels() {
+        let axis = |label: &str| Axis::linear(label, 0.0, 1.0, &[0.0, 1.0]);
+        let long = "m".repeat(200);
+        let seen = |title: &str, y: &str, label: &str| {
+            let panel = Panel { title: String::new(), x: axis("x"), y: axis(y), series: vec![] };
+            let picture = Picture {
+                title: title.to_owned(),
+                subtitle: String::new(),
+                size: [400.0, 300.0],
+                columns: 1,
+                panels: vec![panel],
+                keys: vec![Key { label: label.to_owned(), colour: 0, stroke: Stroke::Solid }],
+            };
+            let svg = picture.svg();
+            let (_, view) = svg.split_once("viewBox=\"").unwrap();
+            let view: Vec<f64> = view.split_once('"').unwrap().0.split(' ').map(|x| x.parse().unwrap()).collect();
+            <[f64; 4]>::try_from(view).unwrap()
+        };
+        let [_, _, width, height] = seen("title", "y", "key");
+        assert!(width < 600.0 && height < 400.0);
+        assert!(seen(&long, "y", "key")[2] > 200.0 * 18.0);
+        assert!(seen("title", "y", &long)[2] > 400.0 + 200.0 * SIZE);
+        let [_, top, _, height] = seen("title", &long, "key");
+        assert!(top < 0.0 && height > 200.0 * SIZE);
+    }
 
     #[test]
     fn powers_are_raised_and_axes_place_their_ends() {

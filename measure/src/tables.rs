@@ -3,12 +3,15 @@
 use crate::bounds::{Bounds, Pair};
 use crate::errors::{LEVELS, LOBE, MAX, MEAN, NORMS, RMS, SHOWN};
 use crate::factorisation::{Shared, sparsity};
-use crate::fronts::{Choice, Front, budgets};
-use crate::methods::{Method, formula};
+use crate::fronts::{Plan, TURNS};
+use crate::methods::{METHODS, named};
 use crate::papers::{Column, ERRATA, LOBES, SPARSITY, TABLE_2, recomputed};
 use crate::plots::dense_operations;
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
+use zonal_codegen::choose::Turn;
+use zonal_codegen::law;
+use zonal_codegen::spec::Spec;
 
 const HEAD: &str = "<!-- Written by `cargo measure`; do not edit. -->";
 
@@ -54,7 +57,7 @@ fn degrees(value: f64) -> String {
 
 fn errors(report: &Report) -> File {
     let levels: Vec<String> = LEVELS.iter().map(|level| format!("{level:e}")).collect();
-    let laws = Method::all().into_iter().map(|method| vec![method.label.to_owned(), formula(method.name).to_owned()]);
+    let laws = METHODS.map(|method| vec![method.label.to_owned(), method.formula.to_owned()]);
     let mut parts = vec![
         "D(β) is the difference of the approximate and the exact rotation about y (for the tilt: of z towards x) by β. \
          *Max* is its largest singular value, the largest error of any signal of norm one; *mean singular value* the \
@@ -63,7 +66,9 @@ fn errors(report: &Report) -> File {
             .to_owned(),
         "![Error over the angle, order 5](error_order5.svg)".to_owned(),
         "![Error over the angle, order 8](error_order8.svg)".to_owned(),
-        "## Laws\n\nThe largest error of band l, L = lβ, while L is below about one; dashed in the plots.".to_owned(),
+        "## Laws\n\nThe largest error of band l begins with this term in L = lβ. The whole law is the closed form that the \
+         planner takes (`codegen/src/law.rs`), dashed in the plots."
+            .to_owned(),
         table(&["method", "error"], laws),
         "## Figure 3 of paper 000\n\nKřivánek et al. 2005 plot the largest error, the average error and that of a Phong \
          lobe at the orders 5 and 8. The angle in degrees at which each error is reached, LF3 beside:\n\n\
@@ -78,10 +83,9 @@ fn errors(report: &Report) -> File {
     };
     let columns: Vec<&str> =
         ["order", "error", "method"].into_iter().chain(levels.iter().map(String::as_str)).collect();
-    let methods = Method::all();
     let all = |orders: &[usize], norms: &[usize]| -> String {
         let rows = orders.iter().flat_map(|order| norms.iter().map(move |norm| (*order, *norm)));
-        let rows = rows.flat_map(|(order, norm)| methods.iter().map(move |method| (order, norm, method)));
+        let rows = rows.flat_map(|(order, norm)| METHODS.iter().map(move |method| (order, norm, method)));
         table(&columns, rows.filter_map(|(order, norm, method)| row(method.name, method.label, order, norm)))
     };
     parts.push(all(&[5, 8], &[MAX, MEAN, RMS, LOBE]));
@@ -91,7 +95,7 @@ fn errors(report: &Report) -> File {
     let shown: Vec<String> = SHOWN.iter().map(|angle| degrees(*angle)).collect();
     let columns: Vec<&str> = ["order", "method"].into_iter().chain(shown.iter().map(String::as_str)).collect();
     let rows = report.errors.iter().map(|curve| {
-        let label = methods.iter().find(|method| method.name == curve.method).map_or("", |method| method.label);
+        let label = named(&curve.method).map_or("", |method| method.label);
         let pair = |place: usize| format!("{} / {}", short(curve.shown[MAX][place]), short(curve.shown[RMS][place]));
         [curve.order.to_string(), label.to_owned()].into_iter().chain((0..SHOWN.len()).map(pair)).collect()
     });
@@ -173,60 +177,68 @@ fn rounding(report: &Report) -> File {
     file("rounding", "Rounding", &parts)
 }
 
-/// The ways of the bands from 1, neighbours of one way together.
-fn bands(choice: &Choice) -> String {
-    let names: Vec<&str> = choice.bands.split('+').collect();
-    if names.len() == 1 {
-        return names[0].to_owned();
-    }
-    let mut parts = Vec::new();
-    let mut start = 0;
-    while start < names.len() {
-        let end = (start..names.len()).take_while(|place| names[*place] == names[start]).last().unwrap_or(start);
-        let range = if start == end { format!("{}", start + 1) } else { format!("{}–{}", start + 1, end + 1) };
-        parts.push(format!("{range} {}", names[start]));
-        start = end + 1;
-    }
-    parts.join(", ")
+/// The methods of a spec's bands from 1, neighbours of one method together.
+fn bands(spec: &str) -> String {
+    let spec: Spec = spec.parse().expect("a report holds specs");
+    let Some((methods, _)) = law::methods(&spec.family) else { return "exact".to_owned() };
+    let mut first = 1;
+    let runs = methods.chunk_by(|a, b| a == b).map(|run| {
+        let (start, end) = (first, first + run.len() - 1);
+        first = end + 1;
+        match (run.len() == methods.len(), start == end) {
+            (true, _) => run[0].name().to_owned(),
+            (_, true) => format!("{start} {}", run[0].name()),
+            _ => format!("{start}–{end} {}", run[0].name()),
+        }
+    });
+    runs.collect::<Vec<_>>().join(", ")
 }
 
 fn fronts(report: &Report) -> File {
-    let cell = |choice: Option<&Choice>| {
-        choice.map_or_else(|| "–".to_owned(), |choice| format!("{} ({})", choice.operations, bands(choice)))
-    };
-    let row = |front: &Front, choices: &[Choice]| -> Vec<String> {
-        let mut row = vec![front.order.to_string(), degrees(front.degrees)];
-        row.extend(budgets(choices).into_iter().map(|(_, choice)| cell(choice)));
-        row
-    };
-    let errors: Vec<String> = LEVELS.iter().rev().map(|level| format!("{level:e}")).collect();
-    let columns: Vec<&str> = ["order", "up to"].into_iter().chain(errors.iter().map(String::as_str)).collect();
-    let mixed = report.fronts.iter().map(|front| row(front, &front.points));
-    let whole = report.fronts.iter().map(|front| row(front, &front.uniform));
-    let points = report.fronts.iter().flat_map(|front| {
-        front.points.iter().map(|point| {
-            vec![
-                front.order.to_string(),
-                degrees(front.degrees),
-                point.operations.to_string(),
-                short(point.error),
-                short(point.law),
-                bands(point),
-            ]
-        })
-    });
-    let parts = [
-        "Rotations about y of one vector, set-up counted, given β and, for exact bands, its cosine and sine. The error is \
-         the largest of any signal of norm one at any angle up to the largest. Each band may be done in its own way."
+    let mut parts = vec![
+        "What the planner chooses (`codegen/src/choose.rs`): the cheapest kernel whose predicted error keeps the budget, a \
+         method for each band. Errors are of a band, over its norm, at any angle up to the largest. *Law* is the method's \
+         own, in closed form, *rounding* what f32 may add, proven; *predicted* is their sum, as a scene's plan has it. \
+         *Measured* is the largest error of the kernel in f32 against the exact rotation, over angles up to the largest \
+         and turns about z, on the signals that the kernel's own matrix errs most on, and others. A test holds it below \
+         what is predicted, and that below the budget; where the law is 0, rounding alone decides."
             .to_owned(),
         "![What an error costs](fronts.svg)".to_owned(),
-        "## The cheapest choice for an error\n\nOperations, and the ways of the bands from 1:".to_owned(),
-        table(&columns, mixed),
-        "With every band in the same way, as the catalogue has them:".to_owned(),
-        table(&columns, whole),
-        "## The fronts\n\nEvery choice that no other beats in both; the law is what the methods' laws predict.".to_owned(),
-        table(&["order", "up to", "operations", "error", "law", "bands"], points),
     ];
+    let columns =
+        ["order", "up to", "budget", "operations", "methods by band", "law", "rounding", "predicted", "measured"];
+    for turn in TURNS {
+        let title = match turn {
+            Turn::Tilt => "From a normal: the tilt of z to it; the exact rotation takes the tilt's quaternion",
+            Turn::Y => "About y, given the angle, or its cosine and sine for the exact rotation",
+            Turn::Zyz => "About z, y and z",
+            Turn::Quaternion => "From a quaternion whose y angle is bounded, set-up counted",
+        };
+        // The budgets that the same kernel keeps stand together, the largest first.
+        let row = |same: &[Plan]| {
+            let (first, last) = (&same[0], &same[same.len() - 1]);
+            let budget = match same.len() {
+                1 => format!("{:e}", first.budget),
+                _ => format!("{:e} to {:e}", first.budget, last.budget),
+            };
+            let errors = [first.choice.law, first.rounding, first.predicted(), first.measured].map(short);
+            let choice = [budget, first.choice.operations.to_string(), bands(&first.choice.spec)];
+            [first.order.to_string(), degrees(first.degrees)].into_iter().chain(choice).chain(errors).collect()
+        };
+        let same = |a: &Plan, b: &Plan| (a.order, a.degrees, &a.choice.spec) == (b.order, b.degrees, &b.choice.spec);
+        let plans: Vec<Plan> = report.plans.iter().filter(|plan| plan.turn == turn).cloned().collect();
+        parts.push(format!("## {title}"));
+        parts.push(table(&columns, plans.chunk_by(same).map(row)));
+    }
+    let points = report.fronts.iter().flat_map(|front| {
+        front.points.iter().map(|point| {
+            let place = [front.order.to_string(), degrees(front.degrees), point.operations.to_string()];
+            place.into_iter().chain([short(point.law), bands(&point.spec)]).collect()
+        })
+    });
+    parts
+        .push("## The fronts\n\nFrom a quaternion: every choice that no other beats in operations and law.".to_owned());
+    parts.push(table(&["order", "up to", "operations", "law", "methods by band"], points));
     file("fronts", "What an error costs", &parts)
 }
 
@@ -447,7 +459,10 @@ fn index(report: &Report) -> File {
     let rows = [
         ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of paper 000"),
         ("[costs](costs.md)", "operations, constants, live values and bytes of every rotation"),
-        ("[fronts](fronts.md)", "the cheapest rotation for an error, by order and largest angle"),
+        (
+            "[fronts](fronts.md)",
+            "the cheapest rotation for an error, by order and largest angle, predicted and measured",
+        ),
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
@@ -507,9 +522,10 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_of_one_way_stand_together() {
-        let choice = |bands: &str| Choice { bands: bands.to_owned(), operations: 1, error: 0.0, law: 0.0 };
-        assert_eq!(bands(&choice("lf3")), "lf3");
-        assert_eq!(bands(&choice("exact+exact+lf3+taylor2+taylor2")), "1–2 exact, 3 lf3, 4–5 taylor2");
+    fn neighbours_of_one_method_stand_together() {
+        assert_eq!(bands("rotate:5"), "exact");
+        assert_eq!(bands("lf3:5"), "lf3");
+        let mixed = "rotate_small:6:exact+exact+lf3+taylor2+taylor2";
+        assert_eq!(bands(mixed), "1–2 exact, 3 lf3, 4–5 taylor2");
     }
 }

@@ -37,6 +37,9 @@
 //!   to [`evaluate`] by that times the band's norm.
 //! * A quaternion of length 1 + e, |e| ≤ 0.1, moves band l of [`rotate`] and [`Rotation`] by 5 l |e| of the band's norm
 //!   at most, and of [`rotate`] at the orders 2 and 3 by 15 l |e|. What glam normalised has e of a few 10⁻⁸.
+//! * A quaternion and its negative are the same rotation: the results differ by rounding alone.
+//! * A quaternion of zeros is no rotation. In `f32` it makes every coefficient from band 1 on NaN in [`Rotation`] and in
+//!   the kernels of [`rotate`] that are z, y, z; those that are products and sums alone leave the signal as it is.
 //! * A NaN in a quaternion makes every coefficient from band 1 on NaN; band 0 passes through, since no rotation changes
 //!   it. A NaN in a direction or a normal makes every coefficient NaN that depends on that component.
 //! * Bands never mix: a NaN or an infinity among the coefficients stays in its band.

@@ -259,6 +259,33 @@ fn nan_goes_where_documented() {
 }
 
 #[test]
+fn negated_and_zero_quaternions_do_as_documented() {
+    let mut random = Random::new(23);
+    for _ in 0..TRIALS {
+        let q = quaternion(&mut random).as_quat();
+        every_order!(N, {
+            let c = narrow(&signal::<N>(&mut random));
+            let ready = |q: Quat| Rotation::<[f32; N]>::new(q).apply(&c);
+            for [one, other] in [[zonal::rotate(q, &c), zonal::rotate(-q, &c)], [ready(q), ready(-q)]] {
+                let error = band_error(&wide(&one), &wide(&other));
+                // Each is within its own rounding, a few units a band.
+                assert!(error <= 16.0 * N.isqrt() as f64 * f64::from(f32::EPSILON), "order {}: {error}", N.isqrt());
+            }
+        });
+    }
+    let none = Quat::from_array([0.0; 4]);
+    every_order!(N, {
+        let c = [1.0_f32; N];
+        let only_band_zero = |got: [f32; N]| got[0] == 1.0 && got[1..].iter().all(|x| x.is_nan());
+        assert!(only_band_zero(Rotation::<[f32; N]>::new(none).apply(&c)), "order {}", N.isqrt());
+        match N.isqrt() {
+            2 | 3 => assert_eq!(zonal::rotate(none, &c), c),
+            order => assert!(only_band_zero(zonal::rotate(none, &c)), "order {order}"),
+        }
+    });
+}
+
+#[test]
 fn bands_do_not_mix() {
     let q = Quat::from_xyzw(0.1, 0.5, -0.3, 0.8).normalize();
     let n = Vec3::new(0.1, -0.2, 0.9).normalize();

@@ -277,15 +277,14 @@ pub fn tables(stability: &Stability) -> File {
 }
 
 /// What every chart over the band has in common.
-fn over_bands(name: &str, title: &str, subtitle: &str, panels: Vec<Panel>, keys: Vec<Key>, legend: f64) -> File {
+fn over_bands(name: &str, title: &str, subtitle: &str, panels: Vec<Panel>, keys: Vec<Key>) -> File {
     let picture_of = Picture {
         title: title.to_owned(),
         subtitle: subtitle.to_owned(),
-        size: [1180.0, 520.0],
+        size: [900.0, 520.0],
         columns: 2,
         panels,
         keys,
-        legend,
     };
     picture(name, &picture_of)
 }
@@ -315,7 +314,7 @@ fn basis_plot(stability: &Stability) -> File {
     let panels = vec![panel("f32", 64.0, (1e-8, 1e-4)), panel("f64", 128.0, (1e-17, 1e-13))];
     let keys = PLACES.iter().zip(colours).map(|(place, colour)| key(place, colour, Stroke::Solid)).collect();
     let subtitle = "The loop form, against polynomials in whole numbers";
-    over_bands("stability_basis", "Error of the basis over the band", subtitle, panels, keys, 180.0)
+    over_bands("stability_basis", "Error of the basis over the band", subtitle, panels, keys)
 }
 
 fn rotation_plot(stability: &Stability) -> File {
@@ -337,7 +336,7 @@ fn rotation_plot(stability: &Stability) -> File {
     let panels = vec![panel("f32", (1e-8, 1e-1)), panel("f64", (1e-17, 1e-10))];
     let keys = Way::ALL.iter().zip(colours).map(|((_, name), colour)| key(name, colour, Stroke::Solid)).collect();
     let subtitle = "The largest of all rotations tried, against products with the exact J";
-    over_bands("stability_rotation", "Error of exact rotations over the band", subtitle, panels, keys, 300.0)
+    over_bands("stability_rotation", "Error of exact rotations over the band", subtitle, panels, keys)
 }
 
 fn chain_plot(stability: &Stability) -> File {
@@ -371,7 +370,7 @@ fn chain_plot(stability: &Stability) -> File {
     let (same, others) = panel(false, &format!("about y by {} degrees each, f32", short(turn_degrees())), (1e-8, 1e4));
     keys.extend(others);
     let subtitle = "How far a norm lies from what it was; what overflows ends";
-    over_bands("stability_chain", "A hundred thousand rotations in a row", subtitle, vec![random, same], keys, 200.0)
+    over_bands("stability_chain", "A hundred thousand rotations in a row", subtitle, vec![random, same], keys)
 }
 
 fn lobes_plot(stability: &Stability) -> File {
@@ -391,11 +390,10 @@ fn lobes_plot(stability: &Stability) -> File {
     let chart = Picture {
         title: "Lobe sets: f32 error against condition".to_owned(),
         subtitle: "A dot is a set that is kept".to_owned(),
-        size: [900.0, 520.0],
+        size: [695.0, 520.0],
         columns: 1,
         panels: vec![panel],
         keys: modes.iter().map(|(_, label, colour)| key(label, *colour, Stroke::Dots)).collect(),
-        legend: 205.0,
     };
     picture("stability_lobes", &chart)
 }
