@@ -3,7 +3,7 @@
 use crate::accuracy::Accuracy;
 use crate::code::{Branch, Code};
 use crate::kernel::Kernel;
-use crate::kernels::{basis, loops, monomial, rotate, tilt, y_rotation, zhf};
+use crate::kernels::{basis, lifted, loops, monomial, rotate, tilt, y_rotation, zhf};
 use crate::listing::Listing;
 use crate::spec::{Family, Form, Method, Spec};
 
@@ -30,6 +30,7 @@ pub fn kernel(spec: &Spec) -> Kernel {
         Family::RotateXPlus90 => rotate::rotate_x_90(order, 1),
         Family::RotateXMinus90 => rotate::rotate_x_90(order, -1),
         Family::Angles => rotate::angles(order),
+        Family::Lifted => lifted::lifted(order),
         Family::EvalMonomial => monomial::eval(order),
         Family::ToMonomial => monomial::from_harmonics(order),
         Family::Tilt(methods) => tilt::tilt(order, methods, false),
@@ -51,6 +52,7 @@ pub fn kernel(spec: &Spec) -> Kernel {
             Method::Matrix => rotate::from_matrix(order),
             Method::Euler => rotate::euler_angles(order),
             Method::Angles => rotate::zyz_from_angles(order),
+            Method::Lifted => lifted::rotate(order),
             Method::Zxzxz => rotate::zxzxz(order),
             Method::Align => rotate::align(order),
             Method::Zonal => rotate::zonal(order),

@@ -39,6 +39,7 @@ fn of_order(order: usize) -> Vec<Spec> {
         Family::Rotate(Method::Zyz),
         Family::Rotate(Method::Euler),
         Family::Rotate(Method::Angles),
+        Family::Rotate(Method::Lifted),
         Family::Rotate(Method::Zxzxz),
         Family::Rotate(Method::Align),
         Family::Rotate(Method::Zonal),
@@ -68,7 +69,7 @@ fn of_order(order: usize) -> Vec<Spec> {
         families.push(Family::RotateSmall(Small::Lf5.from_band_3(order)));
         families.push(Family::RotateAdaptive(Small::Lf3.from_band_3(order)));
     }
-    let mut specs = vec![Spec::new(Family::Basis, order), Spec::new(Family::Angles, order)];
+    let mut specs = [Family::Basis, Family::Angles, Family::Lifted].map(|family| Spec::new(family, order)).to_vec();
     for family in families {
         let spec = Spec::new(family, order);
         specs.push(spec.clone());

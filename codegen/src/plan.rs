@@ -260,12 +260,12 @@ impl<'a> Contest<'a> {
         let cost = built.code.cost(spec.channels());
         let method_error = self.budget.predict(spec);
         let rounding_f32 = built.accuracy.rounding_f32;
-        let limit = spec.max_angle().filter(|limit| degrees.to_radians() > *limit);
-        let refused = match (why, limit) {
+        let beyond = spec.max_angle().is_some_and(|limit| degrees.to_radians() > limit);
+        let refused = match (why, beyond) {
             (Some(why), _) => Some(why.to_owned()),
-            (None, Some(limit)) => Some(format!("takes up to {} degrees only", limit.to_degrees().round())),
-            (None, None) if method_error + rounding_f32 <= max_error => None,
-            (None, None) => Some(format!("errs by more than {max_error}")),
+            (None, true) => Some(format!("takes up to {} degrees only", spec.max_degrees().unwrap_or_default())),
+            (None, false) if method_error + rounding_f32 <= max_error => None,
+            (None, false) => Some(format!("errs by more than {max_error}")),
         };
         let takes = built.code.params().iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name);
         let rival = Rival {
@@ -302,7 +302,7 @@ impl<'a> Contest<'a> {
 
     /// Mixtures of methods by band that leave room for the rounding of those that were entered.
     fn mixtures(&self) -> Vec<Spec> {
-        let approximate = self.entries.iter().filter(|(function, _)| function.spec.max_angle().is_some());
+        let approximate = self.entries.iter().filter(|(function, _)| function.spec.is_approximate());
         let rounding = approximate.map(|(_, rival)| rival.rounding_f32).fold(0.0, f64::max);
         let budget = Budget { error: self.budget.error - rounding, ..self.budget.clone() };
         let mut specs = choose::mixtures(self.rotation.kind, self.order, &budget);
@@ -367,13 +367,13 @@ impl<'a> Contest<'a> {
 
 /// Refuses a named method that cannot take the scene's angle.
 fn check_angle(wanted: &Wanted, spec: &Spec) -> Result<(), Diagnostic> {
-    let (Some(angle), Some(limit)) = (&wanted.max_angle, spec.max_angle()) else {
+    let (Some(angle), Some(limit), Some(degrees)) = (&wanted.max_angle, spec.max_angle(), spec.max_degrees()) else {
         return Ok(());
     };
     if angle.value.to_radians() <= limit {
         return Ok(());
     }
-    let message = format!("`{spec}` takes angles up to {} degrees, not {}", limit.to_degrees().round(), angle.value);
+    let message = format!("`{spec}` takes angles up to {degrees} degrees, not {}", angle.value);
     let exact = match spec.family {
         Family::SmallY(_) => "rotate_y",
         _ => "rotate",

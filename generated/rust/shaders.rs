@@ -31,6 +31,14 @@ pub const SH2_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh2/angles.glsl"),
 };
 
+/// `lifted:2`.
+pub const SH2_LIFTED: Shader = Shader {
+    spec: "lifted:2",
+    name: "sh2_lifted",
+    wgsl: include_str!("../wgsl/sh2/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh2/lifted.glsl"),
+};
+
 /// `eval:2`.
 pub const SH2_EVAL: Shader = Shader {
     spec: "eval:2",
@@ -173,6 +181,22 @@ pub const SH2_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh2_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh2/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh2/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:2:lifted`.
+pub const SH2_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:2:lifted",
+    name: "sh2_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh2/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_lifted.glsl"),
+};
+
+/// `rotate:2:lifted:rgb`.
+pub const SH2_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:2:lifted:rgb",
+    name: "sh2_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:2:zxzxz`.
@@ -583,6 +607,14 @@ pub const SH3_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh3/angles.glsl"),
 };
 
+/// `lifted:3`.
+pub const SH3_LIFTED: Shader = Shader {
+    spec: "lifted:3",
+    name: "sh3_lifted",
+    wgsl: include_str!("../wgsl/sh3/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/lifted.glsl"),
+};
+
 /// `eval:3`.
 pub const SH3_EVAL: Shader = Shader {
     spec: "eval:3",
@@ -725,6 +757,22 @@ pub const SH3_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh3_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh3/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh3/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:3:lifted`.
+pub const SH3_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:3:lifted",
+    name: "sh3_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
+};
+
+/// `rotate:3:lifted:rgb`.
+pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:3:lifted:rgb",
+    name: "sh3_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:3:zxzxz`.
@@ -1135,6 +1183,14 @@ pub const SH4_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh4/angles.glsl"),
 };
 
+/// `lifted:4`.
+pub const SH4_LIFTED: Shader = Shader {
+    spec: "lifted:4",
+    name: "sh4_lifted",
+    wgsl: include_str!("../wgsl/sh4/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/lifted.glsl"),
+};
+
 /// `eval:4`.
 pub const SH4_EVAL: Shader = Shader {
     spec: "eval:4",
@@ -1277,6 +1333,22 @@ pub const SH4_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh4_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh4/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh4/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:4:lifted`.
+pub const SH4_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:4:lifted",
+    name: "sh4_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
+};
+
+/// `rotate:4:lifted:rgb`.
+pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:4:lifted:rgb",
+    name: "sh4_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:4:zxzxz`.
@@ -1767,6 +1839,14 @@ pub const SH5_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh5/angles.glsl"),
 };
 
+/// `lifted:5`.
+pub const SH5_LIFTED: Shader = Shader {
+    spec: "lifted:5",
+    name: "sh5_lifted",
+    wgsl: include_str!("../wgsl/sh5/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/lifted.glsl"),
+};
+
 /// `eval:5`.
 pub const SH5_EVAL: Shader = Shader {
     spec: "eval:5",
@@ -1909,6 +1989,22 @@ pub const SH5_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh5_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh5/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh5/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:5:lifted`.
+pub const SH5_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:5:lifted",
+    name: "sh5_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
+};
+
+/// `rotate:5:lifted:rgb`.
+pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:5:lifted:rgb",
+    name: "sh5_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:5:zxzxz`.
@@ -2423,6 +2519,14 @@ pub const SH6_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh6/angles.glsl"),
 };
 
+/// `lifted:6`.
+pub const SH6_LIFTED: Shader = Shader {
+    spec: "lifted:6",
+    name: "sh6_lifted",
+    wgsl: include_str!("../wgsl/sh6/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/lifted.glsl"),
+};
+
 /// `eval:6`.
 pub const SH6_EVAL: Shader = Shader {
     spec: "eval:6",
@@ -2565,6 +2669,22 @@ pub const SH6_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh6_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh6/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh6/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:6:lifted`.
+pub const SH6_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:6:lifted",
+    name: "sh6_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
+};
+
+/// `rotate:6:lifted:rgb`.
+pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:6:lifted:rgb",
+    name: "sh6_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:6:zxzxz`.
@@ -3055,6 +3175,14 @@ pub const SH7_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh7/angles.glsl"),
 };
 
+/// `lifted:7`.
+pub const SH7_LIFTED: Shader = Shader {
+    spec: "lifted:7",
+    name: "sh7_lifted",
+    wgsl: include_str!("../wgsl/sh7/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/lifted.glsl"),
+};
+
 /// `eval:7`.
 pub const SH7_EVAL: Shader = Shader {
     spec: "eval:7",
@@ -3197,6 +3325,22 @@ pub const SH7_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh7_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh7/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh7/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:7:lifted`.
+pub const SH7_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:7:lifted",
+    name: "sh7_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
+};
+
+/// `rotate:7:lifted:rgb`.
+pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:7:lifted:rgb",
+    name: "sh7_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:7:zxzxz`.
@@ -3687,6 +3831,14 @@ pub const SH8_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh8/angles.glsl"),
 };
 
+/// `lifted:8`.
+pub const SH8_LIFTED: Shader = Shader {
+    spec: "lifted:8",
+    name: "sh8_lifted",
+    wgsl: include_str!("../wgsl/sh8/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/lifted.glsl"),
+};
+
 /// `eval:8`.
 pub const SH8_EVAL: Shader = Shader {
     spec: "eval:8",
@@ -3829,6 +3981,22 @@ pub const SH8_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh8_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh8/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh8/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:8:lifted`.
+pub const SH8_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:8:lifted",
+    name: "sh8_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
+};
+
+/// `rotate:8:lifted:rgb`.
+pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:8:lifted:rgb",
+    name: "sh8_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:8:zxzxz`.
@@ -4319,6 +4487,14 @@ pub const SH9_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh9/angles.glsl"),
 };
 
+/// `lifted:9`.
+pub const SH9_LIFTED: Shader = Shader {
+    spec: "lifted:9",
+    name: "sh9_lifted",
+    wgsl: include_str!("../wgsl/sh9/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/lifted.glsl"),
+};
+
 /// `eval:9`.
 pub const SH9_EVAL: Shader = Shader {
     spec: "eval:9",
@@ -4461,6 +4637,22 @@ pub const SH9_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh9_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh9/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh9/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:9:lifted`.
+pub const SH9_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:9:lifted",
+    name: "sh9_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
+};
+
+/// `rotate:9:lifted:rgb`.
+pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:9:lifted:rgb",
+    name: "sh9_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:9:zxzxz`.
@@ -4951,6 +5143,14 @@ pub const SH10_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh10/angles.glsl"),
 };
 
+/// `lifted:10`.
+pub const SH10_LIFTED: Shader = Shader {
+    spec: "lifted:10",
+    name: "sh10_lifted",
+    wgsl: include_str!("../wgsl/sh10/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/lifted.glsl"),
+};
+
 /// `eval:10`.
 pub const SH10_EVAL: Shader = Shader {
     spec: "eval:10",
@@ -5093,6 +5293,22 @@ pub const SH10_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh10_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh10/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh10/rotate_angles_rgb.glsl"),
+};
+
+/// `rotate:10:lifted`.
+pub const SH10_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:10:lifted",
+    name: "sh10_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
+};
+
+/// `rotate:10:lifted:rgb`.
+pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:10:lifted:rgb",
+    name: "sh10_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:10:zxzxz`.
@@ -5571,6 +5787,7 @@ pub const SH10_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
 pub const ALL: &[Shader] = &[
     SH2_BASIS,
     SH2_ANGLES,
+    SH2_LIFTED,
     SH2_EVAL,
     SH2_EVAL_RGB,
     SH2_ROTATE_Z,
@@ -5589,6 +5806,8 @@ pub const ALL: &[Shader] = &[
     SH2_ROTATE_EULER_RGB,
     SH2_ROTATE_ANGLES,
     SH2_ROTATE_ANGLES_RGB,
+    SH2_ROTATE_LIFTED,
+    SH2_ROTATE_LIFTED_RGB,
     SH2_ROTATE_ZXZXZ,
     SH2_ROTATE_ZXZXZ_RGB,
     SH2_ROTATE_ALIGN,
@@ -5640,6 +5859,7 @@ pub const ALL: &[Shader] = &[
     SH2_TAYLOR15_Y_RGB_LOOP,
     SH3_BASIS,
     SH3_ANGLES,
+    SH3_LIFTED,
     SH3_EVAL,
     SH3_EVAL_RGB,
     SH3_ROTATE_Z,
@@ -5658,6 +5878,8 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_EULER_RGB,
     SH3_ROTATE_ANGLES,
     SH3_ROTATE_ANGLES_RGB,
+    SH3_ROTATE_LIFTED,
+    SH3_ROTATE_LIFTED_RGB,
     SH3_ROTATE_ZXZXZ,
     SH3_ROTATE_ZXZXZ_RGB,
     SH3_ROTATE_ALIGN,
@@ -5709,6 +5931,7 @@ pub const ALL: &[Shader] = &[
     SH3_TAYLOR15_Y_RGB_LOOP,
     SH4_BASIS,
     SH4_ANGLES,
+    SH4_LIFTED,
     SH4_EVAL,
     SH4_EVAL_RGB,
     SH4_ROTATE_Z,
@@ -5727,6 +5950,8 @@ pub const ALL: &[Shader] = &[
     SH4_ROTATE_EULER_RGB,
     SH4_ROTATE_ANGLES,
     SH4_ROTATE_ANGLES_RGB,
+    SH4_ROTATE_LIFTED,
+    SH4_ROTATE_LIFTED_RGB,
     SH4_ROTATE_ZXZXZ,
     SH4_ROTATE_ZXZXZ_RGB,
     SH4_ROTATE_ALIGN,
@@ -5788,6 +6013,7 @@ pub const ALL: &[Shader] = &[
     SH4_TAYLOR15_Y_RGB_LOOP,
     SH5_BASIS,
     SH5_ANGLES,
+    SH5_LIFTED,
     SH5_EVAL,
     SH5_EVAL_RGB,
     SH5_ROTATE_Z,
@@ -5806,6 +6032,8 @@ pub const ALL: &[Shader] = &[
     SH5_ROTATE_EULER_RGB,
     SH5_ROTATE_ANGLES,
     SH5_ROTATE_ANGLES_RGB,
+    SH5_ROTATE_LIFTED,
+    SH5_ROTATE_LIFTED_RGB,
     SH5_ROTATE_ZXZXZ,
     SH5_ROTATE_ZXZXZ_RGB,
     SH5_ROTATE_ALIGN,
@@ -5870,6 +6098,7 @@ pub const ALL: &[Shader] = &[
     SH5_TAYLOR15_Y_RGB_LOOP,
     SH6_BASIS,
     SH6_ANGLES,
+    SH6_LIFTED,
     SH6_EVAL,
     SH6_EVAL_RGB,
     SH6_ROTATE_Z,
@@ -5888,6 +6117,8 @@ pub const ALL: &[Shader] = &[
     SH6_ROTATE_EULER_RGB,
     SH6_ROTATE_ANGLES,
     SH6_ROTATE_ANGLES_RGB,
+    SH6_ROTATE_LIFTED,
+    SH6_ROTATE_LIFTED_RGB,
     SH6_ROTATE_ZXZXZ,
     SH6_ROTATE_ZXZXZ_RGB,
     SH6_ROTATE_ALIGN,
@@ -5949,6 +6180,7 @@ pub const ALL: &[Shader] = &[
     SH6_TAYLOR15_Y_RGB_LOOP,
     SH7_BASIS,
     SH7_ANGLES,
+    SH7_LIFTED,
     SH7_EVAL,
     SH7_EVAL_RGB,
     SH7_ROTATE_Z,
@@ -5967,6 +6199,8 @@ pub const ALL: &[Shader] = &[
     SH7_ROTATE_EULER_RGB,
     SH7_ROTATE_ANGLES,
     SH7_ROTATE_ANGLES_RGB,
+    SH7_ROTATE_LIFTED,
+    SH7_ROTATE_LIFTED_RGB,
     SH7_ROTATE_ZXZXZ,
     SH7_ROTATE_ZXZXZ_RGB,
     SH7_ROTATE_ALIGN,
@@ -6028,6 +6262,7 @@ pub const ALL: &[Shader] = &[
     SH7_TAYLOR15_Y_RGB_LOOP,
     SH8_BASIS,
     SH8_ANGLES,
+    SH8_LIFTED,
     SH8_EVAL,
     SH8_EVAL_RGB,
     SH8_ROTATE_Z,
@@ -6046,6 +6281,8 @@ pub const ALL: &[Shader] = &[
     SH8_ROTATE_EULER_RGB,
     SH8_ROTATE_ANGLES,
     SH8_ROTATE_ANGLES_RGB,
+    SH8_ROTATE_LIFTED,
+    SH8_ROTATE_LIFTED_RGB,
     SH8_ROTATE_ZXZXZ,
     SH8_ROTATE_ZXZXZ_RGB,
     SH8_ROTATE_ALIGN,
@@ -6107,6 +6344,7 @@ pub const ALL: &[Shader] = &[
     SH8_TAYLOR15_Y_RGB_LOOP,
     SH9_BASIS,
     SH9_ANGLES,
+    SH9_LIFTED,
     SH9_EVAL,
     SH9_EVAL_RGB,
     SH9_ROTATE_Z,
@@ -6125,6 +6363,8 @@ pub const ALL: &[Shader] = &[
     SH9_ROTATE_EULER_RGB,
     SH9_ROTATE_ANGLES,
     SH9_ROTATE_ANGLES_RGB,
+    SH9_ROTATE_LIFTED,
+    SH9_ROTATE_LIFTED_RGB,
     SH9_ROTATE_ZXZXZ,
     SH9_ROTATE_ZXZXZ_RGB,
     SH9_ROTATE_ALIGN,
@@ -6186,6 +6426,7 @@ pub const ALL: &[Shader] = &[
     SH9_TAYLOR15_Y_RGB_LOOP,
     SH10_BASIS,
     SH10_ANGLES,
+    SH10_LIFTED,
     SH10_EVAL,
     SH10_EVAL_RGB,
     SH10_ROTATE_Z,
@@ -6204,6 +6445,8 @@ pub const ALL: &[Shader] = &[
     SH10_ROTATE_EULER_RGB,
     SH10_ROTATE_ANGLES,
     SH10_ROTATE_ANGLES_RGB,
+    SH10_ROTATE_LIFTED,
+    SH10_ROTATE_LIFTED_RGB,
     SH10_ROTATE_ZXZXZ,
     SH10_ROTATE_ZXZXZ_RGB,
     SH10_ROTATE_ALIGN,

@@ -165,9 +165,7 @@ impl Phases {
                 sums.entry([pair.first, pair.second]).or_default().push(place);
             }
             if let Op::Mul(a, b) = step.op {
-                let two =
-                    |operand| matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0);
-                let doubled = if two(a) { product(listing, b) } else { None };
+                let doubled = if is_two(listing, a) { product(listing, b) } else { None };
                 doubled.into_iter().for_each(|product| {
                     doubles.insert(sorted(product), place);
                 });
@@ -249,6 +247,18 @@ pub fn given(param: usize, pair: usize, circle: usize, multiple: usize) -> Phase
     Phase { cos: part(0), sin: part(1), circle, multiple, defect: INPUT, error: [0.0; 2] }
 }
 
+fn is_two(listing: &Listing, operand: Operand) -> bool {
+    matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0)
+}
+
+/// What a value is two times, if it is made so.
+pub fn doubled(listing: &Listing, value: Operand) -> Option<Operand> {
+    match step(listing, value)? {
+        Op::Mul(k, x) if is_two(listing, k) => Some(x),
+        _ => None,
+    }
+}
+
 fn steps(listing: &Listing) -> impl Iterator<Item = (Operand, Op)> + '_ {
     listing.steps.iter().enumerate().map(|(place, step)| (Operand::Step(place), step.op))
 }
@@ -300,8 +310,7 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
     }
     let [_, _] = phases[..] else { return None };
     let root = find_product(listing, ab, r)?;
-    let two = |operand| matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0);
-    let sin = find(listing, |op| matches!(op, Op::Mul(k, x) if two(k) && x == root))?;
+    let sin = find(listing, |op| matches!(op, Op::Mul(k, x) if is_two(listing, k) && x == root))?;
     let cos = find(listing, |op| op == Op::Sub(a, b))?;
     let part = |value| boxes::error(listing, &pairs, &[value]);
     let polar = boxes::polar(part(a)?, part(b)?, part(sin)?.map(|error| error / 2.0));

@@ -110,7 +110,7 @@ macro_rules! order {
     ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
         functions! {
             $scalar, $table, $module,
-            value: basis, angles, basis_loop;
+            value: basis, angles, lifted, basis_loop;
             signal: swap_yz / swap_yz_rgb, rotate_x_plus_90deg / rotate_x_plus_90deg_rgb,
                 rotate_x_minus_90deg / rotate_x_minus_90deg_rgb, zhf_weights / zhf_weights_rgb,
                 zhf_tailored / zhf_tailored_rgb, to_monomial / to_monomial_rgb;
@@ -119,7 +119,8 @@ macro_rules! order {
                 tilt / tilt_rgb, taylor1_y / taylor1_y_rgb, taylor15_y / taylor15_y_rgb, taylor2_y / taylor2_y_rgb,
                 lf3_y / lf3_y_rgb, lf5_y / lf5_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop,
                 eval_monomial / eval_monomial_rgb, rotate_small / rotate_small_rgb;
-            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb;
+            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb,
+                rotate_lifted / rotate_lifted_rgb, zhf / zhf_rgb;
             list_value_signal: taylor1_zyz / taylor1_zyz_rgb, taylor15_zyz / taylor15_zyz_rgb,
                 taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb, lf5_zyz / lf5_zyz_rgb;
             $($more)*
