@@ -145,10 +145,9 @@ impl<'a> Prover<'a> {
     fn new(spec: &'a Spec, listing: &'a Listing) -> Option<Self> {
         let mut others = HashMap::new();
         let roots = match &spec.family {
-            Family::Angles
-            | Family::Lifted
-            | Family::RotateSmall(_)
-            | Family::Rotate(Method::Zyz | Method::Zxzxz) => phases::of_quaternion(listing)?,
+            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
+                phases::of_quaternion(listing)?
+            }
             Family::Rotate(Method::Align) => phases::of_normal(listing)?,
             Family::Rotate(Method::Angles | Method::Lifted) => {
                 let given = Given::new(spec);
@@ -165,8 +164,12 @@ impl<'a> Prover<'a> {
         };
         if let (Family::Lifted, Some(polar)) = (&spec.family, roots.get(phases::POLAR)) {
             // Constant factors take in the two of sin β = 2 √(AB).
-            let half = Start { root: Root::HalfSine, spread: polar.defect, error: polar.error.map(|error| error / 2.0) };
+            let half =
+                Start { root: Root::HalfSine, spread: polar.defect, error: polar.error.map(|error| error / 2.0) };
             others.extend(phases::doubled(listing, polar.sin).map(|root| (root, (half, phases::POLAR))));
+            let (operand, error) = phases::half_tangent(listing)?;
+            let error = error.map(|error| error * (spec.max_angle().unwrap_or_default() / 2.0).tan() * SLACK);
+            others.insert(operand, (Start { root: Root::HalfTangent, spread: polar.defect, error }, phases::POLAR));
         }
         Some(Self { spec, listing, phases: Phases::new(listing, roots), others, roundoff: U })
     }
@@ -370,10 +373,7 @@ impl<'a> Prover<'a> {
         let part = self.part(&inputs, &outputs, &stages)?;
         let nudge = matches!(
             self.spec.family,
-            Family::Angles
-                | Family::Lifted
-                | Family::RotateSmall(_)
-                | Family::Rotate(Method::Zyz | Method::Zxzxz)
+            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz)
         );
         Some(part.error.map(|error| error * SLACK + if nudge { l as f64 * NUDGE } else { 0.0 }))
     }
@@ -489,7 +489,10 @@ impl Given {
         let (angles, circle, roots) = match spec.family {
             Family::Angles | Family::Rotate(Method::Angles) => (3, 1, vec![Root::HalfSquare, Root::Product]),
             _ => {
-                let band = |l: usize| (0..lifted::couplings(l).len()).flat_map(move |at| [false, true].map(|inner| Root::Shear { l, at, inner }));
+                let band = |l: usize| {
+                    (0..lifted::couplings(l).len())
+                        .flat_map(move |at| [false, true].map(|inner| Root::Shear { l, at, inner }))
+                };
                 (2, phases::POLAR, (1..spec.order).flat_map(band).collect())
             }
         };

@@ -180,7 +180,7 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
     Ok((spec, true))
 }
 
-/// What turns many signals by one quaternion: the set-ups that are done once, each with the rotation that takes what it
+/// What turns several signals, or channels, by one quaternion: the set-ups that are done once, each with the rotation that takes what it
 /// makes.
 const SHARED: [(Family, Family); 2] =
     [(Family::Angles, Family::Rotate(Method::Angles)), (Family::Lifted, Family::Rotate(Method::Lifted))];
@@ -263,8 +263,8 @@ impl<'a> Contest<'a> {
         for (function, why) in catalog::build(&specs).into_iter().zip(why) {
             contest.enter(function, None, why);
         }
-        if rotation.kind == Turn::Quaternion && rotation.signals > 1 {
-            for (set_up, family) in SHARED {
+        if rotation.kind == Turn::Quaternion && (rotation.rgb || rotation.signals > 1) {
+            for (set_up, family) in SHARED.into_iter().filter(|(set_up, _)| order > 2 || *set_up != Family::Lifted) {
                 let specs = [Spec::new(set_up, order), Spec { rgb: rotation.rgb, ..Spec::new(family, order) }];
                 if let [set_up, function] = &catalog::build(&specs)[..] {
                     contest.enter(function.clone(), Some(set_up.clone()), None);
@@ -323,9 +323,8 @@ impl<'a> Contest<'a> {
             return;
         }
         let halves = self.entries.iter().filter(|entry| entry.set_up.is_none() && entry.function.spec.takes_half());
-        let (specs, why): (Vec<Spec>, Vec<_>) = halves
-            .map(|entry| (Spec { half: true, ..entry.function.spec.clone() }, entry.rival.barred))
-            .unzip();
+        let (specs, why): (Vec<Spec>, Vec<_>) =
+            halves.map(|entry| (Spec { half: true, ..entry.function.spec.clone() }, entry.rival.barred)).unzip();
         if precision == Precision::F16 {
             self.entries.clear();
         }
@@ -566,7 +565,7 @@ impl Plan {
             if let Some(set_up) = set_up {
                 let chosen = Chosen {
                     row: Row::of(&set_up),
-                    reason: format!("what `{}` takes, once for {} signals", function.spec, rotation.signals),
+                    reason: format!("what `{}` takes, once for all that turns alike", function.spec),
                     rivals: vec![],
                     ..chosen.clone()
                 };

@@ -18,8 +18,10 @@ pub const MAX_LOOP_ORDER: usize = 64;
 /// The largest angle in degrees that an approximate rotation is meant for: paper 000's "up to 25 degrees".
 pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
 
-/// The largest (n − 1) β in degrees that a lifted rotation takes: there the tangents of its shears reach one.
-pub const LIFTED_DEGREES: f64 = 90.0;
+/// The largest (n − 1) β in degrees that a lifted rotation takes: there the tangents of its shears reach √3, and f32 errs
+/// by some one and a half times what the rotation by planes does; beyond, the error grows with them, to infinity at 180
+/// degrees.
+pub const LIFTED_DEGREES: f64 = 120.0;
 
 /// How a rotation is done.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -613,6 +615,12 @@ impl Spec {
             return Err(whole.error(
                 format!("this method has orders 2 and 3 only, not {order}"),
                 "from order 4 on `zyz` is the cheapest exact rotation: leave the method out",
+            ));
+        }
+        if matches!(&self.family, Family::Lifted | Family::Rotate(Method::Lifted)) && order < 3 {
+            return Err(whole.error(
+                format!("a lifted rotation has orders from 3 on, not {order}"),
+                "at order 2 the matrix of a rotation costs least: take `rotate:2:matrix`",
             ));
         }
         if let Family::Tilt(methods) | Family::TiltPrescaled(methods) = &self.family

@@ -53,37 +53,6 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 4] {
     ]
 }
 
-/// `lifted:2`: The multiples of the two z angles of a rotation and the shears of its y rotation that
-/// `rotate:2:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 20 (10 mul, 4 add, 6 fma) and 2 inverse square roots or reciprocals; 2 constants, 11
-///     live values.
-/// Error: f32 rounding at most 3.6e-6 of the norm of a band, for an angle up to 90 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
-#[allow(clippy::all, clippy::excessive_precision)]
-#[inline(always)]
-pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 3] {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    let t9 = q[0] * t6;
-    let t10 = T::lit(2.0) * (t4 * t5);
-    [
-        [t0.fma(t6, t8), t0.fms(t7, t9)],
-        [t0.fms(t6, t8), t0.fma(t7, t9)],
-        [t10 * T::recip(t2 - t3 + T::lit(1.0)), t10],
-    ]
-}
-
 /// `eval:2`: The sum of c_i y_i(dir) over the harmonics of order 2, without storing the basis.
 /// dir: the direction, of unit length.
 /// c: the coefficients of the bands, ascending.
@@ -320,37 +289,6 @@ pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 4], c: &[V; 4]) -> [V;
 #[inline(always)]
 pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
     rotate_angles::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
-}
-
-/// `rotate:2:lifted`: Rotates order 2 exactly, by z, y, z with the y rotation as shears, from what
-/// `lifted:2` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 11 (4 mul, 0 add, 7 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 7.7e-7 of the norm of a band, for an angle up to 90 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-#[allow(clippy::all, clippy::excessive_precision)]
-#[inline(always)]
-pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 4]) -> [V; 4] {
-    let t0 = c[1].fma(cs[1][0], c[3] * cs[1][1]);
-    let t1 = c[3].fms(cs[1][0], c[1] * cs[1][1]);
-    let t2 = t1.fma(cs[2][0], c[2]);
-    let t3 = t2.fnma(cs[2][1], t1);
-    [
-        c[0],
-        t0.fma(cs[0][0], t3 * cs[0][1]),
-        t3.fma(cs[2][0], t2),
-        t3.fms(cs[0][0], t0 * cs[0][1]),
-    ]
-}
-
-/// [`rotate_lifted`] of three channels that share the parameters, as plain arrays.
-#[inline(always)]
-pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
-    rotate_lifted::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `rotate:2:zxzxz`: Rotates order 2 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.

@@ -31,14 +31,6 @@ pub const SH2_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh2/angles.glsl"),
 };
 
-/// `lifted:2`.
-pub const SH2_LIFTED: Shader = Shader {
-    spec: "lifted:2",
-    name: "sh2_lifted",
-    wgsl: include_str!("../wgsl/sh2/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh2/lifted.glsl"),
-};
-
 /// `eval:2`.
 pub const SH2_EVAL: Shader = Shader {
     spec: "eval:2",
@@ -181,22 +173,6 @@ pub const SH2_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh2_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh2/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh2/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:2:lifted`.
-pub const SH2_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:2:lifted",
-    name: "sh2_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh2/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_lifted.glsl"),
-};
-
-/// `rotate:2:lifted:rgb`.
-pub const SH2_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:2:lifted:rgb",
-    name: "sh2_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:2:zxzxz`.
@@ -759,22 +735,6 @@ pub const SH3_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh3/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:3:lifted`.
-pub const SH3_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:3:lifted",
-    name: "sh3_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
-};
-
-/// `rotate:3:lifted:rgb`.
-pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:3:lifted:rgb",
-    name: "sh3_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:3:zxzxz`.
 pub const SH3_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:3:zxzxz",
@@ -1127,6 +1087,22 @@ pub const SH3_ROTATE_MATRIX_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh3/rotate_matrix_rgb.glsl"),
 };
 
+/// `rotate:3:lifted`.
+pub const SH3_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:3:lifted",
+    name: "sh3_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
+};
+
+/// `rotate:3:lifted:rgb`.
+pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:3:lifted:rgb",
+    name: "sh3_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
+};
+
 /// `basis:3:loop`.
 pub const SH3_BASIS_LOOP: Shader = Shader {
     spec: "basis:3:loop",
@@ -1333,22 +1309,6 @@ pub const SH4_ROTATE_ANGLES_RGB: Shader = Shader {
     name: "sh4_rotate_angles_rgb",
     wgsl: include_str!("../wgsl/sh4/rotate_angles_rgb.wgsl"),
     glsl: include_str!("../glsl/sh4/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:4:lifted`.
-pub const SH4_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:4:lifted",
-    name: "sh4_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
-};
-
-/// `rotate:4:lifted:rgb`.
-pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:4:lifted:rgb",
-    name: "sh4_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
 };
 
 /// `rotate:4:zxzxz`.
@@ -1671,6 +1631,22 @@ pub const SH4_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh4/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:4:lifted`.
+pub const SH4_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:4:lifted",
+    name: "sh4_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
+};
+
+/// `rotate:4:lifted:rgb`.
+pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:4:lifted:rgb",
+    name: "sh4_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:4`.
 pub const SH4_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:4",
@@ -1991,22 +1967,6 @@ pub const SH5_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh5/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:5:lifted`.
-pub const SH5_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:5:lifted",
-    name: "sh5_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
-};
-
-/// `rotate:5:lifted:rgb`.
-pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:5:lifted:rgb",
-    name: "sh5_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:5:zxzxz`.
 pub const SH5_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:5:zxzxz",
@@ -2325,6 +2285,22 @@ pub const SH5_LF5_ZYZ_RGB: Shader = Shader {
     name: "sh5_lf5_zyz_rgb",
     wgsl: include_str!("../wgsl/sh5/lf5_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh5/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate:5:lifted`.
+pub const SH5_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:5:lifted",
+    name: "sh5_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
+};
+
+/// `rotate:5:lifted:rgb`.
+pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:5:lifted:rgb",
+    name: "sh5_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
 };
 
 /// `tilt_scale:5`.
@@ -2671,22 +2647,6 @@ pub const SH6_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh6/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:6:lifted`.
-pub const SH6_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:6:lifted",
-    name: "sh6_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
-};
-
-/// `rotate:6:lifted:rgb`.
-pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:6:lifted:rgb",
-    name: "sh6_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:6:zxzxz`.
 pub const SH6_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:6:zxzxz",
@@ -3005,6 +2965,22 @@ pub const SH6_LF5_ZYZ_RGB: Shader = Shader {
     name: "sh6_lf5_zyz_rgb",
     wgsl: include_str!("../wgsl/sh6/lf5_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh6/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate:6:lifted`.
+pub const SH6_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:6:lifted",
+    name: "sh6_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
+};
+
+/// `rotate:6:lifted:rgb`.
+pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:6:lifted:rgb",
+    name: "sh6_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
 };
 
 /// `tilt_scale:6`.
@@ -3327,22 +3303,6 @@ pub const SH7_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh7/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:7:lifted`.
-pub const SH7_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:7:lifted",
-    name: "sh7_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
-};
-
-/// `rotate:7:lifted:rgb`.
-pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:7:lifted:rgb",
-    name: "sh7_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:7:zxzxz`.
 pub const SH7_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:7:zxzxz",
@@ -3661,6 +3621,22 @@ pub const SH7_LF5_ZYZ_RGB: Shader = Shader {
     name: "sh7_lf5_zyz_rgb",
     wgsl: include_str!("../wgsl/sh7/lf5_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh7/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate:7:lifted`.
+pub const SH7_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:7:lifted",
+    name: "sh7_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
+};
+
+/// `rotate:7:lifted:rgb`.
+pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:7:lifted:rgb",
+    name: "sh7_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
 };
 
 /// `tilt_scale:7`.
@@ -3983,22 +3959,6 @@ pub const SH8_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh8/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:8:lifted`.
-pub const SH8_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:8:lifted",
-    name: "sh8_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
-};
-
-/// `rotate:8:lifted:rgb`.
-pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:8:lifted:rgb",
-    name: "sh8_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:8:zxzxz`.
 pub const SH8_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:8:zxzxz",
@@ -4317,6 +4277,22 @@ pub const SH8_LF5_ZYZ_RGB: Shader = Shader {
     name: "sh8_lf5_zyz_rgb",
     wgsl: include_str!("../wgsl/sh8/lf5_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh8/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate:8:lifted`.
+pub const SH8_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:8:lifted",
+    name: "sh8_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
+};
+
+/// `rotate:8:lifted:rgb`.
+pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:8:lifted:rgb",
+    name: "sh8_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
 };
 
 /// `tilt_scale:8`.
@@ -4639,22 +4615,6 @@ pub const SH9_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh9/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:9:lifted`.
-pub const SH9_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:9:lifted",
-    name: "sh9_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
-};
-
-/// `rotate:9:lifted:rgb`.
-pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:9:lifted:rgb",
-    name: "sh9_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:9:zxzxz`.
 pub const SH9_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:9:zxzxz",
@@ -4973,6 +4933,22 @@ pub const SH9_LF5_ZYZ_RGB: Shader = Shader {
     name: "sh9_lf5_zyz_rgb",
     wgsl: include_str!("../wgsl/sh9/lf5_zyz_rgb.wgsl"),
     glsl: include_str!("../glsl/sh9/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate:9:lifted`.
+pub const SH9_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:9:lifted",
+    name: "sh9_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
+};
+
+/// `rotate:9:lifted:rgb`.
+pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:9:lifted:rgb",
+    name: "sh9_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
 };
 
 /// `tilt_scale:9`.
@@ -5295,22 +5271,6 @@ pub const SH10_ROTATE_ANGLES_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/rotate_angles_rgb.glsl"),
 };
 
-/// `rotate:10:lifted`.
-pub const SH10_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:10:lifted",
-    name: "sh10_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
-};
-
-/// `rotate:10:lifted:rgb`.
-pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:10:lifted:rgb",
-    name: "sh10_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
-};
-
 /// `rotate:10:zxzxz`.
 pub const SH10_ROTATE_ZXZXZ: Shader = Shader {
     spec: "rotate:10:zxzxz",
@@ -5631,6 +5591,22 @@ pub const SH10_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:10:lifted`.
+pub const SH10_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:10:lifted",
+    name: "sh10_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
+};
+
+/// `rotate:10:lifted:rgb`.
+pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:10:lifted:rgb",
+    name: "sh10_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:10`.
 pub const SH10_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:10",
@@ -5787,7 +5763,6 @@ pub const SH10_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
 pub const ALL: &[Shader] = &[
     SH2_BASIS,
     SH2_ANGLES,
-    SH2_LIFTED,
     SH2_EVAL,
     SH2_EVAL_RGB,
     SH2_ROTATE_Z,
@@ -5806,8 +5781,6 @@ pub const ALL: &[Shader] = &[
     SH2_ROTATE_EULER_RGB,
     SH2_ROTATE_ANGLES,
     SH2_ROTATE_ANGLES_RGB,
-    SH2_ROTATE_LIFTED,
-    SH2_ROTATE_LIFTED_RGB,
     SH2_ROTATE_ZXZXZ,
     SH2_ROTATE_ZXZXZ_RGB,
     SH2_ROTATE_ALIGN,
@@ -5878,8 +5851,6 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_EULER_RGB,
     SH3_ROTATE_ANGLES,
     SH3_ROTATE_ANGLES_RGB,
-    SH3_ROTATE_LIFTED,
-    SH3_ROTATE_LIFTED_RGB,
     SH3_ROTATE_ZXZXZ,
     SH3_ROTATE_ZXZXZ_RGB,
     SH3_ROTATE_ALIGN,
@@ -5924,6 +5895,8 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_TENSOR_RGB,
     SH3_ROTATE_MATRIX,
     SH3_ROTATE_MATRIX_RGB,
+    SH3_ROTATE_LIFTED,
+    SH3_ROTATE_LIFTED_RGB,
     SH3_BASIS_LOOP,
     SH3_ROTATE_ZYZ_LOOP,
     SH3_ROTATE_RGB_LOOP,
@@ -5950,8 +5923,6 @@ pub const ALL: &[Shader] = &[
     SH4_ROTATE_EULER_RGB,
     SH4_ROTATE_ANGLES,
     SH4_ROTATE_ANGLES_RGB,
-    SH4_ROTATE_LIFTED,
-    SH4_ROTATE_LIFTED_RGB,
     SH4_ROTATE_ZXZXZ,
     SH4_ROTATE_ZXZXZ_RGB,
     SH4_ROTATE_ALIGN,
@@ -5992,6 +5963,8 @@ pub const ALL: &[Shader] = &[
     SH4_LF5_Y_RGB,
     SH4_LF5_ZYZ,
     SH4_LF5_ZYZ_RGB,
+    SH4_ROTATE_LIFTED,
+    SH4_ROTATE_LIFTED_RGB,
     SH4_TILT_SCALE,
     SH4_TILT_SCALE_RGB,
     SH4_TILT_UNSCALE,
@@ -6032,8 +6005,6 @@ pub const ALL: &[Shader] = &[
     SH5_ROTATE_EULER_RGB,
     SH5_ROTATE_ANGLES,
     SH5_ROTATE_ANGLES_RGB,
-    SH5_ROTATE_LIFTED,
-    SH5_ROTATE_LIFTED_RGB,
     SH5_ROTATE_ZXZXZ,
     SH5_ROTATE_ZXZXZ_RGB,
     SH5_ROTATE_ALIGN,
@@ -6074,6 +6045,8 @@ pub const ALL: &[Shader] = &[
     SH5_LF5_Y_RGB,
     SH5_LF5_ZYZ,
     SH5_LF5_ZYZ_RGB,
+    SH5_ROTATE_LIFTED,
+    SH5_ROTATE_LIFTED_RGB,
     SH5_TILT_SCALE,
     SH5_TILT_SCALE_RGB,
     SH5_TILT_UNSCALE,
@@ -6117,8 +6090,6 @@ pub const ALL: &[Shader] = &[
     SH6_ROTATE_EULER_RGB,
     SH6_ROTATE_ANGLES,
     SH6_ROTATE_ANGLES_RGB,
-    SH6_ROTATE_LIFTED,
-    SH6_ROTATE_LIFTED_RGB,
     SH6_ROTATE_ZXZXZ,
     SH6_ROTATE_ZXZXZ_RGB,
     SH6_ROTATE_ALIGN,
@@ -6159,6 +6130,8 @@ pub const ALL: &[Shader] = &[
     SH6_LF5_Y_RGB,
     SH6_LF5_ZYZ,
     SH6_LF5_ZYZ_RGB,
+    SH6_ROTATE_LIFTED,
+    SH6_ROTATE_LIFTED_RGB,
     SH6_TILT_SCALE,
     SH6_TILT_SCALE_RGB,
     SH6_TILT_UNSCALE,
@@ -6199,8 +6172,6 @@ pub const ALL: &[Shader] = &[
     SH7_ROTATE_EULER_RGB,
     SH7_ROTATE_ANGLES,
     SH7_ROTATE_ANGLES_RGB,
-    SH7_ROTATE_LIFTED,
-    SH7_ROTATE_LIFTED_RGB,
     SH7_ROTATE_ZXZXZ,
     SH7_ROTATE_ZXZXZ_RGB,
     SH7_ROTATE_ALIGN,
@@ -6241,6 +6212,8 @@ pub const ALL: &[Shader] = &[
     SH7_LF5_Y_RGB,
     SH7_LF5_ZYZ,
     SH7_LF5_ZYZ_RGB,
+    SH7_ROTATE_LIFTED,
+    SH7_ROTATE_LIFTED_RGB,
     SH7_TILT_SCALE,
     SH7_TILT_SCALE_RGB,
     SH7_TILT_UNSCALE,
@@ -6281,8 +6254,6 @@ pub const ALL: &[Shader] = &[
     SH8_ROTATE_EULER_RGB,
     SH8_ROTATE_ANGLES,
     SH8_ROTATE_ANGLES_RGB,
-    SH8_ROTATE_LIFTED,
-    SH8_ROTATE_LIFTED_RGB,
     SH8_ROTATE_ZXZXZ,
     SH8_ROTATE_ZXZXZ_RGB,
     SH8_ROTATE_ALIGN,
@@ -6323,6 +6294,8 @@ pub const ALL: &[Shader] = &[
     SH8_LF5_Y_RGB,
     SH8_LF5_ZYZ,
     SH8_LF5_ZYZ_RGB,
+    SH8_ROTATE_LIFTED,
+    SH8_ROTATE_LIFTED_RGB,
     SH8_TILT_SCALE,
     SH8_TILT_SCALE_RGB,
     SH8_TILT_UNSCALE,
@@ -6363,8 +6336,6 @@ pub const ALL: &[Shader] = &[
     SH9_ROTATE_EULER_RGB,
     SH9_ROTATE_ANGLES,
     SH9_ROTATE_ANGLES_RGB,
-    SH9_ROTATE_LIFTED,
-    SH9_ROTATE_LIFTED_RGB,
     SH9_ROTATE_ZXZXZ,
     SH9_ROTATE_ZXZXZ_RGB,
     SH9_ROTATE_ALIGN,
@@ -6405,6 +6376,8 @@ pub const ALL: &[Shader] = &[
     SH9_LF5_Y_RGB,
     SH9_LF5_ZYZ,
     SH9_LF5_ZYZ_RGB,
+    SH9_ROTATE_LIFTED,
+    SH9_ROTATE_LIFTED_RGB,
     SH9_TILT_SCALE,
     SH9_TILT_SCALE_RGB,
     SH9_TILT_UNSCALE,
@@ -6445,8 +6418,6 @@ pub const ALL: &[Shader] = &[
     SH10_ROTATE_EULER_RGB,
     SH10_ROTATE_ANGLES,
     SH10_ROTATE_ANGLES_RGB,
-    SH10_ROTATE_LIFTED,
-    SH10_ROTATE_LIFTED_RGB,
     SH10_ROTATE_ZXZXZ,
     SH10_ROTATE_ZXZXZ_RGB,
     SH10_ROTATE_ALIGN,
@@ -6487,6 +6458,8 @@ pub const ALL: &[Shader] = &[
     SH10_LF5_Y_RGB,
     SH10_LF5_ZYZ,
     SH10_LF5_ZYZ_RGB,
+    SH10_ROTATE_LIFTED,
+    SH10_ROTATE_LIFTED_RGB,
     SH10_TILT_SCALE,
     SH10_TILT_SCALE_RGB,
     SH10_TILT_UNSCALE,

@@ -43,6 +43,8 @@ pub enum Root {
     Sin(usize),
     /// sin θ / 2.
     HalfSine,
+    /// tan(θ / 2).
+    HalfTangent,
     /// sin²θ / 2.
     HalfSquare,
     /// sin θ cos θ.
@@ -128,7 +130,7 @@ impl Domain {
             (_, Root::Cos(k) | Root::Sin(k)) => [k, 0, 0],
             (_, Root::HalfSine) => [1, 0, 0],
             (_, Root::HalfSquare | Root::Product) => [2, 0, 0],
-            (_, Root::Shear { .. }) => [0, 0, 0],
+            (_, Root::HalfTangent | Root::Shear { .. }) => [0, 0, 0],
             (Self::Small(_), _) => [1, 0, 0],
             (Self::Sphere, Root::Component(2)) => [0, 1, 0],
             (Self::Sphere, _) => [1, 1, 0],
@@ -177,7 +179,7 @@ impl Domain {
                             Root::HalfSquare => theta.sin() * theta.sin() / 2.0,
                             Root::Product => theta.sin() * theta.cos(),
                             Root::Component(i) => [theta.cos(), theta.sin()][i],
-                            Root::Shear { .. } => unreachable!("an arc has shears"),
+                            Root::HalfTangent | Root::Shear { .. } => unreachable!("an arc has tangents"),
                         })
                     });
                 }
@@ -195,6 +197,11 @@ impl Domain {
                         around(value, k * slope, k)
                     }
                     Root::HalfSine => around(middle.sin() / 2.0, middle.cos() / 2.0, 1.0),
+                    Root::HalfTangent => {
+                        let [tan, end] = [middle, middle + half].map(|x| (x / 2.0).tan());
+                        let bend = end * (1.0 + end * end) / 2.0;
+                        (tan, (1.0 + tan * tan) / 2.0 * half + bend * half * half / 2.0 + THIN)
+                    }
                     Root::HalfSquare => around(middle.sin().powi(2) / 2.0, (2.0 * middle).sin() / 2.0, 1.0),
                     Root::Product => around((2.0 * middle).sin() / 2.0, (2.0 * middle).cos(), 2.0),
                     Root::Shear { l, at, inner } => coupling(l, at, inner, middle, half),

@@ -284,14 +284,39 @@ fn sum_of_squares(listing: &Listing, a: Operand, b: Operand) -> Option<Operand> 
 /// Which circle is that of a quaternion's β.
 pub const POLAR: usize = 2;
 
+/// What the angles of a quaternion are made of: (w, z), (y, x), the sums of their squares, the product of those, and its
+/// inverse root.
+struct Halves {
+    pairs: [[Operand; 2]; 2],
+    a: Operand,
+    b: Operand,
+    ab: Operand,
+    r: Operand,
+}
+
+impl Halves {
+    fn of(listing: &Listing) -> Option<Self> {
+        let input = |index| Operand::Input { param: 0, index };
+        let (x, z, y, w) = (input(0), input(2), nudged(listing, 1)?, nudged(listing, 3)?);
+        let (a, b) = (sum_of_squares(listing, w, z)?, sum_of_squares(listing, x, y)?);
+        let ab = find_product(listing, a, b)?;
+        let r = find(listing, |op| op == Op::Rsqrt(ab))?;
+        Some(Self { pairs: [[w, z], [y, x]], a, b, ab, r })
+    }
+}
+
+/// tan(β/2) that a kernel makes of a quaternion, and how far it is off relative to it.
+pub fn half_tangent(listing: &Listing) -> Option<(Operand, Both)> {
+    let Halves { pairs, b, r, .. } = Halves::of(listing)?;
+    let tangent = find_product(listing, b, r)?;
+    Some((tangent, boxes::error(listing, &pairs, &[tangent])?.map(|error| error + REST)))
+}
+
 /// The phases of α, β and γ that a kernel makes of a unit quaternion. The rounding of adding the tiny number is left out:
 /// it turns α and γ, but hardly the rotation that they make together.
 pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
-    let input = |index| Operand::Input { param: 0, index };
-    let (x, z, y, w) = (input(0), input(2), nudged(listing, 1)?, nudged(listing, 3)?);
-    let (a, b) = (sum_of_squares(listing, w, z)?, sum_of_squares(listing, x, y)?);
-    let ab = find_product(listing, a, b)?;
-    let r = find(listing, |op| op == Op::Rsqrt(ab))?;
+    let Halves { pairs, a, b, ab, r } = Halves::of(listing)?;
+    let [[w, z], [y, x]] = pairs;
     let (wr, zr) = (find_product(listing, w, r)?, find_product(listing, z, r)?);
     // Two phases, α and γ: the same products with other signs.
     let part = |one: [Operand; 2], other: [Operand; 2]| -> Vec<(Operand, Pair)> {
@@ -299,7 +324,6 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
         steps(listing).filter_map(|(operand, op)| is_one(op).map(|pair| (operand, pair))).collect()
     };
     let (real, imaginary) = (part([wr, y], [zr, x]), part([zr, y], [wr, x]));
-    let pairs = [[w, z], [y, x]];
     let mut phases = Vec::new();
     for (cos, p) in &real {
         let opposite = |q: &Pair| (p.plus[0] == p.plus[1]) != (q.plus[0] == q.plus[1]);

@@ -7,7 +7,7 @@
 
 use crate::graph::{Graph, Id, Kind};
 use crate::kernel::{Builder, Kernel, Shape};
-use crate::kernels::rotate::{each_band, phases_of_quaternion, quaternion, signal, z_band};
+use crate::kernels::rotate::{each_band, half_tangent_of_quaternion, phases_of_quaternion, quaternion, signal, z_band};
 use crate::kernels::{Phase, multiples, phases};
 use crate::sh::exact::Exact;
 use crate::sh::tables;
@@ -66,13 +66,19 @@ fn y_band(g: &mut Graph, band: &[Id], shears: &[Coupling]) -> Vec<Id> {
     out
 }
 
-/// tan(kβ/2), for an even k from half of it, for an odd one as sin kβ / (1 + cos kβ).
-fn half_tangent(g: &mut Graph, beta: &[Phase], k: usize) -> Id {
+/// tan(kβ/2) from `half`, tan(β/2), and the phase of the whole multiple of β that is next below, whatever its length: a
+/// quaternion that was rounded to f32 is not quite a unit.
+fn half_tangent(g: &mut Graph, half: Id, beta: &[Phase], k: usize) -> Id {
+    if k == 1 {
+        return half;
+    }
+    let Phase { cos, sin } = beta[k / 2 - 1];
     let (over, under) = match k % 2 {
-        0 => (beta[k / 2 - 1].sin, beta[k / 2 - 1].cos),
+        0 => (sin, cos),
         _ => {
-            let one = g.constant(Exact::one());
-            (beta[k - 1].sin, g.add(beta[k - 1].cos, one))
+            let over = g.mul_add(cos, half, sin);
+            let term = g.mul(sin, half);
+            (over, g.sub(cos, term))
         }
     };
     let inverse = g.recip(under);
@@ -85,8 +91,9 @@ pub fn lifted(order: usize) -> Kernel {
     let q = quaternion(&mut builder);
     let g = &mut builder.graph;
     let [alpha, beta, gamma] = phases_of_quaternion(g, &q).map(|phase| multiples(g, phase, order - 1));
+    let half = half_tangent_of_quaternion(g, &q);
     let sines: Vec<Id> = beta.iter().map(|phase| phase.sin).collect();
-    let tangents: Vec<Id> = (1..order).map(|k| half_tangent(g, &beta, k)).collect();
+    let tangents: Vec<Id> = (1..order).map(|k| half_tangent(g, half, &beta, k)).collect();
     let mut out: Vec<Id> = [alpha, gamma].iter().flatten().flat_map(|phase| [phase.cos, phase.sin]).collect();
     for l in 1..order {
         for coupling in couplings(l) {

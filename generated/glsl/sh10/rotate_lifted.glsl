@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
-// Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 10 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 float[100] sh10_rotate_lifted(vec2[183] cs, float[100] c) {
     float t0 = c[3] * cs[9].y + c[1] * cs[9].x;
     float t1 = c[3] * cs[9].x - c[1] * cs[9].y;

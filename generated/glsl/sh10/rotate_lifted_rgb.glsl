@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
-// Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 10 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 vec3[100] sh10_rotate_lifted_rgb(vec2[183] cs, vec3[100] c) {
     vec3 t0 = c[3] * cs[9].y + c[1] * cs[9].x;
     vec3 t1 = c[3] * cs[9].x - c[1] * cs[9].y;

@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
-// Error: f32 rounding at most 8.9e-7 of the norm of a band, for an angle up to 45 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
+// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 float[9] sh3_rotate_lifted(vec2[8] cs, float[9] c) {
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;

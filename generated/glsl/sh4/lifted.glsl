@@ -11,10 +11,10 @@
 // Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
 //     then for each band from 1 and each pair of an even and an odd order of one sign what couples
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-// Operations: 71 (40 mul, 8 add, 23 fma) and 4 inverse square roots or reciprocals; 14 constants, 32
+// Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
 //     live values.
-// Error: f32 rounding at most 1.6e-5 of the norm of a band, for an angle up to 30 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.9e-7).
+// Error: f32 rounding at most 2.3e-5 of the norm of a band, for an angle up to 40 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 vec2[16] sh4_lifted(vec4 q) {
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
@@ -36,16 +36,15 @@ vec2[16] sh4_lifted(vec4 q) {
     float t17 = t15 * t15 - t16 * t16;
     float t18 = t15 * t16;
     float t19 = t18 + t18;
-    float t20 = t4 * t5;
-    float t21 = 2.0 * t20;
-    float t22 = t2 - t3;
-    float t23 = 1.0 / (t22 + 1.0) * t21;
-    float t24 = 1.0 / (t22) * t21;
-    float t25 = t22 * t21;
+    float t20 = t3 * t5;
+    float t21 = t4 * t5;
+    float t22 = 2.0 * t21;
+    float t23 = t2 - t3;
+    float t24 = 1.0 / (t23) * t22;
+    float t25 = t23 * t22;
     float t26 = t25 + t25;
-    float t27 = t22 * t22 - t21 * t21;
-    float t28 = t21 * t27 + t22 * t26;
-    float t29 = 1.0 / (t22 * t27 - t21 * t26 + 1.0) * t28;
+    float t27 = 1.0 / (t23 - t22 * t20) * (t22 + t23 * t20);
+    float t28 = t22 * (t23 * t23 - t22 * t22) + t23 * t26;
     return vec2[16](
         vec2(t9, t11),
         vec2(t12, t14),
@@ -53,14 +52,14 @@ vec2[16] sh4_lifted(vec4 q) {
         vec2(t15, t16),
         vec2(t17, t19),
         vec2(t15 * t17 - t16 * t19, t16 * t17 + t15 * t19),
-        vec2(t23, t21),
+        vec2(t20, t22),
         vec2(0.8660254 * t24, 0.8660254 * t26),
         vec2(-(0.5 * t24), -(0.5 * t26)),
-        vec2(-t23, -t21),
-        vec2(0.76546556 * t29 + 0.15309311 * t23, 0.76546556 * t28 + 0.30618623 * t20),
-        vec2(0.59292704 * t23 - 0.19764236 * t29, 1.1858541 * t20 - 0.19764236 * t28),
-        vec2(0.19764236 * t23 - 0.59292704 * t29, 0.3952847 * t20 - 0.59292704 * t28),
-        vec2(0.15309311 * t29 + 0.76546556 * t23, 0.15309311 * t28 + 1.5309311 * t20),
+        vec2(-t20, -t22),
+        vec2(0.76546556 * t27 + 0.15309311 * t20, 0.76546556 * t28 + 0.30618623 * t21),
+        vec2(0.59292704 * t20 - 0.19764236 * t27, 1.1858541 * t21 - 0.19764236 * t28),
+        vec2(0.19764236 * t20 - 0.59292704 * t27, 0.3952847 * t21 - 0.59292704 * t28),
+        vec2(0.15309311 * t27 + 0.76546556 * t20, 0.15309311 * t28 + 1.5309311 * t21),
         vec2(-(0.7905694 * t24), -(0.7905694 * t26)),
         vec2(0.61237246 * t24, 0.61237246 * t26)
     );

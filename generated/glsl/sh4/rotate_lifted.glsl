@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
-// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 30 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
+// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 float[16] sh4_rotate_lifted(vec2[16] cs, float[16] c) {
     float t0 = c[3] * cs[3].y + c[1] * cs[3].x;
     float t1 = c[3] * cs[3].x - c[1] * cs[3].y;

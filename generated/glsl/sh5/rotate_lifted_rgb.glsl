@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 420 (120 mul, 0 add, 300 fma); 0 constants, 28 live values.
-// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 22.5 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
+// Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 vec3[25] sh5_rotate_lifted_rgb(vec2[28] cs, vec3[25] c) {
     vec3 t0 = c[3] * cs[4].y + c[1] * cs[4].x;
     vec3 t1 = c[3] * cs[4].x - c[1] * cs[4].y;

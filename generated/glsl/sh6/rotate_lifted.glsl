@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
-// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 18 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
+// Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 float[36] sh6_rotate_lifted(vec2[45] cs, float[36] c) {
     float t0 = c[3] * cs[5].y + c[1] * cs[5].x;
     float t1 = c[3] * cs[5].x - c[1] * cs[5].y;

@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1008 (252 mul, 0 add, 756 fma); 0 constants, 54 live values.
-// Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 15 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+// Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 vec3[49] sh7_rotate_lifted_rgb(vec2[68] cs, vec3[49] c) {
     vec3 t0 = c[3] * cs[6].y + c[1] * cs[6].x;
     vec3 t1 = c[3] * cs[6].x - c[1] * cs[6].y;

@@ -13,8 +13,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 12.85 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
+// Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 vec3[64] sh8_rotate_lifted_rgb(vec2[98] cs, vec3[64] c) {
     vec3 t0 = c[3] * cs[7].y + c[1] * cs[7].x;
     vec3 t1 = c[3] * cs[7].x - c[1] * cs[7].y;

@@ -10,8 +10,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
-// Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 10 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 fn sh10_rotate_lifted_rgb(cs: array<vec2<f32>, 183>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
     let t0 = c[3] * cs[9].y + c[1] * cs[9].x;
     let t1 = c[3] * cs[9].x - c[1] * cs[9].y;

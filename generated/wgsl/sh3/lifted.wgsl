@@ -8,10 +8,10 @@
 // Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
 //     then for each band from 1 and each pair of an even and an odd order of one sign what couples
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-// Operations: 35 (20 mul, 7 add, 8 fma) and 3 inverse square roots or reciprocals; 4 constants, 16
+// Operations: 34 (20 mul, 6 add, 8 fma) and 2 inverse square roots or reciprocals; 3 constants, 16
 //     live values.
-// Error: f32 rounding at most 7.6e-6 of the norm of a band, for an angle up to 45 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
+// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 60 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 fn sh3_lifted(q: vec4<f32>) -> array<vec2<f32>, 8> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
@@ -29,21 +29,21 @@ fn sh3_lifted(q: vec4<f32>) -> array<vec2<f32>, 8> {
     let t13 = t0 * t6 - t8;
     let t14 = t10 + t0 * t7;
     let t15 = t13 * t14;
-    let t16 = 2.0 * (t4 * t5);
-    let t17 = t2 - t3;
-    let t18 = 1.0 / (t17 + 1.0) * t16;
-    let t19 = 1.0 / (t17) * t16;
-    let t20 = t17 * t16;
+    let t16 = t3 * t5;
+    let t17 = 2.0 * (t4 * t5);
+    let t18 = t2 - t3;
+    let t19 = 1.0 / (t18) * t17;
+    let t20 = t18 * t17;
     let t21 = t20 + t20;
     return array<vec2<f32>, 8>(
         vec2<f32>(t9, t11),
         vec2<f32>(t9 * t9 - t11 * t11, t12 + t12),
         vec2<f32>(t13, t14),
         vec2<f32>(t13 * t13 - t14 * t14, t15 + t15),
-        vec2<f32>(t18, t16),
+        vec2<f32>(t16, t17),
         vec2<f32>(0.8660254 * t19, 0.8660254 * t21),
         vec2<f32>(-(0.5 * t19), -(0.5 * t21)),
-        vec2<f32>(-t18, -t16)
+        vec2<f32>(-t16, -t17)
     );
 }
 

@@ -10,8 +10,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (36 mul, 0 add, 72 fma); 0 constants, 10 live values.
-// Error: f32 rounding at most 8.9e-7 of the norm of a band, for an angle up to 45 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
+// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_lifted_rgb(cs: array<vec2<f32>, 8>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     let t1 = c[3] * cs[2].x - c[1] * cs[2].y;

@@ -8,10 +8,10 @@
 // Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
 //     then for each band from 1 and each pair of an even and an odd order of one sign what couples
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-// Operations: 71 (40 mul, 8 add, 23 fma) and 4 inverse square roots or reciprocals; 14 constants, 32
+// Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
 //     live values.
-// Error: f32 rounding at most 1.6e-5 of the norm of a band, for an angle up to 30 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.9e-7).
+// Error: f32 rounding at most 2.3e-5 of the norm of a band, for an angle up to 40 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
@@ -33,16 +33,15 @@ fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
     let t17 = t15 * t15 - t16 * t16;
     let t18 = t15 * t16;
     let t19 = t18 + t18;
-    let t20 = t4 * t5;
-    let t21 = 2.0 * t20;
-    let t22 = t2 - t3;
-    let t23 = 1.0 / (t22 + 1.0) * t21;
-    let t24 = 1.0 / (t22) * t21;
-    let t25 = t22 * t21;
+    let t20 = t3 * t5;
+    let t21 = t4 * t5;
+    let t22 = 2.0 * t21;
+    let t23 = t2 - t3;
+    let t24 = 1.0 / (t23) * t22;
+    let t25 = t23 * t22;
     let t26 = t25 + t25;
-    let t27 = t22 * t22 - t21 * t21;
-    let t28 = t21 * t27 + t22 * t26;
-    let t29 = 1.0 / (t22 * t27 - t21 * t26 + 1.0) * t28;
+    let t27 = 1.0 / (t23 - t22 * t20) * (t22 + t23 * t20);
+    let t28 = t22 * (t23 * t23 - t22 * t22) + t23 * t26;
     return array<vec2<f32>, 16>(
         vec2<f32>(t9, t11),
         vec2<f32>(t12, t14),
@@ -50,14 +49,14 @@ fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
         vec2<f32>(t15, t16),
         vec2<f32>(t17, t19),
         vec2<f32>(t15 * t17 - t16 * t19, t16 * t17 + t15 * t19),
-        vec2<f32>(t23, t21),
+        vec2<f32>(t20, t22),
         vec2<f32>(0.8660254 * t24, 0.8660254 * t26),
         vec2<f32>(-(0.5 * t24), -(0.5 * t26)),
-        vec2<f32>(-t23, -t21),
-        vec2<f32>(0.76546556 * t29 + 0.15309311 * t23, 0.76546556 * t28 + 0.30618623 * t20),
-        vec2<f32>(0.59292704 * t23 - 0.19764236 * t29, 1.1858541 * t20 - 0.19764236 * t28),
-        vec2<f32>(0.19764236 * t23 - 0.59292704 * t29, 0.3952847 * t20 - 0.59292704 * t28),
-        vec2<f32>(0.15309311 * t29 + 0.76546556 * t23, 0.15309311 * t28 + 1.5309311 * t20),
+        vec2<f32>(-t20, -t22),
+        vec2<f32>(0.76546556 * t27 + 0.15309311 * t20, 0.76546556 * t28 + 0.30618623 * t21),
+        vec2<f32>(0.59292704 * t20 - 0.19764236 * t27, 1.1858541 * t21 - 0.19764236 * t28),
+        vec2<f32>(0.19764236 * t20 - 0.59292704 * t27, 0.3952847 * t21 - 0.59292704 * t28),
+        vec2<f32>(0.15309311 * t27 + 0.76546556 * t20, 0.15309311 * t28 + 1.5309311 * t21),
         vec2<f32>(-(0.7905694 * t24), -(0.7905694 * t26)),
         vec2<f32>(0.61237246 * t24, 0.61237246 * t26)
     );

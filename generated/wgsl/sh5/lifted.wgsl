@@ -8,10 +8,10 @@
 // Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
 //     then for each band from 1 and each pair of an even and an odd order of one sign what couples
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-// Operations: 122 (66 mul, 8 add, 48 fma) and 5 inverse square roots or reciprocals; 28 constants, 57
+// Operations: 122 (66 mul, 6 add, 50 fma) and 4 inverse square roots or reciprocals; 27 constants, 57
 //     live values.
-// Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 22.5 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
+// Error: f32 rounding at most 3.9e-5 of the norm of a band, for an angle up to 30 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
 fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
@@ -37,19 +37,18 @@ fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
     let t21 = t20 + t20;
     let t22 = t17 * t19 - t18 * t21;
     let t23 = t18 * t19 + t17 * t21;
-    let t24 = t4 * t5;
-    let t25 = 2.0 * t24;
-    let t26 = t2 - t3;
-    let t27 = 1.0 / (t26 + 1.0) * t25;
-    let t28 = 1.0 / (t26) * t25;
-    let t29 = t26 * t25;
+    let t24 = t3 * t5;
+    let t25 = t4 * t5;
+    let t26 = 2.0 * t25;
+    let t27 = t2 - t3;
+    let t28 = 1.0 / (t27) * t26;
+    let t29 = t27 * t26;
     let t30 = t29 + t29;
-    let t31 = t26 * t26 - t25 * t25;
-    let t32 = t25 * t31 + t26 * t30;
-    let t33 = t26 * t31 - t25 * t30;
-    let t34 = 1.0 / (t33 + 1.0) * t32;
-    let t35 = 1.0 / (t31) * t30;
-    let t36 = t25 * t33 + t26 * t32;
+    let t31 = 1.0 / (t27 - t26 * t24) * (t26 + t27 * t24);
+    let t32 = t27 * t27 - t26 * t26;
+    let t33 = t26 * t32 + t27 * t30;
+    let t34 = 1.0 / (t32) * t30;
+    let t35 = t26 * (t27 * t32 - t26 * t30) + t27 * t33;
     return array<vec2<f32>, 28>(
         vec2<f32>(t9, t11),
         vec2<f32>(t12, t14),
@@ -59,26 +58,26 @@ fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
         vec2<f32>(t19, t21),
         vec2<f32>(t22, t23),
         vec2<f32>(t17 * t22 - t18 * t23, t18 * t22 + t17 * t23),
-        vec2<f32>(t27, t25),
+        vec2<f32>(t24, t26),
         vec2<f32>(0.8660254 * t28, 0.8660254 * t30),
         vec2<f32>(-(0.5 * t28), -(0.5 * t30)),
-        vec2<f32>(-t27, -t25),
-        vec2<f32>(0.76546556 * t34 + 0.15309311 * t27, 0.76546556 * t32 + 0.30618623 * t24),
-        vec2<f32>(0.59292704 * t27 - 0.19764236 * t34, 1.1858541 * t24 - 0.19764236 * t32),
-        vec2<f32>(0.19764236 * t27 - 0.59292704 * t34, 0.3952847 * t24 - 0.59292704 * t32),
-        vec2<f32>(0.15309311 * t34 + 0.76546556 * t27, 0.15309311 * t32 + 1.5309311 * t24),
+        vec2<f32>(-t24, -t26),
+        vec2<f32>(0.76546556 * t31 + 0.15309311 * t24, 0.76546556 * t33 + 0.30618623 * t25),
+        vec2<f32>(0.59292704 * t24 - 0.19764236 * t31, 1.1858541 * t25 - 0.19764236 * t33),
+        vec2<f32>(0.19764236 * t24 - 0.59292704 * t31, 0.3952847 * t25 - 0.59292704 * t33),
+        vec2<f32>(0.15309311 * t31 + 0.76546556 * t24, 0.15309311 * t33 + 1.5309311 * t25),
         vec2<f32>(-(0.7905694 * t28), -(0.7905694 * t30)),
         vec2<f32>(0.61237246 * t28, 0.61237246 * t30),
-        vec2<f32>(0.69174826 * t35 + 0.19764236 * t28, 0.69174826 * t36 + 0.19764236 * t30),
-        vec2<f32>(0.5229125 * t28 - 0.26145625 * t35, 0.5229125 * t30 - 0.26145625 * t36),
-        vec2<f32>(0.17677669 * t28 - 0.61871845 * t35, 0.17677669 * t30 - 0.61871845 * t36),
-        vec2<f32>(0.2338536 * t35 + 0.4677072 * t28, 0.2338536 * t36 + 0.4677072 * t30),
-        vec2<f32>(0.1169268 * t35 - 0.2338536 * t28, 0.1169268 * t36 - 0.2338536 * t30),
-        vec2<f32>(-(0.044194173 * t35 + 0.61871845 * t28), -(0.044194173 * t36 + 0.61871845 * t30)),
-        vec2<f32>(-(0.61871845 * t34 + 0.26516503 * t27), -(0.61871845 * t32 + 0.53033006 * t24)),
-        vec2<f32>(0.70156074 * t34 - 0.2338536 * t27, 0.70156074 * t32 - 0.4677072 * t24),
-        vec2<f32>(0.2338536 * t34 - 0.70156074 * t27, 0.2338536 * t32 - 1.4031215 * t24),
-        vec2<f32>(-(0.26516503 * t34 + 0.61871845 * t27), -(0.26516503 * t32 + 1.2374369 * t24))
+        vec2<f32>(0.69174826 * t34 + 0.19764236 * t28, 0.69174826 * t35 + 0.19764236 * t30),
+        vec2<f32>(0.5229125 * t28 - 0.26145625 * t34, 0.5229125 * t30 - 0.26145625 * t35),
+        vec2<f32>(0.17677669 * t28 - 0.61871845 * t34, 0.17677669 * t30 - 0.61871845 * t35),
+        vec2<f32>(0.2338536 * t34 + 0.4677072 * t28, 0.2338536 * t35 + 0.4677072 * t30),
+        vec2<f32>(0.1169268 * t34 - 0.2338536 * t28, 0.1169268 * t35 - 0.2338536 * t30),
+        vec2<f32>(-(0.044194173 * t34 + 0.61871845 * t28), -(0.044194173 * t35 + 0.61871845 * t30)),
+        vec2<f32>(-(0.61871845 * t31 + 0.26516503 * t24), -(0.61871845 * t33 + 0.53033006 * t25)),
+        vec2<f32>(0.70156074 * t31 - 0.2338536 * t24, 0.70156074 * t33 - 0.4677072 * t25),
+        vec2<f32>(0.2338536 * t31 - 0.70156074 * t24, 0.2338536 * t33 - 1.4031215 * t25),
+        vec2<f32>(-(0.26516503 * t31 + 0.61871845 * t24), -(0.26516503 * t33 + 1.2374369 * t25))
     );
 }
 

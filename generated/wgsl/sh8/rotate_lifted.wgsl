@@ -10,8 +10,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
-// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 12.85 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
+// Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh8_rotate_lifted(cs: array<vec2<f32>, 98>, c: array<f32, 64>) -> array<f32, 64> {
     let t0 = c[3] * cs[7].y + c[1] * cs[7].x;
     let t1 = c[3] * cs[7].x - c[1] * cs[7].y;

@@ -10,8 +10,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
-// Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 11.25 degrees about y
-//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+// Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
+//     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh9_rotate_lifted(cs: array<vec2<f32>, 136>, c: array<f32, 81>) -> array<f32, 81> {
     let t0 = c[3] * cs[8].y + c[1] * cs[8].x;
     let t1 = c[3] * cs[8].x - c[1] * cs[8].y;

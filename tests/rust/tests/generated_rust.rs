@@ -110,7 +110,7 @@ macro_rules! order {
     ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
         functions! {
             $scalar, $table, $module,
-            value: basis, angles, lifted, basis_loop;
+            value: basis, angles, basis_loop;
             signal: swap_yz / swap_yz_rgb, rotate_x_plus_90deg / rotate_x_plus_90deg_rgb,
                 rotate_x_minus_90deg / rotate_x_minus_90deg_rgb, zhf_weights / zhf_weights_rgb,
                 zhf_tailored / zhf_tailored_rgb, to_monomial / to_monomial_rgb;
@@ -119,8 +119,7 @@ macro_rules! order {
                 tilt / tilt_rgb, taylor1_y / taylor1_y_rgb, taylor15_y / taylor15_y_rgb, taylor2_y / taylor2_y_rgb,
                 lf3_y / lf3_y_rgb, lf5_y / lf5_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop,
                 eval_monomial / eval_monomial_rgb, rotate_small / rotate_small_rgb;
-            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb,
-                rotate_lifted / rotate_lifted_rgb, zhf / zhf_rgb;
+            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb;
             list_value_signal: taylor1_zyz / taylor1_zyz_rgb, taylor15_zyz / taylor15_zyz_rgb,
                 taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb, lf5_zyz / lf5_zyz_rgb;
             $($more)*
@@ -133,6 +132,8 @@ macro_rules! order_from_4 {
     ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
         order! {
             $scalar, $table, $module,
+            value: lifted;
+            list_signal: rotate_lifted / rotate_lifted_rgb;
             value_signal: lf5_tilt / lf5_tilt_rgb, lf5_rotate_small / lf5_rotate_small_rgb,
                 tilt_prescaled / tilt_prescaled_rgb, lf5_tilt_prescaled / lf5_tilt_prescaled_rgb;
             signal: tilt_scale / tilt_scale_rgb, tilt_unscale / tilt_unscale_rgb;
@@ -149,8 +150,9 @@ macro_rules! every_order {
             value_signal: rotate_zyz / rotate_zyz_rgb, rotate_zyz_loop / rotate_zyz_rgb_loop;
             list_signal: rotate_matrix / rotate_matrix_rgb;);
         order!($scalar, table, sh3,
+            value: lifted;
             value_signal: rotate_zyz / rotate_tensor_rgb, rotate_zyz_loop / rotate_rgb_loop;
-            list_signal: rotate_matrix / rotate_matrix_rgb;);
+            list_signal: rotate_matrix / rotate_matrix_rgb, rotate_lifted / rotate_lifted_rgb;);
         order_from_4!($scalar, table, sh4, value_signal: rotate_loop / rotate_rgb_loop;);
         order_from_4!($scalar, table, sh5,
             value_signal: rotate_loop / rotate_rgb_loop, bands_0_1_2_4_eval / bands_0_1_2_4_eval_rgb,
