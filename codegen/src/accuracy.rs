@@ -200,14 +200,14 @@ pub fn method_error(spec: &Spec, angle: f64) -> f64 {
     method_errors(spec, &[angle])[0]
 }
 
-/// [`method_error`] at several angles, by the [law](crate::law).
+/// [`method_error`] at several angles, by the [law].
 pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
     let error = |&angle: &f64| law::errors(spec, angle).iter().map(|error| error.max).fold(0.0, larger);
     angles.iter().map(error).collect()
 }
 
 /// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it, from the
-/// kernel's own matrix: what the [law](crate::law) is checked against.
+/// kernel's own matrix: what the [law] is checked against.
 pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
     let order = spec.order;
     let approximate = match &spec.family {

@@ -3,7 +3,8 @@
 //! same f32 inputs.
 //!
 //! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
-//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation.
+//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation and
+//! for a lifted one, whose given couplings are those of an angle, rounded to f32.
 //! Left out are signals so small that products underflow, and where adding the tiny number does not help: a quaternion
 //! with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16; for `align` a normal whose x and y are below 2e-8 and not
 //! both zero, where the tiny number turns the spin, which is open.
@@ -260,7 +261,7 @@ impl<'a> Prover<'a> {
         Some(found.unwrap_or((Domain::Nothing, 0)))
     }
 
-    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate.
+    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate or lifted.
     fn circle(&self, circle: usize) -> Domain {
         match (&self.spec.family, self.spec.max_angle()) {
             (Family::RotateSmall(_) | Family::Lifted | Family::Rotate(Method::Lifted), Some(most))

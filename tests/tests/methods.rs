@@ -311,7 +311,7 @@ fn the_lifted_domain_ends_where_its_tangents_begin_to_cost() {
             "order {order}: planes {planes:.1e}; lifted {inside:.1e} at 60, {edge:.1e} at 120, {beyond:.1e}, {far:.1e}"
         );
         assert!(
-            inside < 1.5 * planes && edge < 2.5 * planes && beyond > 1.2 * edge && far > 8.0 * edge,
+            inside < 1.5 * planes && edge < 2.5 * planes && beyond > 1.2 * edge && far > 5.0 * edge,
             "order {order}"
         );
     }

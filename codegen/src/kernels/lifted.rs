@@ -2,8 +2,8 @@
 //! has them, but exact. With A the band's generator, which couples even orders to odd ones alone, the outer shears are
 //! the part tanh(βA/2) of even rows, the inner one is the part sinh(βA) of odd rows: sums of tan(kβ/2) and of sin kβ with
 //! constant factors. Given these sums, a band takes 3 l (l + 1) / 2 multiply-adds and no change of basis, where the
-//! rotation by planes takes two changes and four operations a plane. The tangents bound β; see
-//! [`crate::spec::LIFTED_DEGREES`].
+//! rotation by planes takes two changes and four operations a plane. Making them is dearer than multiples of angles are,
+//! so that it pays for several signals that turn alike. The tangents bound β; see [`crate::spec::LIFTED_DEGREES`].
 
 use crate::graph::{Graph, Id, Kind};
 use crate::kernel::{Builder, Kernel, Shape};
