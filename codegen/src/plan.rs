@@ -114,8 +114,6 @@ pub struct Chosen {
     pub max_error: Option<f64>,
     /// What the error is the error of.
     pub norm: Option<Norm>,
-    /// How many signals each rotation turns.
-    pub signals: usize,
     /// Why this one.
     pub reason: String,
     /// All methods that were weighed, cheapest first; none for a kernel that the scene names.
@@ -366,7 +364,7 @@ impl<'a> Contest<'a> {
             kept => format!("the cheapest of {kept} that keep"),
         };
         let reason = format!(
-            "{which} an error of {}, of {} ways to {}{} by up to {} degrees",
+            "{which} an error of {}, of {} ways to {} by up to {} degrees{}",
             max_error.value,
             self.entries.len(),
             match self.rotation.kind {
@@ -375,11 +373,11 @@ impl<'a> Contest<'a> {
                 Turn::Zyz => "turn about z, y and z",
                 Turn::Quaternion => "turn by a quaternion whose y angle is bounded",
             },
+            self.rotation.max_angle.value,
             match self.rotation.signals {
                 1 => String::new(),
-                signals => format!(" {signals} signals"),
+                signals => format!(", for {signals} signals that turn alike"),
             },
-            self.rotation.max_angle.value,
         );
         for (place, Entry { rival, .. }) in self.entries.iter_mut().enumerate() {
             if place == best {
@@ -396,7 +394,6 @@ impl<'a> Contest<'a> {
             method_error: Some(self.entries[best].rival.method_error),
             max_error: Some(max_error.value),
             norm: Some(self.budget.norm),
-            signals: self.rotation.signals,
             reason,
             rivals: self.entries.into_iter().map(|entry| entry.rival).collect(),
         };
@@ -533,7 +530,6 @@ impl Plan {
                 method_error: max_angle.map(error),
                 max_error: None,
                 norm: None,
-                signals: 1,
                 reason: match wanted.spec.value.split(':').nth(1) {
                     Some("environment") => "named by the scene, at the order of its environment".to_owned(),
                     _ => "named by the scene".to_owned(),
@@ -920,9 +916,6 @@ impl fmt::Display for Plan {
                 ]);
             }
             f.write_str(&table(&rows))?;
-            if chosen.signals > 1 {
-                writeln!(f, "\nCounted for {} signals that turn alike.", chosen.signals)?;
-            }
             writeln!(
                 f,
                 "\nThe price is the total plus {SPECIAL_WEIGHT} for each special, in f16 by {HALF_SHARE}; errors are {}, at the largest angle.",
