@@ -4,8 +4,9 @@
 use crate::bound;
 use crate::code::Code;
 use crate::eval::{Contraction, Number, Program};
+use crate::kernel::Kernel;
 use crate::kernels::y_rotation::{about_y, small_y};
-use crate::kernels::{rotate, tilt};
+use crate::kernels::{lifted, rotate, tilt};
 use crate::law::{self, Given};
 use crate::listing::Listing;
 use crate::samples;
@@ -137,13 +138,16 @@ impl Meaning {
     pub fn of(spec: &Spec) -> Self {
         let order = spec.order;
         match spec.family {
-            Family::Angles => {
-                let norm = |i: usize| ((2 * i.isqrt() + 1) as f64).sqrt();
-                let signal = (0..order * order).map(|i| 1.0 / norm(i)).collect();
-                Self::Rotated(Box::new(Program::new(&Listing::new(&rotate::zyz_from_angles(order)))), signal)
-            }
+            Family::Angles => Self::rotated(order, &rotate::zyz_from_angles(order)),
+            Family::Lifted => Self::rotated(order, &lifted::rotate(order)),
             _ => Self::Itself,
         }
+    }
+
+    fn rotated(order: usize, rotation: &Kernel) -> Self {
+        let norm = |i: usize| ((2 * i.isqrt() + 1) as f64).sqrt();
+        let signal = (0..order * order).map(|i| 1.0 / norm(i)).collect();
+        Self::Rotated(Box::new(Program::new(&Listing::new(rotation))), signal)
     }
 
     /// What a result means.
@@ -167,7 +171,7 @@ impl Accuracy {
             false => rounding::<f32>(spec, code, SEED, samples, contraction),
         };
         let worst = [Contraction::Separate, Contraction::Fused].map(measure).into_iter().fold(0.0, larger);
-        let method = match spec.max_angle().is_some() && spec.order <= MAX_ORDER {
+        let method = match spec.is_approximate() && spec.order <= MAX_ORDER {
             true => {
                 let errors = method_errors(spec, &ANGLES.map(f64::to_radians));
                 ANGLES.into_iter().zip(errors.into_iter().map(round_up)).collect()
@@ -193,7 +197,7 @@ pub fn method_error(spec: &Spec, angle: f64) -> f64 {
     method_errors(spec, &[angle])[0]
 }
 
-/// [`method_error`] at several angles, by the [law](crate::law).
+/// [`method_error`] at several angles, by the [law].
 pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
     let error = |&angle: &f64| law::errors(spec, angle).iter().map(|error| error.max).fold(0.0, larger);
     angles.iter().map(error).collect()
@@ -252,7 +256,7 @@ impl Difference {
 }
 
 /// For each angle in radians the error of each band, as a spectral norm, of an approximate rotation by it, from the
-/// kernel's own matrix: what the [law](crate::law) is checked against.
+/// kernel's own matrix: what the [law] is checked against.
 pub fn band_errors(spec: &Spec, angles: &[f64]) -> Vec<Vec<f64>> {
     let difference = Difference::new(spec);
     angles.iter().map(|&angle| difference.bands(angle).iter().map(|band| spectral_norm(band)).collect()).collect()

@@ -3,7 +3,8 @@
 //! same f32 inputs.
 //!
 //! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
-//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation.
+//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation and
+//! for a lifted one, whose given couplings are those of an angle, rounded to f32.
 //! Left out are signals so small that products underflow, and where adding the tiny number does not help: a quaternion
 //! with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16; for `align` a normal whose x and y are below 2e-8 and not
 //! both zero, where the tiny number turns the spin, which is open.
@@ -27,7 +28,7 @@ pub mod section;
 use crate::code::Code;
 use crate::graph::Kind;
 use crate::kernel::Shape;
-use crate::kernels::rotate;
+use crate::kernels::{lifted, rotate};
 use crate::listing::{Listing, Op, Operand};
 use crate::spec::{Family, MAX_ORDER, Method, Spec};
 use domain::{Domain, Root};
@@ -103,8 +104,11 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
     match spec.family {
         Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
         Family::Eval | Family::EvalMonomial => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
-        Family::Angles => {
-            let rotation = Listing::new(&rotate::zyz_from_angles(spec.order));
+        Family::Angles | Family::Lifted => {
+            let rotation = Listing::new(&match spec.family {
+                Family::Angles => rotate::zyz_from_angles(spec.order),
+                _ => lifted::rotate(spec.order),
+            });
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)
         }
         Family::ToMonomial => Bound::of(&prover.mixed()?, true),
@@ -156,16 +160,16 @@ impl<'a> Prover<'a> {
     fn new(spec: &'a Spec, listing: &'a Listing, max_angle: Option<f64>) -> Option<Self> {
         let mut others = HashMap::new();
         let roots = match &spec.family {
-            Family::Angles | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
+            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
                 phases::of_quaternion(listing)?
             }
             Family::Rotate(Method::Align) => phases::of_normal(listing)?,
-            Family::Rotate(Method::Angles) => {
-                let (pairs, last) = all_angles(spec.order);
-                for (operand, root) in last {
-                    others.insert(operand, (Start { root, spread: INPUT, error: [0.0; 2] }, 1));
+            Family::Rotate(Method::Angles | Method::Lifted) => {
+                let given = Given::new(spec);
+                for (operand, root) in given.others {
+                    others.insert(operand, (Start { root, spread: INPUT, error: [0.0; 2] }, given.circle));
                 }
-                pairs
+                given.pairs
             }
             _ => match listing.params.first().map(|param| param.shape) {
                 Some(Shape::Pair) => vec![phases::given(0, 0, 0, 1)],
@@ -173,15 +177,24 @@ impl<'a> Prover<'a> {
                 _ => vec![],
             },
         };
+        if let (Family::Lifted, Some(polar)) = (&spec.family, roots.get(phases::POLAR)) {
+            // Constant factors take in the two of sin β = 2 √(AB).
+            let half =
+                Start { root: Root::HalfSine, spread: polar.defect, error: polar.error.map(|error| error / 2.0) };
+            others.extend(phases::doubled(listing, polar.sin).map(|root| (root, (half, phases::POLAR))));
+            let (operand, error) = phases::half_tangent(listing)?;
+            let error = error.map(|error| error * (max_angle.unwrap_or_default() / 2.0).tan() * SLACK);
+            others.insert(operand, (Start { root: Root::HalfTangent, spread: polar.defect, error }, phases::POLAR));
+        }
         Some(Self { spec, listing, max_angle, phases: Phases::new(listing, roots), others, roundoff: U })
     }
 
-    /// What the errors of this listing's results, the kernel `angles`, do to a rotation by them.
+    /// What the errors of this listing's results, the kernel `angles` or `lifted`, do to a rotation by them.
     fn rotating<'b>(&self, rotation: &'b Listing) -> Option<Prover<'b>>
     where
         'a: 'b,
     {
-        let (mut pairs, last) = all_angles(self.spec.order);
+        let Given { mut pairs, others: rest, circle } = Given::new(self.spec);
         for (pair, outputs) in pairs.iter_mut().zip(self.listing.outputs.chunks_exact(2)) {
             let (made, is_sine) = self.phases.of(self.unsigned(outputs[0]))?;
             if is_sine || made.sin != self.unsigned(outputs[1]) || made.multiple != pair.multiple {
@@ -190,11 +203,9 @@ impl<'a> Prover<'a> {
             *pair = Phase { defect: made.defect, error: made.error, ..*pair };
         }
         let mut others = HashMap::new();
-        for ((operand, root), &output) in last.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
-            others.insert(
-                operand,
-                (Start { root, spread: 5.0 * INPUT, error: self.scalars(&[self.unsigned(output)])? }, 1),
-            );
+        for ((operand, root), &output) in rest.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
+            let error = self.scalars(&[self.unsigned(output)])?;
+            others.insert(operand, (Start { root, spread: 5.0 * INPUT, error }, circle));
         }
         let phases = Phases::new(rotation, pairs);
         Some(Prover { listing: rotation, phases, others, roundoff: 0.0, ..*self })
@@ -265,10 +276,14 @@ impl<'a> Prover<'a> {
         Some(found.unwrap_or((Domain::Nothing, 0)))
     }
 
-    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate.
+    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate or lifted.
     fn circle(&self, circle: usize) -> Domain {
         match (&self.spec.family, self.max_angle) {
-            (Family::RotateSmall(_), Some(most)) if circle == phases::POLAR => Domain::Arc(most * (1.0 + 4.0 * INPUT)),
+            (Family::RotateSmall(_) | Family::Lifted | Family::Rotate(Method::Lifted), Some(most))
+                if circle == phases::POLAR =>
+            {
+                Domain::Arc(most * (1.0 + 4.0 * INPUT))
+            }
             _ => Domain::Circle,
         }
     }
@@ -373,7 +388,7 @@ impl<'a> Prover<'a> {
         let part = self.part(&inputs, &outputs, &stages)?;
         let nudge = matches!(
             self.spec.family,
-            Family::Angles | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz)
+            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz)
         );
         Some(part.error.map(|error| error * SLACK + if nudge { l as f64 * NUDGE } else { 0.0 }))
     }
@@ -473,15 +488,36 @@ impl<'a> Prover<'a> {
     }
 }
 
-/// Where a cosine or a sine of an angle is a number of its own.
-type Others = Vec<(Operand, Root)>;
+/// What the method `angles` or `lifted` is given.
+struct Given {
+    /// First phases.
+    pairs: Vec<Phase>,
+    /// Then other functions of an angle.
+    others: Vec<(Operand, Root)>,
+    /// Which angle that is.
+    circle: usize,
+}
 
-/// The pairs that the method `angles` is given, and the two numbers after them.
-fn all_angles(order: usize) -> (Vec<Phase>, Others) {
-    let count = order - 1;
-    let last = |index| Operand::Input { param: 0, index: 6 * count + index };
-    let pairs = (0..3 * count).map(|pair| phases::given(0, pair, pair / count, pair % count + 1)).collect();
-    (pairs, vec![(last(0), Root::HalfSquare), (last(1), Root::Product)])
+impl Given {
+    fn new(spec: &Spec) -> Self {
+        let count = spec.order - 1;
+        let (angles, circle, roots) = match spec.family {
+            Family::Angles | Family::Rotate(Method::Angles) => (3, 1, vec![Root::HalfSquare, Root::Product]),
+            _ => {
+                let band = |l: usize| {
+                    (0..lifted::couplings(l).len())
+                        .flat_map(move |at| [false, true].map(|inner| Root::Shear { l, at, inner }))
+                };
+                (2, phases::POLAR, (1..spec.order).flat_map(band).collect())
+            }
+        };
+        let place = |index| Operand::Input { param: 0, index: 2 * angles * count + index };
+        Self {
+            pairs: (0..angles * count).map(|pair| phases::given(0, pair, pair / count, pair % count + 1)).collect(),
+            others: roots.into_iter().enumerate().map(|(at, root)| (place(at), root)).collect(),
+            circle,
+        }
+    }
 }
 
 /// Points a degree on the grid, by the number of angles.

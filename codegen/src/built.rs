@@ -1,9 +1,10 @@
 //! A spec's kernel: built, laid out, counted and measured, once for all languages.
 
-use crate::accuracy::Accuracy;
+use crate::accuracy::{Accuracy, round_up};
+use crate::bound;
 use crate::code::{Branch, Code};
 use crate::kernel::Kernel;
-use crate::kernels::{basis, loops, monomial, rotate, tilt, y_rotation, zhf};
+use crate::kernels::{basis, lifted, loops, monomial, rotate, tilt, y_rotation, zhf};
 use crate::listing::Listing;
 use crate::spec::{Family, Form, Method, Spec};
 
@@ -30,6 +31,7 @@ pub fn kernel(spec: &Spec) -> Kernel {
         Family::RotateXPlus90 => rotate::rotate_x_90(order, 1),
         Family::RotateXMinus90 => rotate::rotate_x_90(order, -1),
         Family::Angles => rotate::angles(order),
+        Family::Lifted => lifted::lifted(order),
         Family::EvalMonomial => monomial::eval(order),
         Family::ToMonomial => monomial::from_harmonics(order),
         Family::Tilt(methods) => tilt::tilt(order, methods, false),
@@ -51,6 +53,7 @@ pub fn kernel(spec: &Spec) -> Kernel {
             Method::Matrix => rotate::from_matrix(order),
             Method::Euler => rotate::euler_angles(order),
             Method::Angles => rotate::zyz_from_angles(order),
+            Method::Lifted => lifted::rotate(order),
             Method::Zxzxz => rotate::zxzxz(order),
             Method::Align => rotate::align(order),
             Method::Zonal => rotate::zonal(order),
@@ -80,6 +83,19 @@ impl Built {
         let code = code(spec);
         let accuracy = Accuracy::of(spec, &code);
         Self { spec: spec.clone(), code, accuracy }
+    }
+
+    /// What rounding may add up to an angle in radians; for a small rotation in f32 that is less than the head says, which
+    /// is for the method's whole domain.
+    pub fn rounding_within(&self, max_angle: f64) -> f64 {
+        let whole = self.accuracy.rounding_f32;
+        match self.spec.max_angle() {
+            Some(limit) if !self.spec.half => {
+                let within = bound::within(&self.spec, &self.code, Some(limit.min(max_angle)));
+                within.map_or(whole, |bound| round_up(bound.value()))
+            }
+            _ => whole,
+        }
     }
 
     /// The spec of the kernel itself, without what only its text depends on: the number of channels.

@@ -29,6 +29,7 @@ pub fn standard() -> Vec<Spec> {
 
 fn of_order(order: usize) -> Vec<Spec> {
     let small = |method: Small| vec![method; order - 1];
+    let mut specs = vec![Spec::new(Family::Basis, order), Spec::new(Family::Angles, order)];
     let mut families = vec![
         Family::Eval,
         Family::RotateZ,
@@ -58,6 +59,10 @@ fn of_order(order: usize) -> Vec<Spec> {
         families.push(Family::Rotate(Method::Tensor));
         families.push(Family::Rotate(Method::Matrix));
     }
+    if order > 2 {
+        specs.push(Spec::new(Family::Lifted, order));
+        families.push(Family::Rotate(Method::Lifted));
+    }
     if order > 3 {
         families.push(Family::TiltScale);
         families.push(Family::TiltUnscale);
@@ -68,7 +73,6 @@ fn of_order(order: usize) -> Vec<Spec> {
         families.push(Family::RotateSmall(Small::Lf5.from_band_3(order)));
         families.push(Family::RotateAdaptive(Small::Lf3.from_band_3(order)));
     }
-    let mut specs = vec![Spec::new(Family::Basis, order), Spec::new(Family::Angles, order)];
     for family in families {
         let spec = Spec::new(family, order);
         specs.push(spec.clone());

@@ -3,7 +3,6 @@
 //! an environment, the smallest order whose missing bands cost less than the budget. All figures are the kernels' own.
 
 use crate::accuracy::{self, round_up};
-use crate::bound;
 use crate::built::Built;
 use crate::catalog::{self, Row};
 use crate::choose::{self, Budget, Norm, Precision, Turn};
@@ -78,9 +77,12 @@ pub struct EnvironmentPlan {
 pub struct Rival {
     /// The spec.
     pub spec: String,
-    /// Its parameters but for the signal.
+    /// The spec of what makes its parameters, done once for all signals of a rotation, if it is not done by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set_up: Option<String>,
+    /// The parameters but for the signal, of the set-up if there is one.
     pub takes: Vec<&'static str>,
-    /// Multiplications, additions and multiply-adds.
+    /// Multiplications, additions and multiply-adds, for all signals of a rotation.
     pub total: usize,
     /// Inverse square roots and reciprocals.
     pub special: usize,
@@ -177,6 +179,11 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
     Ok((spec, true))
 }
 
+/// What turns several signals, or channels, by one quaternion: the set-ups that are done once, each with the rotation that takes what it
+/// makes.
+const SHARED: [(Family, Family); 2] =
+    [(Family::Angles, Family::Rotate(Method::Angles)), (Family::Lifted, Family::Rotate(Method::Lifted))];
+
 /// The methods that turn a signal as the scene asks, exact ones first, and those that are listed only to say why not.
 fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static str>)> {
     let exact = Family::Rotate(Spec::default_method(order, rgb));
@@ -225,12 +232,21 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// A method in a contest.
+#[derive(Clone)]
+struct Entry {
+    function: Function,
+    /// What makes its parameters, if it does not do so itself.
+    set_up: Option<Function>,
+    rival: Rival,
+}
+
 /// A rotation's methods, weighed.
 struct Contest<'a> {
     rotation: &'a Rotation,
     order: usize,
     budget: Budget,
-    entries: Vec<(Function, Rival)>,
+    entries: Vec<Entry>,
 }
 
 impl<'a> Contest<'a> {
@@ -244,58 +260,59 @@ impl<'a> Contest<'a> {
         let mut contest = Self { rotation, order, budget, entries: vec![] };
         let (specs, why): (Vec<_>, Vec<_>) = candidates(rotation.kind, order, rotation.rgb).into_iter().unzip();
         for (function, why) in catalog::build(&specs).into_iter().zip(why) {
-            contest.enter(function, why);
+            contest.enter(function, None, why);
         }
-        let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|(known, _)| known.spec == *spec);
+        if rotation.kind == Turn::Quaternion && (rotation.rgb || rotation.signals > 1) {
+            for (set_up, family) in SHARED.into_iter().filter(|(set_up, _)| order > 2 || *set_up != Family::Lifted) {
+                let specs = [Spec::new(set_up, order), Spec { rgb: rotation.rgb, ..Spec::new(family, order) }];
+                if let [set_up, function] = &catalog::build(&specs)[..] {
+                    contest.enter(function.clone(), Some(set_up.clone()), None);
+                }
+            }
+        }
+        let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|entry| entry.function.spec == *spec);
         let mixtures: Vec<Spec> = contest.mixtures().into_iter().filter(|spec| !known(&contest, spec)).collect();
         for function in catalog::build(&mixtures) {
-            contest.enter(function, None);
+            contest.enter(function, None, None);
         }
         contest.narrow();
-        contest.entries.sort_by(|(_, a), (_, b)| a.price.cmp(&b.price).then(a.method_error.total_cmp(&b.method_error)));
+        contest.entries.sort_by(|Entry { rival: a, .. }, Entry { rival: b, .. }| {
+            a.price.cmp(&b.price).then(a.method_error.total_cmp(&b.method_error))
+        });
         contest
     }
 
-    fn enter(&mut self, function: Function, why: Option<&'static str>) {
+    fn enter(&mut self, function: Function, set_up: Option<Function>, why: Option<&'static str>) {
         let (spec, built) = (&function.spec, &function.built);
         let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
-        let cost = built.code.cost(spec.channels());
+        let own = built.code.cost(spec.channels());
+        let once = set_up.as_ref().map_or_else(Cost::default, |set_up| set_up.built.code.cost(1));
+        let all = |of: fn(Cost) -> usize| self.rotation.signals * of(own) + of(once);
         let method_error = self.budget.predict(spec);
-        let rounding_f32 = self.rounding(built);
-        let limit = spec.max_angle().filter(|limit| degrees.to_radians() > *limit);
-        let refused = match (why, limit) {
+        let rounding = |built: &Built| built.rounding_within(self.budget.max_angle);
+        let rounding_f32 = rounding(built) + set_up.as_ref().map_or(0.0, |set_up| rounding(&set_up.built));
+        let beyond = spec.max_angle().is_some_and(|limit| degrees.to_radians() > limit);
+        let refused = match (why, beyond) {
             (Some(why), _) => Some(why.to_owned()),
-            (None, Some(limit)) => Some(format!("takes up to {} degrees only", limit.to_degrees().round())),
-            (None, None) if method_error + rounding_f32 <= max_error => None,
-            (None, None) => Some(format!("errs by more than {max_error}")),
+            (None, true) => Some(format!("takes up to {} degrees only", spec.max_degrees().unwrap_or_default())),
+            (None, false) if method_error + rounding_f32 <= max_error => None,
+            (None, false) => Some(format!("errs by more than {max_error}")),
         };
-        let takes = built.code.params().iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name);
+        let given = set_up.as_ref().unwrap_or(&function).built.code.params();
         let rival = Rival {
             spec: spec.to_string(),
-            takes: takes.collect(),
-            total: cost.total,
-            special: cost.special,
-            price: if spec.half { price(cost).div_ceil(HALF_SHARE) } else { price(cost) },
+            set_up: set_up.as_ref().map(|set_up| set_up.spec.to_string()),
+            takes: given.iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name).collect(),
+            total: all(|cost| cost.total),
+            special: all(|cost| cost.special),
+            price: if spec.half { all(price).div_ceil(HALF_SHARE) } else { all(price) },
             method_error,
             rounding_f32,
             barred: why,
             admissible: refused.is_none(),
             verdict: refused.unwrap_or_else(|| "keeps the error".to_owned()),
         };
-        self.entries.push((function, rival));
-    }
-
-    /// What f32 may round off up to the largest angle that is asked for; less than the head says for a method's whole
-    /// domain.
-    fn rounding(&self, built: &Built) -> f64 {
-        let whole = built.accuracy.rounding_f32;
-        match built.spec.max_angle() {
-            Some(limit) if !built.spec.half => {
-                let within = bound::within(&built.spec, &built.code, Some(limit.min(self.budget.max_angle)));
-                within.map_or(whole, |bound| round_up(bound.value()))
-            }
-            _ => whole,
-        }
+        self.entries.push(Entry { function, set_up, rival });
     }
 
     /// Every kernel again in f16, or there alone, if the scene says so.
@@ -304,21 +321,21 @@ impl<'a> Contest<'a> {
         if precision == Precision::F32 {
             return;
         }
-        let halves = self.entries.iter().filter(|(function, _)| function.spec.takes_half());
+        let halves = self.entries.iter().filter(|entry| entry.set_up.is_none() && entry.function.spec.takes_half());
         let (specs, why): (Vec<Spec>, Vec<_>) =
-            halves.map(|(function, rival)| (Spec { half: true, ..function.spec.clone() }, rival.barred)).unzip();
+            halves.map(|entry| (Spec { half: true, ..entry.function.spec.clone() }, entry.rival.barred)).unzip();
         if precision == Precision::F16 {
             self.entries.clear();
         }
         for (function, why) in catalog::build(&specs).into_iter().zip(why) {
-            self.enter(function, why);
+            self.enter(function, None, why);
         }
     }
 
     /// Mixtures of methods by band that leave room for the rounding of those that were entered.
     fn mixtures(&self) -> Vec<Spec> {
-        let approximate = self.entries.iter().filter(|(function, _)| function.spec.max_angle().is_some());
-        let rounding = approximate.map(|(_, rival)| rival.rounding_f32).fold(0.0, f64::max);
+        let approximate = self.entries.iter().filter(|entry| entry.function.spec.is_approximate());
+        let rounding = approximate.map(|entry| entry.rival.rounding_f32).fold(0.0, f64::max);
         let budget = Budget { error: self.budget.error - rounding, ..self.budget.clone() };
         let mut specs = choose::mixtures(self.rotation.kind, self.order, &budget);
         specs.iter_mut().for_each(|spec| spec.rgb = self.rotation.rgb);
@@ -326,11 +343,12 @@ impl<'a> Contest<'a> {
     }
 
     /// The cheapest method that keeps the error, and all of them with the reasons.
-    fn decide(mut self) -> Result<(Function, Chosen), Diagnostic> {
+    fn decide(mut self) -> Result<(Function, Option<Function>, Chosen), Diagnostic> {
         let max_error = &self.rotation.max_error;
-        let Some(best) = self.entries.iter().position(|(_, rival)| rival.admissible) else {
+        let rivals = || self.entries.iter().map(|entry| &entry.rival);
+        let Some(best) = rivals().position(|rival| rival.admissible) else {
             let error = |rival: &Rival| rival.method_error + rival.rounding_f32;
-            let exact = self.entries.iter().map(|(_, rival)| rival).min_by(|a, b| error(a).total_cmp(&error(b)));
+            let exact = rivals().min_by(|a, b| error(a).total_cmp(&error(b)));
             if self.entries.is_empty() {
                 let help = "take `auto` or `f32`, or the kind `tilt`, `y` or `zyz`";
                 let place = &self.rotation.precision.place;
@@ -342,12 +360,12 @@ impl<'a> Contest<'a> {
             });
             return Err(Diagnostic::at(&max_error.place, message, help));
         };
-        let which = match self.entries.iter().filter(|(_, rival)| rival.admissible).count() {
+        let which = match rivals().filter(|rival| rival.admissible).count() {
             1 => "the only one that keeps".to_owned(),
             kept => format!("the cheapest of {kept} that keep"),
         };
         let reason = format!(
-            "{which} an error of {}, of {} ways to {} by up to {} degrees",
+            "{which} an error of {}, of {} ways to {} by up to {} degrees{}",
             max_error.value,
             self.entries.len(),
             match self.rotation.kind {
@@ -357,38 +375,42 @@ impl<'a> Contest<'a> {
                 Turn::Quaternion => "turn by a quaternion whose y angle is bounded",
             },
             self.rotation.max_angle.value,
+            match self.rotation.signals {
+                1 => String::new(),
+                signals => format!(", for {signals} signals that turn alike"),
+            },
         );
-        for (place, (_, rival)) in self.entries.iter_mut().enumerate() {
+        for (place, Entry { rival, .. }) in self.entries.iter_mut().enumerate() {
             if place == best {
                 rival.verdict = "chosen".to_owned();
             } else if rival.admissible {
                 rival.verdict = "keeps the error too, but costs more".to_owned();
             }
         }
-        let mut function = self.entries[best].0.clone();
+        let Entry { mut function, set_up, .. } = self.entries[best].clone();
         function.name = self.rotation.name.as_ref().map(|name| name.value.clone());
         let chosen = Chosen {
             row: Row::of(&function),
             max_angle: Some(self.rotation.max_angle.value),
-            method_error: Some(self.entries[best].1.method_error),
+            method_error: Some(self.entries[best].rival.method_error),
             max_error: Some(max_error.value),
             norm: Some(self.budget.norm),
             reason,
-            rivals: self.entries.into_iter().map(|(_, rival)| rival).collect(),
+            rivals: self.entries.into_iter().map(|entry| entry.rival).collect(),
         };
-        Ok((function, chosen))
+        Ok((function, set_up, chosen))
     }
 }
 
 /// Refuses a named method that cannot take the scene's angle.
 fn check_angle(wanted: &Wanted, spec: &Spec) -> Result<(), Diagnostic> {
-    let (Some(angle), Some(limit)) = (&wanted.max_angle, spec.max_angle()) else {
+    let (Some(angle), Some(limit), Some(degrees)) = (&wanted.max_angle, spec.max_angle(), spec.max_degrees()) else {
         return Ok(());
     };
     if angle.value.to_radians() <= limit {
         return Ok(());
     }
-    let message = format!("`{spec}` takes angles up to {} degrees, not {}", limit.to_degrees().round(), angle.value);
+    let message = format!("`{spec}` takes angles up to {degrees} degrees, not {}", angle.value);
     let exact = match spec.family {
         Family::SmallY(_) => "rotate_y",
         _ => "rotate",
@@ -521,6 +543,7 @@ impl Plan {
     }
 
     fn take_rotations(&mut self, scene: &Scene) -> Result<(), Diagnostic> {
+        let mut set_ups: Vec<(Function, Chosen, &Place)> = vec![];
         for rotation in &scene.rotations {
             let order = number_of(&rotation.order, self.environment.as_ref())?;
             if rotation.precision.value != Precision::F32 {
@@ -534,17 +557,34 @@ impl Plan {
                 }
                 (_, environment) => environment.map_or(&[][..], |environment| &environment.energy),
             };
-            let (function, mut chosen) = Contest::new(rotation, order, energy).decide()?;
-            let known = self.module.functions.iter();
-            if known.into_iter().any(|known| (&known.spec, &known.name) == (&function.spec, &function.name)) {
+            let (function, set_up, mut chosen) = Contest::new(rotation, order, energy).decide()?;
+            let place = rotation.name.as_ref().map_or(&rotation.order.place, |name| &name.place);
+            if let Some(set_up) = set_up {
+                let chosen = Chosen {
+                    row: Row::of(&set_up),
+                    reason: format!("what `{}` takes, once for all that turns alike", function.spec),
+                    rivals: vec![],
+                    ..chosen.clone()
+                };
+                set_ups.push((set_up, chosen, place));
+            }
+            if self.has(&function) {
                 chosen.reason += ", and there already";
                 self.kernels.push(chosen);
                 continue;
             }
-            let place = rotation.name.as_ref().map_or(&rotation.order.place, |name| &name.place);
             self.push(function, chosen, place);
         }
+        for (function, chosen, place) in set_ups {
+            if !self.has(&function) {
+                self.push(function, chosen, place);
+            }
+        }
         Ok(())
+    }
+
+    fn has(&self, function: &Function) -> bool {
+        self.module.functions.iter().any(|known| (&known.spec, &known.name) == (&function.spec, &function.name))
     }
 
     fn push(&mut self, function: Function, chosen: Chosen, place: &Place) {
@@ -863,7 +903,10 @@ impl fmt::Display for Plan {
                 vec![row(["method", "takes", "total", "special", "price", "method error", "f32 rounding", "verdict"])];
             for rival in &chosen.rivals {
                 rows.push(vec![
-                    format!("`{}`", rival.spec),
+                    match &rival.set_up {
+                        Some(set_up) => format!("`{}` after `{set_up}`", rival.spec),
+                        None => format!("`{}`", rival.spec),
+                    },
                     rival.takes.join(", "),
                     rival.total.to_string(),
                     rival.special.to_string(),

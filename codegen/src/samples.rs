@@ -3,7 +3,7 @@
 
 use crate::eval::{Contraction, Program};
 use crate::kernel::{Param, Shape};
-use crate::kernels::rotate;
+use crate::kernels::{lifted, rotate};
 use crate::listing::Listing;
 use crate::spec::{Family, Method, Spec};
 
@@ -129,10 +129,18 @@ fn signal(random: &mut Random, count: usize) -> Vec<f64> {
 /// radians (an exact tilt takes every normal with n.z ≥ 0). Each input is one list of numbers a parameter, in flat order, every number an f32.
 pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle: f64) -> Vec<Vec<Vec<f64>>> {
     let mut random = Random::new(seed);
-    let multiples = matches!(spec.family, Family::Rotate(Method::Angles))
-        .then(|| Program::<f64>::new(&Listing::new(&rotate::angles(spec.order))));
+    let set_up = match spec.family {
+        Family::Rotate(Method::Angles) => Some(rotate::angles(spec.order)),
+        Family::Rotate(Method::Lifted) => Some(lifted::lifted(spec.order)),
+        _ => None,
+    };
+    let set_up = set_up.map(|kernel| Program::<f64>::new(&Listing::new(&kernel)));
     let tilts = matches!(spec.family, Family::Tilt(_) | Family::TiltPrescaled(_));
-    let small = matches!(spec.family, Family::RotateSmall(_)) && spec.max_angle().is_some();
+    let small = !tilts && spec.max_angle().is_some() && !matches!(spec.family, Family::RotateAdaptive(_));
+    let turn = |random: &mut Random, i: usize| match small {
+        true => small_rotation(random, i, max_angle),
+        false => quaternion(random, i),
+    };
     (0..count)
         .map(|i| {
             let values = params.iter().map(|param| match (param.name, param.shape) {
@@ -151,12 +159,11 @@ pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle:
                     vec![x, y, z.abs()]
                 }
                 (_, Shape::Vec3) => direction(&mut random, i).to_vec(),
-                ("q", _) if small => small_rotation(&mut random, i, max_angle).to_vec(),
-                (_, Shape::Vec4) => quaternion(&mut random, i).to_vec(),
+                (_, Shape::Vec4) => turn(&mut random, i).to_vec(),
                 (_, Shape::Mat3) => matrix_of(quaternion(&mut random, i)).to_vec(),
                 (_, Shape::Pair) => pairs(&mut random, i, 1),
-                (_, Shape::Pairs(n)) => match &multiples {
-                    Some(program) => program.run(&[&quaternion(&mut random, i)], Contraction::Separate),
+                (_, Shape::Pairs(n)) => match &set_up {
+                    Some(program) => program.run(&[&turn(&mut random, i)], Contraction::Separate),
                     None => pairs(&mut random, i, n),
                 },
                 (_, shape) => signal(&mut random, shape.len()),

@@ -29,6 +29,8 @@
 //!                                     # that of the environment's energies, against all of it
 //! precision = "f32"                   # if left out; or "f16" (WGSL alone), or "auto": f16 where the error allows it
 //! rgb = true
+//! signals = 1                         # if left out; how many such signals each rotation turns: with more, a kernel may
+//!                                     # be chosen that does the set-up of a `quaternion` once for all of them
 //! name = "bump"                       # optional
 //!
 //! [brdf]                              # for pictures, see below; what [`crate::picture`] draws
@@ -69,6 +71,9 @@ use std::sync::Arc;
 
 /// The largest scene that is read, in bytes.
 const MAX_BYTES: usize = 1 << 20;
+
+/// The most signals that a rotation may turn: beyond it, only what is done for each of them counts.
+const MAX_SIGNALS: usize = 1_000_000;
 
 /// A value and where it was written.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,6 +146,8 @@ pub struct Rotation {
     pub precision: Located<Precision>,
     /// Whether the signal has three channels.
     pub rgb: bool,
+    /// How many such signals each rotation turns.
+    pub signals: usize,
     /// A name that replaces the spec's own.
     pub name: Option<Located<String>>,
 }
@@ -234,6 +241,7 @@ struct RotationTable {
     precision: Option<Spanned<Precision>>,
     #[serde(default)]
     rgb: bool,
+    signals: Option<Spanned<i64>>,
     name: Option<Spanned<String>>,
 }
 
@@ -316,6 +324,15 @@ impl Locator {
                 format!("write a number above {least} and up to {most}"),
             )),
         }
+    }
+
+    fn signals(&self, spanned: Spanned<i64>) -> Result<usize, Diagnostic> {
+        let located = self.at(spanned);
+        let count = usize::try_from(located.value).ok().filter(|count| (1..=MAX_SIGNALS).contains(count));
+        count.ok_or_else(|| {
+            let message = format!("{} signals are out of range", located.value);
+            Diagnostic::at(&located.place, message, format!("write a number from 1 to {MAX_SIGNALS}"))
+        })
     }
 
     fn angle(&self, spanned: Spanned<f64>) -> Result<Located<f64>, Diagnostic> {
@@ -409,6 +426,7 @@ impl Scene {
                 precision: locate.or_default(table.precision, &table.max_error),
                 max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
                 rgb: table.rgb,
+                signals: table.signals.map_or(Ok(1), |signals| locate.signals(signals))?,
                 name: table.name.map(|name| locate.at(name)),
             });
         }

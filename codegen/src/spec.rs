@@ -18,6 +18,11 @@ pub const MAX_LOOP_ORDER: usize = 64;
 /// The largest angle in degrees that an approximate rotation is meant for: paper 000's "up to 25 degrees".
 pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
 
+/// The largest (n − 1) β in degrees that a lifted rotation takes: there the tangents of its shears reach √3, and f32 errs
+/// by some one and a half times what the rotation by planes does; beyond, the error grows with them, to infinity at 180
+/// degrees.
+pub const LIFTED_DEGREES: f64 = 120.0;
+
 /// How a rotation is done.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Method {
@@ -31,6 +36,8 @@ pub enum Method {
     Euler,
     /// z, y, z from all multiples of the three angles, as the family `angles` makes them.
     Angles,
+    /// z, y, z with the y rotation by shears, as the family `lifted` makes them.
+    Lifted,
     /// z, x, z, x, z with sparse x rotations: the papers' baseline.
     Zxzxz,
     /// The z axis to a normal, spin irrelevant.
@@ -66,6 +73,8 @@ pub enum Family {
     Rotate(Method),
     /// The multiples of the three angles of a quaternion.
     Angles,
+    /// The multiples of the two z angles of a quaternion and the shears of its y rotation.
+    Lifted,
     /// About y by a small angle, a method for each band from 1.
     SmallY(Vec<Small>),
     /// z to a normal, a method for each band from 1: bands 1 and 2 exactly, the others by shears.
@@ -127,7 +136,7 @@ pub struct SpecError {
 }
 
 /// The families that take no method, with their names.
-const PLAIN: [(Family, &str); 16] = [
+const PLAIN: [(Family, &str); 17] = [
     (Family::Basis, "basis"),
     (Family::Eval, "eval"),
     (Family::EvalMonomial, "eval_monomial"),
@@ -138,6 +147,7 @@ const PLAIN: [(Family, &str); 16] = [
     (Family::RotateXPlus90, "rotate_x_plus_90"),
     (Family::RotateXMinus90, "rotate_x_minus_90"),
     (Family::Angles, "angles"),
+    (Family::Lifted, "lifted"),
     (Family::TiltScale, "tilt_scale"),
     (Family::TiltUnscale, "tilt_unscale"),
     (Family::Zhf, "zhf"),
@@ -160,12 +170,13 @@ const LISTED: [(Listed, &str); 4] = [
 ];
 
 /// The methods of `rotate` but for the small-angle ones, with their names.
-const METHODS: [(Method, &str); 8] = [
+const METHODS: [(Method, &str); 9] = [
     (Method::Zyz, "zyz"),
     (Method::Tensor, "tensor"),
     (Method::Matrix, "matrix"),
     (Method::Euler, "euler"),
     (Method::Angles, "angles"),
+    (Method::Lifted, "lifted"),
     (Method::Zxzxz, "zxzxz"),
     (Method::Align, "align"),
     (Method::Zonal, "zonal"),
@@ -287,7 +298,7 @@ impl Spec {
     pub fn takes_half(&self) -> bool {
         let family = match &self.family {
             Family::Rotate(method) => !matches!(method, Method::Zyz | Method::Zxzxz | Method::Align),
-            Family::Angles | Family::RotateSmall(_) | Family::RotateAdaptive(_) => false,
+            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::RotateAdaptive(_) => false,
             Family::Zhf | Family::ZhfWeights | Family::ZhfTailored => false,
             _ => true,
         };
@@ -299,13 +310,27 @@ impl Spec {
         self.bands.len() == self.order
     }
 
-    /// The largest y angle in radians that the method is meant for, if it is an approximation.
-    pub fn max_angle(&self) -> Option<f64> {
-        let approximate = match &self.family {
+    /// Whether it is a rotation that errs by more than rounding.
+    pub fn is_approximate(&self) -> bool {
+        match &self.family {
             Family::SmallY(_) | Family::Rotate(Method::Small(_)) => true,
             family => family.methods().is_some_and(|methods| methods.iter().any(|method| *method != Small::Exact)),
-        };
-        approximate.then(|| SMALL_ANGLE_DEGREES.to_radians())
+        }
+    }
+
+    /// The largest y angle in radians that the method is meant for, if it does not take every angle.
+    pub fn max_angle(&self) -> Option<f64> {
+        match self.family {
+            Family::Lifted | Family::Rotate(Method::Lifted) => {
+                Some((LIFTED_DEGREES / (self.order - 1) as f64).to_radians())
+            }
+            _ => self.is_approximate().then(|| SMALL_ANGLE_DEGREES.to_radians()),
+        }
+    }
+
+    /// The same in degrees, cut off after two decimals.
+    pub fn max_degrees(&self) -> Option<f64> {
+        self.max_angle().map(|most| (most.to_degrees() * 100.0 + 1e-6).floor() / 100.0)
     }
 
     /// What the function is called after its prefix `sh<order>_`; unique among specs of one order. It never ends in a
@@ -572,7 +597,7 @@ impl Spec {
     /// Refuses combinations that no kernel exists for.
     fn check(&self, whole: &Piece<'_>) -> Result<(), SpecError> {
         let order = self.order;
-        let has_signal = !matches!(self.family, Family::Basis | Family::Angles);
+        let has_signal = !matches!(self.family, Family::Basis | Family::Angles | Family::Lifted);
         if self.rgb && !has_signal {
             let message = format!("`{}` has no signal that could be RGB", whole.text);
             return Err(whole.error(message, "leave `rgb` out: its result serves every channel"));
@@ -590,6 +615,12 @@ impl Spec {
             return Err(whole.error(
                 format!("this method has orders 2 and 3 only, not {order}"),
                 "from order 4 on `zyz` is the cheapest exact rotation: leave the method out",
+            ));
+        }
+        if matches!(&self.family, Family::Lifted | Family::Rotate(Method::Lifted)) && order < 3 {
+            return Err(whole.error(
+                format!("a lifted rotation has orders from 3 on, not {order}"),
+                "at order 2 the matrix of a rotation costs least: take `rotate:2:matrix`",
             ));
         }
         if let Family::Tilt(methods) | Family::TiltPrescaled(methods) = &self.family

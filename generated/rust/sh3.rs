@@ -72,6 +72,53 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 7] {
     ]
 }
 
+/// `lifted:3`: The multiples of the two z angles of a rotation and the shears of its y rotation that
+/// `rotate:3:lifted` takes; done once for many signals.
+/// q: the rotation, a unit quaternion (x, y, z, w).
+/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
+///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// Operations: 34 (20 mul, 6 add, 8 fma) and 2 inverse square roots or reciprocals; 3 constants, 16
+///     live values.
+/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 60 degrees about y
+///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 8] {
+    let t0 = q[1] + T::TINY;
+    let t1 = q[3] + T::TINY;
+    let t2 = t1.fma(t1, q[2] * q[2]);
+    let t3 = q[0].fma(q[0], t0 * t0);
+    let t4 = t2 * t3;
+    let t5 = T::rsqrt(t4);
+    let t6 = t1 * t5;
+    let t7 = q[2] * t5;
+    let t8 = q[0] * t7;
+    let t9 = t0.fma(t6, t8);
+    let t10 = q[0] * t6;
+    let t11 = t0.fms(t7, t10);
+    let t12 = t9 * t11;
+    let t13 = t0.fms(t6, t8);
+    let t14 = t0.fma(t7, t10);
+    let t15 = t13 * t14;
+    let t16 = t3 * t5;
+    let t17 = T::lit(2.0) * (t4 * t5);
+    let t18 = t2 - t3;
+    let t19 = t17 * T::recip(t18);
+    let t20 = t18 * t17;
+    let t21 = t20 + t20;
+    [
+        [t9, t11],
+        [t9.fms(t9, t11 * t11), t12 + t12],
+        [t13, t14],
+        [t13.fms(t13, t14 * t14), t15 + t15],
+        [t16, t17],
+        [T::lit(0.8660254037844386) * t19, T::lit(0.8660254037844386) * t21],
+        [-(T::lit(0.5) * t19), -(T::lit(0.5) * t21)],
+        [-t16, -t17],
+    ]
+}
+
 /// `eval:3`: The sum of c_i y_i(dir) over the harmonics of order 3, without storing the basis.
 /// dir: the direction, of unit length.
 /// c: the coefficients of the bands, ascending.
@@ -1439,6 +1486,51 @@ pub fn rotate_matrix<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 9]) -> [V; 
 #[inline(always)]
 pub fn rotate_matrix_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
     rotate_matrix::<T, Channels<T, 3>>(m, &c.map(Channels)).map(|v| v.0)
+}
+
+/// `rotate:3:lifted`: Rotates order 3 exactly, by z, y, z with the y rotation as shears, from what
+/// `lifted:3` makes; the y angle is bounded.
+/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
+///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// c: the coefficients, index l(l+1)+m.
+/// Returns the rotated coefficients.
+/// Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
+/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
+///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 8], c: &[V; 9]) -> [V; 9] {
+    let t0 = c[1].fma(cs[2][0], c[3] * cs[2][1]);
+    let t1 = c[3].fms(cs[2][0], c[1] * cs[2][1]);
+    let t2 = t1.fma(cs[4][0], c[2]);
+    let t3 = t2.fnma(cs[4][1], t1);
+    let t4 = c[5].fma(cs[2][0], c[7] * cs[2][1]);
+    let t5 = t4.fma(cs[7][0], c[4].fma(cs[3][0], c[8] * cs[3][1]));
+    let t6 = t5.fnma(cs[7][1], t4);
+    let t7 = t6.fma(cs[7][0], t5);
+    let t8 = c[7].fms(cs[2][0], c[5] * cs[2][1]);
+    let t9 = t8.fma(cs[6][0], c[8].fms(cs[3][0], c[4] * cs[3][1]));
+    let t10 = t8.fma(cs[5][0], c[6]);
+    let t11 = t9.fnma(cs[6][1], t10.fnma(cs[5][1], t8));
+    let t12 = t11.fma(cs[6][0], t9);
+    [
+        c[0],
+        t0.fma(cs[0][0], t3 * cs[0][1]),
+        t3.fma(cs[4][0], t2),
+        t3.fms(cs[0][0], t0 * cs[0][1]),
+        t7.fma(cs[1][0], t12 * cs[1][1]),
+        t6.fma(cs[0][0], t11 * cs[0][1]),
+        t11.fma(cs[5][0], t10),
+        t11.fms(cs[0][0], t6 * cs[0][1]),
+        t12.fms(cs[1][0], t7 * cs[1][1]),
+    ]
+}
+
+/// [`rotate_lifted`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 8], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    rotate_lifted::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
 }
 
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|

@@ -583,6 +583,14 @@ pub const SH3_ANGLES: Shader = Shader {
     glsl: include_str!("../glsl/sh3/angles.glsl"),
 };
 
+/// `lifted:3`.
+pub const SH3_LIFTED: Shader = Shader {
+    spec: "lifted:3",
+    name: "sh3_lifted",
+    wgsl: include_str!("../wgsl/sh3/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/lifted.glsl"),
+};
+
 /// `eval:3`.
 pub const SH3_EVAL: Shader = Shader {
     spec: "eval:3",
@@ -1079,6 +1087,22 @@ pub const SH3_ROTATE_MATRIX_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh3/rotate_matrix_rgb.glsl"),
 };
 
+/// `rotate:3:lifted`.
+pub const SH3_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:3:lifted",
+    name: "sh3_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
+};
+
+/// `rotate:3:lifted:rgb`.
+pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:3:lifted:rgb",
+    name: "sh3_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
+};
+
 /// `basis:3:loop`.
 pub const SH3_BASIS_LOOP: Shader = Shader {
     spec: "basis:3:loop",
@@ -1133,6 +1157,14 @@ pub const SH4_ANGLES: Shader = Shader {
     name: "sh4_angles",
     wgsl: include_str!("../wgsl/sh4/angles.wgsl"),
     glsl: include_str!("../glsl/sh4/angles.glsl"),
+};
+
+/// `lifted:4`.
+pub const SH4_LIFTED: Shader = Shader {
+    spec: "lifted:4",
+    name: "sh4_lifted",
+    wgsl: include_str!("../wgsl/sh4/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/lifted.glsl"),
 };
 
 /// `eval:4`.
@@ -1599,6 +1631,22 @@ pub const SH4_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh4/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:4:lifted`.
+pub const SH4_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:4:lifted",
+    name: "sh4_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
+};
+
+/// `rotate:4:lifted:rgb`.
+pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:4:lifted:rgb",
+    name: "sh4_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:4`.
 pub const SH4_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:4",
@@ -1765,6 +1813,14 @@ pub const SH5_ANGLES: Shader = Shader {
     name: "sh5_angles",
     wgsl: include_str!("../wgsl/sh5/angles.wgsl"),
     glsl: include_str!("../glsl/sh5/angles.glsl"),
+};
+
+/// `lifted:5`.
+pub const SH5_LIFTED: Shader = Shader {
+    spec: "lifted:5",
+    name: "sh5_lifted",
+    wgsl: include_str!("../wgsl/sh5/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/lifted.glsl"),
 };
 
 /// `eval:5`.
@@ -2231,6 +2287,22 @@ pub const SH5_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh5/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:5:lifted`.
+pub const SH5_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:5:lifted",
+    name: "sh5_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
+};
+
+/// `rotate:5:lifted:rgb`.
+pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:5:lifted:rgb",
+    name: "sh5_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:5`.
 pub const SH5_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:5",
@@ -2421,6 +2493,14 @@ pub const SH6_ANGLES: Shader = Shader {
     name: "sh6_angles",
     wgsl: include_str!("../wgsl/sh6/angles.wgsl"),
     glsl: include_str!("../glsl/sh6/angles.glsl"),
+};
+
+/// `lifted:6`.
+pub const SH6_LIFTED: Shader = Shader {
+    spec: "lifted:6",
+    name: "sh6_lifted",
+    wgsl: include_str!("../wgsl/sh6/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/lifted.glsl"),
 };
 
 /// `eval:6`.
@@ -2887,6 +2967,22 @@ pub const SH6_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh6/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:6:lifted`.
+pub const SH6_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:6:lifted",
+    name: "sh6_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
+};
+
+/// `rotate:6:lifted:rgb`.
+pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:6:lifted:rgb",
+    name: "sh6_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:6`.
 pub const SH6_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:6",
@@ -3053,6 +3149,14 @@ pub const SH7_ANGLES: Shader = Shader {
     name: "sh7_angles",
     wgsl: include_str!("../wgsl/sh7/angles.wgsl"),
     glsl: include_str!("../glsl/sh7/angles.glsl"),
+};
+
+/// `lifted:7`.
+pub const SH7_LIFTED: Shader = Shader {
+    spec: "lifted:7",
+    name: "sh7_lifted",
+    wgsl: include_str!("../wgsl/sh7/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/lifted.glsl"),
 };
 
 /// `eval:7`.
@@ -3519,6 +3623,22 @@ pub const SH7_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh7/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:7:lifted`.
+pub const SH7_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:7:lifted",
+    name: "sh7_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
+};
+
+/// `rotate:7:lifted:rgb`.
+pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:7:lifted:rgb",
+    name: "sh7_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:7`.
 pub const SH7_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:7",
@@ -3685,6 +3805,14 @@ pub const SH8_ANGLES: Shader = Shader {
     name: "sh8_angles",
     wgsl: include_str!("../wgsl/sh8/angles.wgsl"),
     glsl: include_str!("../glsl/sh8/angles.glsl"),
+};
+
+/// `lifted:8`.
+pub const SH8_LIFTED: Shader = Shader {
+    spec: "lifted:8",
+    name: "sh8_lifted",
+    wgsl: include_str!("../wgsl/sh8/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/lifted.glsl"),
 };
 
 /// `eval:8`.
@@ -4151,6 +4279,22 @@ pub const SH8_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh8/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:8:lifted`.
+pub const SH8_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:8:lifted",
+    name: "sh8_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
+};
+
+/// `rotate:8:lifted:rgb`.
+pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:8:lifted:rgb",
+    name: "sh8_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:8`.
 pub const SH8_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:8",
@@ -4317,6 +4461,14 @@ pub const SH9_ANGLES: Shader = Shader {
     name: "sh9_angles",
     wgsl: include_str!("../wgsl/sh9/angles.wgsl"),
     glsl: include_str!("../glsl/sh9/angles.glsl"),
+};
+
+/// `lifted:9`.
+pub const SH9_LIFTED: Shader = Shader {
+    spec: "lifted:9",
+    name: "sh9_lifted",
+    wgsl: include_str!("../wgsl/sh9/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/lifted.glsl"),
 };
 
 /// `eval:9`.
@@ -4783,6 +4935,22 @@ pub const SH9_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh9/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:9:lifted`.
+pub const SH9_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:9:lifted",
+    name: "sh9_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
+};
+
+/// `rotate:9:lifted:rgb`.
+pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:9:lifted:rgb",
+    name: "sh9_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:9`.
 pub const SH9_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:9",
@@ -4949,6 +5117,14 @@ pub const SH10_ANGLES: Shader = Shader {
     name: "sh10_angles",
     wgsl: include_str!("../wgsl/sh10/angles.wgsl"),
     glsl: include_str!("../glsl/sh10/angles.glsl"),
+};
+
+/// `lifted:10`.
+pub const SH10_LIFTED: Shader = Shader {
+    spec: "lifted:10",
+    name: "sh10_lifted",
+    wgsl: include_str!("../wgsl/sh10/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/lifted.glsl"),
 };
 
 /// `eval:10`.
@@ -5415,6 +5591,22 @@ pub const SH10_LF5_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/lf5_zyz_rgb.glsl"),
 };
 
+/// `rotate:10:lifted`.
+pub const SH10_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:10:lifted",
+    name: "sh10_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
+};
+
+/// `rotate:10:lifted:rgb`.
+pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:10:lifted:rgb",
+    name: "sh10_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
+};
+
 /// `tilt_scale:10`.
 pub const SH10_TILT_SCALE: Shader = Shader {
     spec: "tilt_scale:10",
@@ -5640,6 +5832,7 @@ pub const ALL: &[Shader] = &[
     SH2_TAYLOR15_Y_RGB_LOOP,
     SH3_BASIS,
     SH3_ANGLES,
+    SH3_LIFTED,
     SH3_EVAL,
     SH3_EVAL_RGB,
     SH3_ROTATE_Z,
@@ -5702,6 +5895,8 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_TENSOR_RGB,
     SH3_ROTATE_MATRIX,
     SH3_ROTATE_MATRIX_RGB,
+    SH3_ROTATE_LIFTED,
+    SH3_ROTATE_LIFTED_RGB,
     SH3_BASIS_LOOP,
     SH3_ROTATE_ZYZ_LOOP,
     SH3_ROTATE_RGB_LOOP,
@@ -5709,6 +5904,7 @@ pub const ALL: &[Shader] = &[
     SH3_TAYLOR15_Y_RGB_LOOP,
     SH4_BASIS,
     SH4_ANGLES,
+    SH4_LIFTED,
     SH4_EVAL,
     SH4_EVAL_RGB,
     SH4_ROTATE_Z,
@@ -5767,6 +5963,8 @@ pub const ALL: &[Shader] = &[
     SH4_LF5_Y_RGB,
     SH4_LF5_ZYZ,
     SH4_LF5_ZYZ_RGB,
+    SH4_ROTATE_LIFTED,
+    SH4_ROTATE_LIFTED_RGB,
     SH4_TILT_SCALE,
     SH4_TILT_SCALE_RGB,
     SH4_TILT_UNSCALE,
@@ -5788,6 +5986,7 @@ pub const ALL: &[Shader] = &[
     SH4_TAYLOR15_Y_RGB_LOOP,
     SH5_BASIS,
     SH5_ANGLES,
+    SH5_LIFTED,
     SH5_EVAL,
     SH5_EVAL_RGB,
     SH5_ROTATE_Z,
@@ -5846,6 +6045,8 @@ pub const ALL: &[Shader] = &[
     SH5_LF5_Y_RGB,
     SH5_LF5_ZYZ,
     SH5_LF5_ZYZ_RGB,
+    SH5_ROTATE_LIFTED,
+    SH5_ROTATE_LIFTED_RGB,
     SH5_TILT_SCALE,
     SH5_TILT_SCALE_RGB,
     SH5_TILT_UNSCALE,
@@ -5870,6 +6071,7 @@ pub const ALL: &[Shader] = &[
     SH5_TAYLOR15_Y_RGB_LOOP,
     SH6_BASIS,
     SH6_ANGLES,
+    SH6_LIFTED,
     SH6_EVAL,
     SH6_EVAL_RGB,
     SH6_ROTATE_Z,
@@ -5928,6 +6130,8 @@ pub const ALL: &[Shader] = &[
     SH6_LF5_Y_RGB,
     SH6_LF5_ZYZ,
     SH6_LF5_ZYZ_RGB,
+    SH6_ROTATE_LIFTED,
+    SH6_ROTATE_LIFTED_RGB,
     SH6_TILT_SCALE,
     SH6_TILT_SCALE_RGB,
     SH6_TILT_UNSCALE,
@@ -5949,6 +6153,7 @@ pub const ALL: &[Shader] = &[
     SH6_TAYLOR15_Y_RGB_LOOP,
     SH7_BASIS,
     SH7_ANGLES,
+    SH7_LIFTED,
     SH7_EVAL,
     SH7_EVAL_RGB,
     SH7_ROTATE_Z,
@@ -6007,6 +6212,8 @@ pub const ALL: &[Shader] = &[
     SH7_LF5_Y_RGB,
     SH7_LF5_ZYZ,
     SH7_LF5_ZYZ_RGB,
+    SH7_ROTATE_LIFTED,
+    SH7_ROTATE_LIFTED_RGB,
     SH7_TILT_SCALE,
     SH7_TILT_SCALE_RGB,
     SH7_TILT_UNSCALE,
@@ -6028,6 +6235,7 @@ pub const ALL: &[Shader] = &[
     SH7_TAYLOR15_Y_RGB_LOOP,
     SH8_BASIS,
     SH8_ANGLES,
+    SH8_LIFTED,
     SH8_EVAL,
     SH8_EVAL_RGB,
     SH8_ROTATE_Z,
@@ -6086,6 +6294,8 @@ pub const ALL: &[Shader] = &[
     SH8_LF5_Y_RGB,
     SH8_LF5_ZYZ,
     SH8_LF5_ZYZ_RGB,
+    SH8_ROTATE_LIFTED,
+    SH8_ROTATE_LIFTED_RGB,
     SH8_TILT_SCALE,
     SH8_TILT_SCALE_RGB,
     SH8_TILT_UNSCALE,
@@ -6107,6 +6317,7 @@ pub const ALL: &[Shader] = &[
     SH8_TAYLOR15_Y_RGB_LOOP,
     SH9_BASIS,
     SH9_ANGLES,
+    SH9_LIFTED,
     SH9_EVAL,
     SH9_EVAL_RGB,
     SH9_ROTATE_Z,
@@ -6165,6 +6376,8 @@ pub const ALL: &[Shader] = &[
     SH9_LF5_Y_RGB,
     SH9_LF5_ZYZ,
     SH9_LF5_ZYZ_RGB,
+    SH9_ROTATE_LIFTED,
+    SH9_ROTATE_LIFTED_RGB,
     SH9_TILT_SCALE,
     SH9_TILT_SCALE_RGB,
     SH9_TILT_UNSCALE,
@@ -6186,6 +6399,7 @@ pub const ALL: &[Shader] = &[
     SH9_TAYLOR15_Y_RGB_LOOP,
     SH10_BASIS,
     SH10_ANGLES,
+    SH10_LIFTED,
     SH10_EVAL,
     SH10_EVAL_RGB,
     SH10_ROTATE_Z,
@@ -6244,6 +6458,8 @@ pub const ALL: &[Shader] = &[
     SH10_LF5_Y_RGB,
     SH10_LF5_ZYZ,
     SH10_LF5_ZYZ_RGB,
+    SH10_ROTATE_LIFTED,
+    SH10_ROTATE_LIFTED_RGB,
     SH10_TILT_SCALE,
     SH10_TILT_SCALE_RGB,
     SH10_TILT_UNSCALE,

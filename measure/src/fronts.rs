@@ -165,13 +165,14 @@ fn plans(turn: Turn, order: usize) -> Vec<Plan> {
     for degrees in SHOWN {
         for budget in LEVELS.into_iter().rev() {
             let mut left = budget;
-            let (built, operations, law) = loop {
+            let (built, operations, law, rounding) = loop {
                 let (spec, operations, law) = cheapest(turn, order, &within(degrees, left));
                 let built = known.entry(spec).or_insert_with_key(Built::new);
-                if law + built.accuracy.rounding_f32 <= budget || law == 0.0 {
-                    break (built, operations, law);
+                let rounding = built.rounding_within(degrees.to_radians());
+                if law + rounding <= budget || law == 0.0 {
+                    break (built, operations, law, rounding);
                 }
-                left = budget - built.accuracy.rounding_f32;
+                left = budget - rounding;
             };
             plans.push(Plan {
                 turn,
@@ -179,7 +180,7 @@ fn plans(turn: Turn, order: usize) -> Vec<Plan> {
                 degrees,
                 budget,
                 choice: Choice { spec: built.spec.to_string(), operations, law },
-                rounding: built.accuracy.rounding_f32,
+                rounding,
                 measured: measured(turn, built, &reference, degrees.to_radians()),
             });
         }

@@ -73,7 +73,7 @@ fn of(spec: &Spec) -> Rounding {
 /// The kernels whose result is a signal of n² coefficients, of what [`crate::costs`] has.
 pub fn specs() -> Vec<Spec> {
     let whole = |spec: &Spec| match spec.family {
-        Family::Angles | Family::ZhfWeights | Family::ZhfTailored => false,
+        Family::Angles | Family::Lifted | Family::ZhfWeights | Family::ZhfTailored => false,
         _ => spec.is_whole(),
     };
     crate::costs::specs().into_iter().filter(whole).collect()

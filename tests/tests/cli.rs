@@ -74,6 +74,11 @@ fn wrong_types_are_refused() {
     refused(&rotation("max_angle = -1"), "5:13", &["-1 is out of range", "above 0 and up to 180"]);
     refused(&rotation("max_angle = nan"), "5:13", &["NaN is out of range"]);
     refused(&rotation("max_error = inf"), "6:13", &["inf is out of range"]);
+    refused(
+        &format!("{}signals = 0\n", rotation("order = 5")),
+        "7:11",
+        &["0 signals are out of range", "from 1 to 1000000"],
+    );
     refused(&rotation("max_error = 1e-9"), "6:13", &["no method keeps an error of 0.000000001", "allow"]);
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use zonal_codegen::samples::Random;
-use zonal_tests::{Runner, band_error, golden, larger, norm, numbers, spec};
+use zonal_tests::{Runner, band_error, golden, larger, norm, numbers, quaternion_of_angles, spec};
 
 fn cases(file: &Value) -> &Vec<Value> {
     file["cases"].as_array().expect("a golden file has cases")
@@ -146,6 +146,44 @@ fn rotations_from_euler_angles_meet_the_golden_matrices() {
         let angles = Runner::<f64>::new(&spec(&format!("angles:{order}")));
         check_rotation(&format!("rotate:{order}:angles"), order, |case| angles.run(&[quaternion(case)]));
     }
+}
+
+/// Every golden rotation that lies in the domain, its edge among them: 60 degrees at order 3, 20 at order 7.
+#[test]
+fn lifted_rotations_meet_the_golden_values_in_their_domain() {
+    let (tilts, rotations) = (golden("tilt"), golden("rotations"));
+    let (mut seen, mut edges) = (0, 0);
+    for order in 3..=10 {
+        let [set_up, rotate] = [format!("lifted:{order}"), format!("rotate:{order}:lifted")].map(|text| spec(&text));
+        let most = rotate.max_angle().expect("the domain is bounded");
+        let (wide, narrow) = (Runner::<f64>::new(&rotate), Runner::<f32>::new(&rotate));
+        let (set_up, narrow_set_up) = (Runner::<f64>::new(&set_up), Runner::<f32>::new(&set_up));
+        let mut check = |q: Vec<f64>, c: &[f64], want: &[f64], what: String| {
+            let made = set_up.run(std::slice::from_ref(&q));
+            let error = band_error(&wide.run(&[made.clone(), c.to_vec()]), want);
+            assert!(error <= 1e-13, "order {order}, {what}: {error:e} in f64");
+            for (made, most) in [(made, 2e-6), (narrow_set_up.run(&[q]), 4e-6)] {
+                let error = band_error(&narrow.run(&[made, c.to_vec()]), want);
+                assert!(error <= most, "order {order}, {what}: {error:e} in f32");
+            }
+            seen += 1;
+        };
+        for case in cases(&tilts).iter().filter(|_| order <= 8) {
+            let [beta, phi] = ["deg", "phi_deg"].map(|key| case[key].as_f64().expect("an angle").to_radians());
+            if beta > most {
+                continue;
+            }
+            edges += usize::from(beta == most);
+            let n2 = order * order;
+            let (c, want) = (numbers(&case["src"]), numbers(&case["exact"]));
+            check(quaternion_of_angles(phi, beta, -phi), &c[..n2], &want[..n2], format!("{} degrees", case["deg"]));
+        }
+        let c = signal(order, 3);
+        for case in cases(&rotations).iter().filter(|case| numbers(&case["zyz"])[1] <= most) {
+            check(quaternion(case), &c, &rotated(case, &c), case["name"].to_string());
+        }
+    }
+    assert!(seen >= 80 && edges >= 2, "{seen} cases, {edges} at the edge");
 }
 
 #[test]

@@ -3,8 +3,10 @@
 
 use zonal_codegen::accuracy::{band_errors, method_errors};
 use zonal_codegen::built;
-use zonal_codegen::eval::Contraction;
+use zonal_codegen::eval::{Contraction, Number};
+use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
 use zonal_codegen::samples::{self, Random};
+use zonal_codegen::spec::LIFTED_DEGREES;
 use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 
 /// Runs a kernel of any form in f64.
@@ -242,4 +244,132 @@ fn what_is_not_on_the_front_is_left_out() {
     let band = |text: &str| cost(&format!("{text}:5")) - cost(&format!("{text}:4"));
     println!("operations of band 4: lf3 {}, lf5 {}, taylor2 {}", band("lf3"), band("lf5"), band("taylor2"));
     assert!(band("lf3") < band("taylor2"), "a quadratic costs what Taylor 2 does");
+}
+
+/// What rotates by z, y, z with a set-up of its own: by planes, or lifted.
+const SHARED: [&str; 2] = ["angles", "lifted"];
+
+/// The pair's set-up and rotation, in `T`.
+fn prepared<T: Number>(method: &str, order: usize, q: &[f64], c: &[f64]) -> Vec<f64> {
+    let run = |text: String, inputs: &[&[f64]]| -> Vec<f64> {
+        let rounded: Vec<Vec<T>> = inputs.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
+        let rounded: Vec<&[T]> = rounded.iter().map(Vec::as_slice).collect();
+        let got = built::code(&spec(&text)).runner::<T>().run(&rounded, Contraction::Separate);
+        got.into_iter().map(Number::to_f64).collect()
+    };
+    let made = run(format!("{method}:{order}"), &[q]);
+    run(format!("rotate:{order}:{method}"), &[&made, c])
+}
+
+#[test]
+fn the_lifted_rotation_is_the_exact_one_in_its_whole_domain() {
+    let mut random = Random::new(31);
+    for order in 3..=10 {
+        let most = spec(&format!("lifted:{order}")).max_angle().expect("the domain is bounded");
+        for fraction in [0.0, 1e-30, 1e-16, 1e-8, 1e-4, 0.1, 0.5, 0.9, 0.999, 1.0] {
+            let q = quaternion_of_angles(random.signed() * 3.2, most * fraction, random.signed() * 3.2);
+            let c = signal(&mut random, order);
+            let want = run(&format!("rotate:{order}:zyz"), &[&q, &c]);
+            let error = band_error(&prepared::<f64>("lifted", order, &q, &c), &want);
+            assert!(error < 1e-13, "order {order} at {fraction} of its domain: {error:e}");
+        }
+        let c = signal(&mut random, order);
+        let same = prepared::<f64>("lifted", order, &[0.0, 0.0, 0.0, 1.0], &c);
+        assert!(band_error(&same, &c) < 1e-14, "order {order}: the identity");
+        // What is no number in one band stays there.
+        for l in 0..order {
+            let mut spoilt = c.clone();
+            spoilt[l * l] = f64::NAN;
+            let got = prepared::<f64>("lifted", order, &[0.0, 0.1 * most, 0.0, 1.0], &spoilt);
+            assert!(
+                (0..order * order).filter(|i| i.isqrt() != l).all(|i| got[i].is_finite()),
+                "order {order}, band {l}"
+            );
+        }
+    }
+}
+
+/// Why the domain ends where the largest tangent is √3: up to there f32 errs by hardly more than twice what planes
+/// do at worst, half of the way as they do; beyond, it errs without bound.
+#[test]
+fn the_lifted_domain_ends_where_its_tangents_begin_to_cost() {
+    for order in [4, 5, 7, 9] {
+        let worst = |method: &str, degrees: f64| {
+            let mut random = Random::new(8);
+            let errors = (0..200).map(|_| {
+                let beta = f64::to_radians(degrees) / (order - 1) as f64;
+                let q = quaternion_of_angles(random.signed() * 3.2, beta, random.signed() * 3.2);
+                let q: Vec<f64> = q.iter().map(|x| f64::from(*x as f32)).collect();
+                let c: Vec<f64> = signal(&mut random, order).iter().map(|x| f64::from(*x as f32)).collect();
+                band_error(&prepared::<f32>(method, order, &q, &c), &run(&format!("rotate:{order}:zyz"), &[&q, &c]))
+            });
+            errors.fold(0.0, f64::max)
+        };
+        let planes = worst("angles", LIFTED_DEGREES);
+        let [inside, edge, beyond, far] = [60.0, LIFTED_DEGREES, 150.0, 175.0].map(|degrees| worst("lifted", degrees));
+        println!(
+            "order {order}: planes {planes:.1e}; lifted {inside:.1e} at 60, {edge:.1e} at 120, {beyond:.1e}, {far:.1e}"
+        );
+        assert!(
+            inside < 1.5 * planes && edge < 2.5 * planes && beyond > 1.2 * edge && far > 5.0 * edge,
+            "order {order}"
+        );
+    }
+}
+
+/// The ledger: what a rotation costs with all given, and what its set-up does.
+#[test]
+fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
+    let cost = |text: String| built::code(&spec(&text)).cost(1);
+    let mut rows = Vec::new();
+    for n in 3..=10usize {
+        let (planes, lifted) = (cost(format!("rotate:{n}:angles")), cost(format!("rotate:{n}:lifted")));
+        let (angles, shears) = (cost(format!("angles:{n}")), cost(format!("lifted:{n}")));
+        let z = 4 * n * (n - 1);
+        // Three shears of n (n² − 1) / 6 couplings, each one multiply-add, and no constant.
+        assert_eq!(lifted.total - z, n * (n * n - 1) / 2, "order {n}");
+        assert_eq!((lifted.special, shears.special - 1), (0, n - 2), "order {n}: a reciprocal a frequency from 2");
+        rows.push([n, planes.total - z, lifted.total - z, price(angles), price(shears)]);
+    }
+    println!("order, the y rotation by planes and lifted, the prices of their set-ups: {rows:?}");
+    // MATH section 4 has 12 36 78 147 237 358 for planes that are lifted themselves, n = 3 to 8.
+    assert_eq!(rows.iter().map(|row| row[1]).collect::<Vec<_>>(), [15, 43, 89, 155, 243, 361, 511, 691]);
+    assert_eq!(rows.iter().map(|row| row[2]).collect::<Vec<_>>(), [12, 30, 60, 105, 168, 252, 360, 495]);
+    assert_eq!(rows.iter().map(|row| row[4]).collect::<Vec<_>>(), [42, 81, 138, 235, 374, 593, 882, 1311]);
+}
+
+/// Where the lifted rotation is on the front: its set-up pays from three to seven signals on, so for RGB up to order 5, by
+/// a sixtieth, and for two RGB signals up to order 9. For many signals it saves a sixth; for one it never pays.
+#[test]
+fn lifting_pays_from_a_few_signals_on() {
+    let cost = |text: &str, signals: usize| {
+        let code = built::code(&spec(text));
+        price(code.cost(1)) + (signals - 1) * (price(code.cost(2)) - price(code.cost(1)))
+    };
+    let all = |n: usize, signals: usize| -> [usize; 3] {
+        let pair = |method: &str| {
+            price(built::code(&spec(&format!("{method}:{n}"))).cost(1)) + cost(&format!("rotate:{n}:{method}"), signals)
+        };
+        [cost(&format!("rotate:{n}"), signals), pair(SHARED[0]), pair(SHARED[1])]
+    };
+    let mut pays = Vec::new();
+    for n in 3..=10 {
+        let first = (1..100).find(|&signals| {
+            let [whole, planes, lifted] = all(n, signals);
+            lifted < whole.min(planes)
+        });
+        let [three, many] = [3, 48].map(|signals| all(n, signals));
+        println!("order {n}: pays from {first:?} signals; RGB {three:?}, 48 signals {many:?}");
+        assert!(n < 4 || many[2] as f64 <= 0.88 * many[1] as f64, "order {n}: {many:?}");
+        pays.push(first.expect("pays at last"));
+    }
+    assert_eq!(pays, [3, 3, 3, 4, 4, 5, 6, 7]);
+    // Planes that are lifted one by one save an operation each, a change of basis stays: at RGB a fortieth, and they take
+    // a reciprocal, two operations and a pair of numbers a frequency. Not enough for a kernel of its own.
+    for n in 4..=10 {
+        let planes = 3 * n * (n - 1) / 2;
+        let set_up = (n - 1) * (2 + SPECIAL_WEIGHT);
+        let saved = planes as f64 - set_up as f64;
+        assert!(saved < 0.026 * all(n, 3)[0] as f64, "order {n}: {saved}");
+    }
 }

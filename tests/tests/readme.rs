@@ -11,9 +11,10 @@ use zonal_tests::{repository, spec};
 fn costs() -> String {
     let orders = 3..=10;
     type Text = fn(usize) -> String;
-    let rows: [(&str, Text); 8] = [
+    let rows: [(&str, Text); 9] = [
         ("`rotate:n` from a quaternion", |n| format!("rotate:{n}")),
         ("`rotate:n:angles`, multiples given", |n| format!("rotate:{n}:angles")),
+        ("`rotate:n:lifted`, shears given", |n| format!("rotate:{n}:lifted")),
         ("`rotate:n:zxzxz`, the papers' way", |n| format!("rotate:{n}:zxzxz")),
         ("`tilt:n`", |n| format!("tilt:{n}")),
         ("`lf3:n`", |n| format!("lf3:{n}")),

@@ -86,6 +86,43 @@ fn a_uniform_map_needs_one_coefficient() {
     assert_eq!(plan.environment.expect("has one").values.len(), 1);
 }
 
+/// Several signals that one quaternion turns share its set-up, lifted inside of the domain, by planes outside of it.
+#[test]
+fn what_turns_alike_is_prepared_once() {
+    let plan = |order: usize, max_angle: f64, more: &str| {
+        let head =
+            format!("name = \"a\"\n[[rotation]]\nkind = \"quaternion\"\norder = {order}\nmax_angle = {max_angle}");
+        plan(&format!("{head}\nmax_error = 1e-4\n{more}")).unwrap_or_else(|error| panic!("{error}"))
+    };
+    assert_eq!(specs(&plan(5, 30.0, "")), ["rotate:5"]);
+    assert_eq!(specs(&plan(5, 30.0, "rgb = true\n")), ["rotate:5:lifted:rgb", "lifted:5"]);
+    assert_eq!(specs(&plan(8, 15.0, "rgb = true\n")), ["rotate:8:rgb"]);
+    assert_eq!(specs(&plan(8, 15.0, "rgb = true\nsignals = 2\n")), ["rotate:8:lifted:rgb", "lifted:8"]);
+    assert_eq!(specs(&plan(5, 30.1, "signals = 9\n")), ["rotate:5:angles", "angles:5"]);
+    assert_eq!(specs(&plan(2, 30.0, "signals = 9\n")).len(), 2);
+    let plan = plan(5, 30.0, "rgb = true\nsignals = 16\n");
+    let [chosen, set_up] = &plan.kernels[..] else { panic!("a rotation and its set-up") };
+    let rival = |spec: &str| chosen.rivals.iter().find(|rival| rival.spec == spec).expect("was weighed");
+    let lifted = rival("rotate:5:lifted:rgb");
+    assert_eq!(lifted.total, 16 * chosen.row.cost.total + set_up.row.cost.total);
+    assert_eq!((lifted.takes.as_slice(), lifted.set_up.as_deref()), (&["q"][..], Some("lifted:5")));
+    assert!(10 * lifted.price < 9 * rival("rotate:5:angles:rgb").price);
+    assert_eq!(plan.module.functions.len(), 2);
+}
+
+/// The domain is refused where a scene names the kernel, too.
+#[test]
+fn a_lifted_rotation_is_refused_outside_of_its_domain() {
+    let plan = |degrees: f64| {
+        plan(&format!("name = \"a\"\n[[kernel]]\nspec = \"rotate:8:lifted:rgb\"\nmax_angle = {degrees}\n"))
+    };
+    assert!(plan(17.14).is_ok());
+    let refused = plan(17.15).expect_err("is too far").to_string();
+    assert!(refused.contains("takes angles up to 17.14 degrees, not 17.15"), "{refused}");
+    let refused = "rotate:2:lifted".parse::<zonal_codegen::spec::Spec>().expect_err("has no such order").to_string();
+    assert!(refused.contains("orders from 3 on"), "{refused}");
+}
+
 #[test]
 fn the_cheapest_rotation_within_the_error_is_chosen() {
     let mut chosen = Vec::new();

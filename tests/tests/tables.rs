@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use zonal_codegen::kernels::lifted;
 use zonal_codegen::sh::exact::Exact;
 use zonal_codegen::sh::index::{coefficients, degrees, index};
 use zonal_codegen::sh::tables;
@@ -10,6 +11,26 @@ fn golden<T: DeserializeOwned>(name: &str) -> T {
     let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
     serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {e}"))
+}
+
+/// The sines' factors in a lifted coupling, each times its frequency, add up to the generator's entry, which the golden
+/// `dy` has; their squares to one where an even order couples to all odd ones at 90 degrees of an odd frequency.
+#[test]
+fn lifted_couplings_have_the_generator_as_their_slope() {
+    for l in 1..=12 {
+        let all = lifted::couplings(l);
+        assert_eq!(all.len(), l * (l + 1) / 2);
+        for [even, odd] in all {
+            let factors = lifted::factors(l, [even, odd]);
+            let slope = (1..).zip(&factors).fold(Exact::zero(), |sum, (k, factor)| sum + Exact::int(k) * factor);
+            let want = match (even - odd).abs() {
+                1 if even > odd => tables::dy_sub_diag(l, even),
+                1 => -tables::dy_sub_diag(l, odd),
+                _ => Exact::zero(),
+            };
+            assert_eq!(slope, want, "band {l}, {even} and {odd}");
+        }
+    }
 }
 
 /// A rational written p or p/q, of any length.

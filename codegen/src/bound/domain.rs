@@ -2,7 +2,12 @@
 //! trigonometric polynomial in the angles of its domain, for fixed relative roundings; such a polynomial of degree d stays
 //! below its largest value at N equidistant points divided by cos(πd/N) (M. Riesz). So a grid proves a bound for all angles.
 
+use crate::bound::phases::INPUT;
+use crate::kernels::lifted;
+use crate::sh::exact::Exact;
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 /// What a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,10 +41,55 @@ pub enum Root {
     Cos(usize),
     /// sin kθ.
     Sin(usize),
+    /// sin θ / 2.
+    HalfSine,
+    /// tan(θ / 2).
+    HalfTangent,
     /// sin²θ / 2.
     HalfSquare,
     /// sin θ cos θ.
     Product,
+    /// A coupling in the outer or in the inner shear of a lifted band.
+    Shear {
+        /// The band.
+        l: usize,
+        /// Which of its couplings.
+        at: usize,
+        /// In which shear.
+        inner: bool,
+    },
+}
+
+/// The factors of a coupling, computed once.
+fn factors(l: usize, at: usize) -> Arc<[f64]> {
+    type Known = HashMap<(usize, usize), Arc<[f64]>>;
+    static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
+    let known = &mut KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let compute = || lifted::factors(l, lifted::couplings(l)[at]).iter().map(Exact::to_f64).collect();
+    Arc::clone(known.entry((l, at)).or_insert_with(compute))
+}
+
+/// A coupling over angles from `middle` − `half` to `middle` + `half`, below the tangents' poles. A quaternion whose
+/// components were rounded to f32 is longer or shorter than one by 1.001 u, which changes a sine of kβ by k times two of
+/// that and a tangent of its half by less than twice as much; so does rounding a coupling itself by less.
+fn coupling(l: usize, at: usize, inner: bool, middle: f64, half: f64) -> Enclosure {
+    let (mut value, mut slope, mut bend, mut loose) = (0.0, 0.0, 0.0, 0.0);
+    for (i, factor) in factors(l, at).iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+        let k = (i + 1) as f64;
+        // The function, its slope, and the most that its size and its second derivative are.
+        let (of, by, size, most) = match inner {
+            true => ((k * middle).sin(), k * (k * middle).cos(), k * (middle + half), k * k),
+            false => {
+                let [tan, end] = [middle, middle + half].map(|x| (k * x / 2.0).tan());
+                (tan, k / 2.0 * (1.0 + tan * tan), end, k * k / 2.0 * end * (1.0 + end * end))
+            }
+        };
+        value += factor * of;
+        slope += factor * by;
+        bend += factor.abs() * most;
+        loose += 8.0 * k * INPUT * factor.abs() * size;
+    }
+    (value, slope.abs() * half + bend * half * half / 2.0 + loose + THIN)
 }
 
 /// Degrees in up to three angles.
@@ -78,7 +128,9 @@ impl Domain {
         match (self, root) {
             (Self::Arc(_), _) => [0, 0, 0],
             (_, Root::Cos(k) | Root::Sin(k)) => [k, 0, 0],
+            (_, Root::HalfSine) => [1, 0, 0],
             (_, Root::HalfSquare | Root::Product) => [2, 0, 0],
+            (_, Root::HalfTangent | Root::Shear { .. }) => [0, 0, 0],
             (Self::Small(_), _) => [1, 0, 0],
             (Self::Sphere, Root::Component(2)) => [0, 1, 0],
             (Self::Sphere, _) => [1, 1, 0],
@@ -123,9 +175,11 @@ impl Domain {
                         thin(match root {
                             Root::Cos(k) => (k as f64 * theta).cos(),
                             Root::Sin(k) => (k as f64 * theta).sin(),
+                            Root::HalfSine => theta.sin() / 2.0,
                             Root::HalfSquare => theta.sin() * theta.sin() / 2.0,
                             Root::Product => theta.sin() * theta.cos(),
                             Root::Component(i) => [theta.cos(), theta.sin()][i],
+                            Root::HalfTangent | Root::Shear { .. } => unreachable!("an arc has tangents"),
                         })
                     });
                 }
@@ -142,8 +196,15 @@ impl Domain {
                         let [value, slope] = if matches!(root, Root::Cos(_)) { [cos, sin] } else { [sin, cos] };
                         around(value, k * slope, k)
                     }
+                    Root::HalfSine => around(middle.sin() / 2.0, middle.cos() / 2.0, 1.0),
+                    Root::HalfTangent => {
+                        let [tan, end] = [middle, middle + half].map(|x| (x / 2.0).tan());
+                        let bend = end * (1.0 + end * end) / 2.0;
+                        (tan, (1.0 + tan * tan) / 2.0 * half + bend * half * half / 2.0 + THIN)
+                    }
                     Root::HalfSquare => around(middle.sin().powi(2) / 2.0, (2.0 * middle).sin() / 2.0, 1.0),
                     Root::Product => around((2.0 * middle).sin() / 2.0, (2.0 * middle).cos(), 2.0),
+                    Root::Shear { l, at, inner } => coupling(l, at, inner, middle, half),
                     Root::Component(_) => unreachable!("an arc has phases"),
                 });
             }

@@ -165,9 +165,7 @@ impl Phases {
                 sums.entry([pair.first, pair.second]).or_default().push(place);
             }
             if let Op::Mul(a, b) = step.op {
-                let two =
-                    |operand| matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0);
-                let doubled = if two(a) { product(listing, b) } else { None };
+                let doubled = if is_two(listing, a) { product(listing, b) } else { None };
                 doubled.into_iter().for_each(|product| {
                     doubles.insert(sorted(product), place);
                 });
@@ -249,6 +247,18 @@ pub fn given(param: usize, pair: usize, circle: usize, multiple: usize) -> Phase
     Phase { cos: part(0), sin: part(1), circle, multiple, defect: INPUT, error: [0.0; 2] }
 }
 
+fn is_two(listing: &Listing, operand: Operand) -> bool {
+    matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0)
+}
+
+/// What a value is two times, if it is made so.
+pub fn doubled(listing: &Listing, value: Operand) -> Option<Operand> {
+    match step(listing, value)? {
+        Op::Mul(k, x) if is_two(listing, k) => Some(x),
+        _ => None,
+    }
+}
+
 fn steps(listing: &Listing) -> impl Iterator<Item = (Operand, Op)> + '_ {
     listing.steps.iter().enumerate().map(|(place, step)| (Operand::Step(place), step.op))
 }
@@ -274,14 +284,39 @@ fn sum_of_squares(listing: &Listing, a: Operand, b: Operand) -> Option<Operand> 
 /// Which circle is that of a quaternion's β.
 pub const POLAR: usize = 2;
 
+/// What the angles of a quaternion are made of: (w, z), (y, x), the sums of their squares, the product of those, and its
+/// inverse root.
+struct Halves {
+    pairs: [[Operand; 2]; 2],
+    a: Operand,
+    b: Operand,
+    ab: Operand,
+    r: Operand,
+}
+
+impl Halves {
+    fn of(listing: &Listing) -> Option<Self> {
+        let input = |index| Operand::Input { param: 0, index };
+        let (x, z, y, w) = (input(0), input(2), nudged(listing, 1)?, nudged(listing, 3)?);
+        let (a, b) = (sum_of_squares(listing, w, z)?, sum_of_squares(listing, x, y)?);
+        let ab = find_product(listing, a, b)?;
+        let r = find(listing, |op| op == Op::Rsqrt(ab))?;
+        Some(Self { pairs: [[w, z], [y, x]], a, b, ab, r })
+    }
+}
+
+/// tan(β/2) that a kernel makes of a quaternion, and how far it is off relative to it.
+pub fn half_tangent(listing: &Listing) -> Option<(Operand, Both)> {
+    let Halves { pairs, b, r, .. } = Halves::of(listing)?;
+    let tangent = find_product(listing, b, r)?;
+    Some((tangent, boxes::error(listing, &pairs, &[tangent])?.map(|error| error + REST)))
+}
+
 /// The phases of α, β and γ that a kernel makes of a unit quaternion. The rounding of adding the tiny number is left out:
 /// it turns α and γ, but hardly the rotation that they make together.
 pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
-    let input = |index| Operand::Input { param: 0, index };
-    let (x, z, y, w) = (input(0), input(2), nudged(listing, 1)?, nudged(listing, 3)?);
-    let (a, b) = (sum_of_squares(listing, w, z)?, sum_of_squares(listing, x, y)?);
-    let ab = find_product(listing, a, b)?;
-    let r = find(listing, |op| op == Op::Rsqrt(ab))?;
+    let Halves { pairs, a, b, ab, r } = Halves::of(listing)?;
+    let [[w, z], [y, x]] = pairs;
     let (wr, zr) = (find_product(listing, w, r)?, find_product(listing, z, r)?);
     // Two phases, α and γ: the same products with other signs.
     let part = |one: [Operand; 2], other: [Operand; 2]| -> Vec<(Operand, Pair)> {
@@ -289,7 +324,6 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
         steps(listing).filter_map(|(operand, op)| is_one(op).map(|pair| (operand, pair))).collect()
     };
     let (real, imaginary) = (part([wr, y], [zr, x]), part([zr, y], [wr, x]));
-    let pairs = [[w, z], [y, x]];
     let mut phases = Vec::new();
     for (cos, p) in &real {
         let opposite = |q: &Pair| (p.plus[0] == p.plus[1]) != (q.plus[0] == q.plus[1]);
@@ -300,8 +334,7 @@ pub fn of_quaternion(listing: &Listing) -> Option<Vec<Phase>> {
     }
     let [_, _] = phases[..] else { return None };
     let root = find_product(listing, ab, r)?;
-    let two = |operand| matches!(operand, Operand::Const(place) if listing.constants[place].to_f64() == 2.0);
-    let sin = find(listing, |op| matches!(op, Op::Mul(k, x) if two(k) && x == root))?;
+    let sin = find(listing, |op| matches!(op, Op::Mul(k, x) if is_two(listing, k) && x == root))?;
     let cos = find(listing, |op| op == Op::Sub(a, b))?;
     let part = |value| boxes::error(listing, &pairs, &[value]);
     let polar = boxes::polar(part(a)?, part(b)?, part(sin)?.map(|error| error / 2.0));

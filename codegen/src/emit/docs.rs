@@ -6,7 +6,7 @@ use crate::built::Built;
 use crate::code::Code;
 use crate::kernel::Param;
 use crate::kernels::y_rotation::Small;
-use crate::spec::{Family, Method, SMALL_ANGLE_DEGREES, Spec};
+use crate::spec::{Family, Method, Spec};
 
 const WIDTH: usize = 100;
 
@@ -93,6 +93,9 @@ pub fn summary(spec: &Spec) -> String {
         Family::Angles => format!(
             "The multiples of the three angles of a rotation that `rotate:{order}:angles` takes; done once for many signals."
         ),
+        Family::Lifted => format!(
+            "The multiples of the two z angles of a rotation and the shears of its y rotation that `rotate:{order}:lifted` takes; done once for many signals."
+        ),
         Family::Tilt(methods) => match order {
             2 | 3 => {
                 format!("Tilts order {order}: the shortest rotation from z to a normal, exactly, with no trigonometry.")
@@ -155,6 +158,9 @@ pub fn summary(spec: &Spec) -> String {
             Method::Angles => {
                 format!("Rotates order {order} exactly, by z, y, z from the multiples that `angles:{order}` makes.")
             }
+            Method::Lifted => format!(
+                "Rotates order {order} exactly, by z, y, z with the y rotation as shears, from what `lifted:{order}` makes; the y angle is bounded."
+            ),
             Method::Zxzxz => format!(
                 "Rotates order {order} exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al. 2005): the baseline."
             ),
@@ -211,9 +217,10 @@ pub fn cost(built: &Built, channels: usize) -> String {
 
 /// How exact a kernel is and where, in sentences.
 pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
-    let small = format!("for an angle up to {SMALL_ANGLE_DEGREES} degrees");
+    let small = spec.max_degrees().map(|most| format!("for an angle up to {most} degrees")).unwrap_or_default();
     let domain = match &spec.family {
         Family::RotateAdaptive(_) => "for every unit q, with a limit up to 25 degrees",
+        Family::Lifted | Family::Rotate(Method::Lifted) => &format!("{small} about y"),
         _ if spec.max_angle().is_some() => &small,
         Family::Basis | Family::Eval | Family::EvalMonomial => "for dir of unit length",
         Family::Tilt(_) | Family::TiltPrescaled(_) => "for every n of unit length with n.z >= 0",
@@ -248,7 +255,7 @@ pub fn error(spec: &Spec, accuracy: &Accuracy) -> String {
     if spec.half {
         text += " Numbers beyond 65504 are infinite in f16, and those below 6e-5 lose digits.";
     }
-    if spec.max_angle().is_some() && accuracy.method.is_empty() {
+    if spec.is_approximate() && accuracy.method.is_empty() {
         text += " Method error: about (l beta)^2 / 4 in band l while l beta is below 1.";
     }
     text

@@ -2,6 +2,7 @@
 //! the recurrence that is chosen; nothing downstream makes it cheaper.
 
 pub mod basis;
+pub mod lifted;
 pub mod loops;
 pub mod monomial;
 pub mod orthogonal;

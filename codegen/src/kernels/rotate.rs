@@ -48,16 +48,41 @@ pub fn y_phases(g: &mut Graph, beta: Phase, count: usize) -> YPhases {
     YPhases { multiples: all, half_square, product }
 }
 
+/// What the angles of a quaternion are made of.
+struct Halves {
+    /// x, y, z, w, a tiny number added to y and w.
+    q: [Id; 4],
+    /// w² + z², which is cos²(β/2).
+    a: Id,
+    /// x² + y², which is sin²(β/2).
+    b: Id,
+    /// Their product and its inverse root.
+    ab: Id,
+    r: Id,
+}
+
+impl Halves {
+    fn new(g: &mut Graph, q: &[Id]) -> Self {
+        let tiny = g.tiny();
+        let [x, z] = [q[0], q[2]];
+        let [y, w] = [g.add(q[1], tiny), g.add(q[3], tiny)];
+        let a = inner(g, &[w, z], &[w, z]);
+        let b = inner(g, &[x, y], &[x, y]);
+        let ab = g.mul(a, b);
+        Self { q: [x, y, z, w], a, b, ab, r: g.rsqrt(ab) }
+    }
+}
+
+/// tan(β/2) of a quaternion, whatever its length.
+pub fn half_tangent_of_quaternion(g: &mut Graph, q: &[Id]) -> Id {
+    let Halves { b, r, .. } = Halves::new(g, q);
+    g.mul(b, r)
+}
+
 /// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch (MATH section 10): adding a tiny
 /// number to w and y keeps both phases defined where one of them has no meaning.
 pub fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
-    let tiny = g.tiny();
-    let [x, z] = [q[0], q[2]];
-    let [y, w] = [g.add(q[1], tiny), g.add(q[3], tiny)];
-    let a = inner(g, &[w, z], &[w, z]);
-    let b = inner(g, &[x, y], &[x, y]);
-    let ab = g.mul(a, b);
-    let r = g.rsqrt(ab);
+    let Halves { q: [x, y, z, w], a, b, ab, r } = Halves::new(g, q);
     let (wr, zr) = (g.mul(w, r), g.mul(z, r));
     let (wy, zx, zy, wx) = (g.mul(wr, y), g.mul(zr, x), g.mul(zr, y), g.mul(wr, x));
     let alpha = Phase { cos: g.add(wy, zx), sin: g.sub(zy, wx) };

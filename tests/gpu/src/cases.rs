@@ -95,7 +95,7 @@ pub fn tolerance(function: &Function) -> f64 {
     let (built, order) = (&function.built, function.spec.order as f64);
     let promised = match function.spec.family {
         // The file promises what the angles rotate; here they are compared themselves, and l of them add up.
-        Family::Angles => 2.0 * ULP * order,
+        Family::Angles | Family::Lifted => 2.0 * ULP * order,
         _ => 1.5 * built.accuracy.rounding_f32.min(MARGIN * built.accuracy.measured_f32),
     };
     let special = match built.code.cost(1).special {
@@ -167,7 +167,7 @@ impl Cases {
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         // The conversion to monomials mixes bands.
-        let mixes = matches!(function.spec.family, Family::Angles | Family::ToMonomial);
+        let mixes = matches!(function.spec.family, Family::Angles | Family::Lifted | Family::ToMonomial);
         let by_band = Measure::of(&function.spec) == Measure::Bands && !mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());

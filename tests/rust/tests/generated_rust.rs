@@ -132,6 +132,8 @@ macro_rules! order_from_4 {
     ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
         order! {
             $scalar, $table, $module,
+            value: lifted;
+            list_signal: rotate_lifted / rotate_lifted_rgb;
             value_signal: lf5_tilt / lf5_tilt_rgb, lf5_rotate_small / lf5_rotate_small_rgb,
                 tilt_prescaled / tilt_prescaled_rgb, lf5_tilt_prescaled / lf5_tilt_prescaled_rgb;
             signal: tilt_scale / tilt_scale_rgb, tilt_unscale / tilt_unscale_rgb;
@@ -148,8 +150,9 @@ macro_rules! every_order {
             value_signal: rotate_zyz / rotate_zyz_rgb, rotate_zyz_loop / rotate_zyz_rgb_loop;
             list_signal: rotate_matrix / rotate_matrix_rgb;);
         order!($scalar, table, sh3,
+            value: lifted;
             value_signal: rotate_zyz / rotate_tensor_rgb, rotate_zyz_loop / rotate_rgb_loop;
-            list_signal: rotate_matrix / rotate_matrix_rgb;);
+            list_signal: rotate_matrix / rotate_matrix_rgb, rotate_lifted / rotate_lifted_rgb;);
         order_from_4!($scalar, table, sh4, value_signal: rotate_loop / rotate_rgb_loop;);
         order_from_4!($scalar, table, sh5,
             value_signal: rotate_loop / rotate_rgb_loop, bands_0_1_2_4_eval / bands_0_1_2_4_eval_rgb,
