@@ -29,7 +29,8 @@ use crate::code::Code;
 use crate::graph::Kind;
 use crate::kernel::Shape;
 use crate::kernels::{lifted, rotate};
-use crate::listing::{Listing, Op, Operand};
+use crate::listing::{Listing, Op, Operand, Step};
+use crate::sh::exact::Exact;
 use crate::spec::{Family, MAX_ORDER, Method, Spec};
 use domain::{Domain, Root};
 use norm::{Matrix, SLACK};
@@ -62,6 +63,9 @@ impl Bound {
         (separate.is_finite() && fused.is_finite()).then_some(Self { separate, fused, bands })
     }
 }
+
+/// What errors of some 1e-5 may change of errors that are found for exact values.
+const ROOM: f64 = 1.01;
 
 /// What adding the tiny number to a quaternion's w and y changes in band l, divided by l: the quaternion turns by 3e-15.
 const NUDGE: f64 = 1e-13;
@@ -151,6 +155,8 @@ struct Prover<'a> {
     others: HashMap<Operand, (Start, usize)>,
     /// [`U`], or 0 where only what the inputs come with counts.
     roundoff: f64,
+    /// How far the plane of each frequency from 1 is off that lifted couplings turn, besides their own errors.
+    planes: Vec<Both>,
 }
 
 /// The bounds of parts that were met before: kernels share most of theirs.
@@ -184,9 +190,18 @@ impl<'a> Prover<'a> {
             others.extend(phases::doubled(listing, polar.sin).map(|root| (root, (half, phases::POLAR))));
             let (operand, error) = phases::half_tangent(listing)?;
             let error = error.map(|error| error * (max_angle.unwrap_or_default() / 2.0).tan() * SLACK);
-            others.insert(operand, (Start { root: Root::HalfTangent, spread: polar.defect, error }, phases::POLAR));
+            let start = Start { root: Root::HalfTangent(1), spread: polar.defect, error };
+            others.insert(operand, (start, phases::POLAR));
         }
-        Some(Self { spec, listing, max_angle, phases: Phases::new(listing, roots), others, roundoff: U })
+        Some(Self {
+            spec,
+            listing,
+            max_angle,
+            phases: Phases::new(listing, roots),
+            others,
+            roundoff: U,
+            planes: vec![],
+        })
     }
 
     /// What the errors of this listing's results, the kernel `angles` or `lifted`, do to a rotation by them.
@@ -202,13 +217,70 @@ impl<'a> Prover<'a> {
             }
             *pair = Phase { defect: made.defect, error: made.error, ..*pair };
         }
+        let (sums, planes) = match self.spec.family {
+            Family::Lifted => self.sums().map(|(sums, planes)| (Some(sums), planes))?,
+            _ => (None, vec![]),
+        };
+        let (sums, room) = sums.as_ref().map_or((self, 1.0), |sums| (sums, ROOM));
         let mut others = HashMap::new();
         for ((operand, root), &output) in rest.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
-            let error = self.scalars(&[self.unsigned(output)])?;
+            let error = sums.scalars(&[self.unsigned(output)])?.map(|error| error * room);
             others.insert(operand, (Start { root, spread: 5.0 * INPUT, error }, circle));
         }
         let phases = Phases::new(rotation, pairs);
-        Some(Prover { listing: rotation, phases, others, roundoff: 0.0, ..*self })
+        Some(Prover { listing: rotation, phases, others, roundoff: 0.0, planes, ..*self })
+    }
+
+    /// For `lifted`, whose couplings are sums over frequencies: what makes the sums of exact tangents and sines, and how
+    /// far the plane of each frequency is off by theirs. Tangents and sines that are off leave the planes apart, so that
+    /// these errors do not add; and as both come of one phase, most of what they are off by turns their plane.
+    fn sums(&self) -> Option<(Prover<'a>, Vec<Both>)> {
+        let count = self.spec.order - 1;
+        let (half, _) = phases::half_tangent(self.listing)?;
+        let tangents = phases::tangents(self.listing, &self.phases, half, count)?;
+        let polar = self.phases.all().iter().filter(|phase| phase.circle == phases::POLAR);
+        let mut listing = self.listing.clone();
+        listing.constants.extend([Exact::one(), Exact::int(2)]);
+        let [one, two] = [2, 1].map(|back| Operand::Const(listing.constants.len() - back));
+        let mut planes = Vec::new();
+        for (k, &tangent) in (1..).zip(&tangents) {
+            // The plane's matrix has 1 − ts twice, t (2 − ts) and −s.
+            let sine = phases::sine(self.listing, &self.phases, k)?;
+            let mut push = |op| {
+                listing.steps.push(Step { op, kind: Kind::Scalar, uses: 1 });
+                Operand::Step(listing.steps.len() - 1)
+            };
+            let product = push(Op::Mul(tangent, sine));
+            let (same, rest) = (push(Op::Sub(one, product)), push(Op::Sub(two, product)));
+            planes.push([same, push(Op::Mul(tangent, rest)), sine]);
+        }
+        let whole = Prover {
+            listing: &listing,
+            phases: Phases::only(polar.clone().filter(|phase| phase.multiple == 1).copied().collect()),
+            others: self.others.clone(),
+            planes: vec![],
+            ..*self
+        };
+        let error = |plane: [Operand; 3]| -> Option<Both> {
+            let [same, above, below] = plane.map(|entry| whole.scalars(&[entry]));
+            let (same, above, below) = (same?, above?, below?);
+            let norm = |i: usize| (2.0 * same[i] * same[i] + above[i] * above[i] + below[i] * below[i]).sqrt();
+            Some([0, 1].map(|i| norm(i) * ROOM))
+        };
+        let planes = planes.into_iter().map(error).collect::<Option<Vec<Both>>>()?;
+        let exact = polar.clone().map(|phase| Phase { error: [0.0; 2], ..*phase }).collect();
+        let mut others = self.others.clone();
+        others.values_mut().for_each(|(start, _)| start.error = [0.0; 2]);
+        for (k, &tangent) in (1..).zip(&tangents) {
+            // The last frequency has no cosine, and so no phase.
+            let sine = phases::sine(self.listing, &self.phases, k)?;
+            for (operand, root) in [(tangent, Root::HalfTangent(k)), (sine, Root::Sin(k))] {
+                let start = Start { root, spread: 4.0 * k as f64 * INPUT, error: [0.0; 2] };
+                others.insert(operand, (start, phases::POLAR));
+            }
+        }
+        let sums = Prover { phases: Phases::only(exact), others, planes: vec![], ..*self };
+        Some((sums, planes))
     }
 
     /// Without a negation, which changes no norm.
@@ -443,7 +515,12 @@ impl<'a> Prover<'a> {
         }
         let (domain, _) = self.domain(scalars)?;
         let section = Section::new(self.listing, domain, inputs, outputs, |operand| self.start(operand))?;
-        let key = format!("{domain:?} {} {}", self.roundoff, section.key());
+        let band = section.starts().iter().find_map(|start| match start.root {
+            Root::Shear { l, .. } => Some(l),
+            _ => None,
+        });
+        let planes = self.planes.iter().take(band.unwrap_or(0)).copied().fold([0.0; 2], larger);
+        let key = format!("{domain:?} {} {planes:?} {}", self.roundoff, section.key());
         let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(&part) = known().get(&key) {
             return Some(part);
@@ -471,7 +548,7 @@ impl<'a> Prover<'a> {
             }
             _ => sweep(&section, domain, section.starts(), self.roundoff, 0.0, &weight),
         };
-        let part = Part { error, norm };
+        let part = Part { error: [error[0] + planes[0], error[1] + planes[1]], norm };
         known().insert(key, part);
         Some(part)
     }

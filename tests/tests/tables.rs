@@ -13,8 +13,8 @@ fn golden<T: DeserializeOwned>(name: &str) -> T {
     serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
-/// The sines' factors in a lifted coupling, each times its frequency, add up to the generator's entry, which the golden
-/// `dy` has; their squares to one where an even order couples to all odd ones at 90 degrees of an odd frequency.
+/// The sines' factors in a lifted coupling, each times its frequency, add up to the generator's entry, which is checked
+/// against the golden `dy`.
 #[test]
 fn lifted_couplings_have_the_generator_as_their_slope() {
     for l in 1..=12 {

@@ -43,8 +43,8 @@ pub enum Root {
     Sin(usize),
     /// sin θ / 2.
     HalfSine,
-    /// tan(θ / 2).
-    HalfTangent,
+    /// tan(kθ / 2).
+    HalfTangent(usize),
     /// sin²θ / 2.
     HalfSquare,
     /// sin θ cos θ.
@@ -130,7 +130,7 @@ impl Domain {
             (_, Root::Cos(k) | Root::Sin(k)) => [k, 0, 0],
             (_, Root::HalfSine) => [1, 0, 0],
             (_, Root::HalfSquare | Root::Product) => [2, 0, 0],
-            (_, Root::HalfTangent | Root::Shear { .. }) => [0, 0, 0],
+            (_, Root::HalfTangent(_) | Root::Shear { .. }) => [0, 0, 0],
             (Self::Small(_), _) => [1, 0, 0],
             (Self::Sphere, Root::Component(2)) => [0, 1, 0],
             (Self::Sphere, _) => [1, 1, 0],
@@ -179,7 +179,7 @@ impl Domain {
                             Root::HalfSquare => theta.sin() * theta.sin() / 2.0,
                             Root::Product => theta.sin() * theta.cos(),
                             Root::Component(i) => [theta.cos(), theta.sin()][i],
-                            Root::HalfTangent | Root::Shear { .. } => unreachable!("an arc has tangents"),
+                            Root::HalfTangent(_) | Root::Shear { .. } => unreachable!("an arc has tangents"),
                         })
                     });
                 }
@@ -197,10 +197,11 @@ impl Domain {
                         around(value, k * slope, k)
                     }
                     Root::HalfSine => around(middle.sin() / 2.0, middle.cos() / 2.0, 1.0),
-                    Root::HalfTangent => {
-                        let [tan, end] = [middle, middle + half].map(|x| (x / 2.0).tan());
-                        let bend = end * (1.0 + end * end) / 2.0;
-                        (tan, (1.0 + tan * tan) / 2.0 * half + bend * half * half / 2.0 + THIN)
+                    Root::HalfTangent(k) => {
+                        let k = k as f64;
+                        let [tan, end] = [middle, middle + half].map(|x| (k * x / 2.0).tan());
+                        let bend = k * k / 2.0 * end * (1.0 + end * end);
+                        (tan, k / 2.0 * (1.0 + tan * tan) * half + bend * half * half / 2.0 + THIN)
                     }
                     Root::HalfSquare => around(middle.sin().powi(2) / 2.0, (2.0 * middle).sin() / 2.0, 1.0),
                     Root::Product => around((2.0 * middle).sin() / 2.0, (2.0 * middle).cos(), 2.0),

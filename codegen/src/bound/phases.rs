@@ -176,10 +176,7 @@ impl Phases {
             let of = |key| sums.get(&key).cloned().unwrap_or_default();
             [of([one, other]), if one == other { vec![] } else { of([other, one]) }].concat()
         };
-        let mut known = Self::default();
-        for root in roots {
-            known.add(root);
-        }
+        let mut known = Self::only(roots);
         let mut next = 0;
         while next < known.all.len() {
             for other in 0..=next {
@@ -218,6 +215,13 @@ impl Phases {
             }
             next += 1;
         }
+        known
+    }
+
+    /// These alone.
+    pub fn only(roots: Vec<Phase>) -> Self {
+        let mut known = Self::default();
+        roots.into_iter().for_each(|root| known.add(root));
         known
     }
 
@@ -310,6 +314,60 @@ pub fn half_tangent(listing: &Listing) -> Option<(Operand, Both)> {
     let Halves { pairs, b, r, .. } = Halves::of(listing)?;
     let tangent = find_product(listing, b, r)?;
     Some((tangent, boxes::error(listing, &pairs, &[tangent])?.map(|error| error + REST)))
+}
+
+/// Whether a value is `addend` ± the product of `factors`; if so, with which sign.
+fn is_added(listing: &Listing, value: Operand, addend: Operand, factors: [Operand; 2]) -> Option<bool> {
+    let is_product = |operand| product(listing, operand).map(sorted) == Some(sorted(factors));
+    match step(listing, value)? {
+        Op::Fma(a, b, c, sign) if c == addend && sorted([a, b]) == sorted(factors) => match sign {
+            Sign::Plus => Some(true),
+            Sign::MinusProduct => Some(false),
+            Sign::MinusAddend => None,
+        },
+        Op::Add(a, b) if (a == addend && is_product(b)) || (b == addend && is_product(a)) => Some(true),
+        Op::Sub(a, b) if a == addend && is_product(b) => Some(false),
+        _ => None,
+    }
+}
+
+/// tan(kβ/2) for k from 1 to `count`, which a kernel makes of `half`, tan(β/2), and of the phases of β: of jβ alone for
+/// k = 2j, of it and `half` for k = 2j + 1.
+pub fn tangents(listing: &Listing, known: &Phases, half: Operand, count: usize) -> Option<Vec<Operand>> {
+    let of = |k: usize| {
+        let phase = known.all().iter().find(|phase| (phase.circle, phase.multiple) == (POLAR, k / 2))?;
+        let is_quotient = |over: Operand, under: Operand| match k % 2 {
+            0 => (over, under) == (phase.sin, phase.cos),
+            _ => {
+                is_added(listing, over, phase.sin, [phase.cos, half]) == Some(true)
+                    && is_added(listing, under, phase.cos, [phase.sin, half]) == Some(false)
+            }
+        };
+        let inverted = |operand: Operand| match step(listing, operand) {
+            Some(Op::Recip(under)) => Some(under),
+            _ => None,
+        };
+        find(listing, |op| match op {
+            Op::Mul(a, b) => [(a, b), (b, a)]
+                .into_iter()
+                .any(|(over, inverse)| inverted(inverse).is_some_and(|under| is_quotient(over, under))),
+            _ => false,
+        })
+    };
+    (1..=count).map(|k| if k == 1 { Some(half) } else { of(k) }).collect()
+}
+
+/// sin kβ, where cos kβ is perhaps not computed.
+pub fn sine(listing: &Listing, known: &Phases, k: usize) -> Option<Operand> {
+    let polar = || known.all().iter().filter(|phase| phase.circle == POLAR);
+    let whole = polar().find(|phase| phase.multiple == k).map(|phase| phase.sin);
+    let of_two = |p: &Phase, q: &Phase| {
+        find(listing, |op| {
+            pair(listing, op).and_then(|sum| sum.is_of([p.cos, q.sin], [p.sin, q.cos])) == Some([true, true])
+        })
+    };
+    let pairs = || polar().flat_map(|p| polar().map(move |q| (p, q))).filter(|(p, q)| p.multiple + q.multiple == k);
+    whole.or_else(|| pairs().find_map(|(p, q)| of_two(p, q)))
 }
 
 /// The phases of α, β and γ that a kernel makes of a unit quaternion. The rounding of adding the tiny number is left out:

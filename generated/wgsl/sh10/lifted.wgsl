@@ -10,7 +10,7 @@
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 1275 (387 mul, 6 add, 882 fma) and 9 inverse square roots or reciprocals; 604 constants,
 //     372 live values.
-// Error: f32 rounding at most 1.2e-4 of the norm of a band, for an angle up to 13.33 degrees about y
+// Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_lifted(q: vec4<f32>) -> array<vec2<f32>, 183> {
     let t0 = q.y + 1e-15;

@@ -10,7 +10,7 @@
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 565 (211 mul, 6 add, 348 fma) and 7 inverse square roots or reciprocals; 250 constants,
 //     200 live values.
-// Error: f32 rounding at most 7.8e-5 of the norm of a band, for an angle up to 17.14 degrees about y
+// Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 fn sh8_lifted(q: vec4<f32>) -> array<vec2<f32>, 98> {
     let t0 = q.y + 1e-15;
