@@ -231,7 +231,8 @@ pub fn cheapest(turn: Turn, order: usize, budget: &Budget) -> (Spec, usize, f64)
         Code::Straight(listing) => listing.cost(1).total,
         code => code.cost(1).total,
     };
-    let all = mixtures(turn, order, budget).into_iter().chain([exact(turn, order, false)]);
+    // The first of those that cost the least: the exact one where it is among them.
+    let all = [exact(turn, order, false)].into_iter().chain(mixtures(turn, order, budget));
     let weighed = all.map(|spec| (cost(&spec), spec));
     let (cost, spec) = weighed.min_by_key(|(cost, _)| *cost).expect("the exact kernel is one");
     let error = budget.predict(&spec);
