@@ -408,6 +408,7 @@ fn timing(report: &Report) -> File {
         format!(
             "Nanoseconds a vector of the compiled kernels on one core ({}), and the ratio to a copy of the same bytes, \
              timed in turn in the same run: medians. *Lanes* works on sixteen vectors at once, interleaved, in f32. \
+             `rotate:n:angles` and `rotate:n:lifted` are timed without their set-up, which serves many vectors. \
              Compiled for the architecture's baseline, so without multiply-add instructions on x86-64. No test reads \
              these figures.",
             timing.machine

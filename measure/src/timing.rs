@@ -63,7 +63,7 @@ fn seconds(mut work: impl FnMut()) -> f64 {
 }
 
 /// Times a kernel against a copy; `lanes` vectors are worked on in one call.
-fn time<T: Real, P: Copy, const N: usize>(lanes: usize, params: &[P], kernel: impl Fn(P, &[T; N]) -> [T; N]) -> Time {
+fn time<T: Real, P, const N: usize>(lanes: usize, params: &[P], kernel: impl Fn(&P, &[T; N]) -> [T; N]) -> Time {
     let count = (BYTES / size_of::<[T; N]>()).max(params.len());
     let input: Vec<[T; N]> = (0..count).map(|i| std::array::from_fn(|j| T::lit(((i + j) % 7) as f64 - 3.0))).collect();
     let mut output = input.clone();
@@ -73,7 +73,7 @@ fn time<T: Real, P: Copy, const N: usize>(lanes: usize, params: &[P], kernel: im
         let run = seconds(|| {
             let params = black_box(params);
             for (place, (out, c)) in black_box(&mut output).iter_mut().zip(black_box(&input)).enumerate() {
-                *out = kernel(params[place % params.len()], c);
+                *out = kernel(&params[place % params.len()], c);
             }
         });
         times.push(run * 1e9 / (count * lanes) as f64);
@@ -82,9 +82,10 @@ fn time<T: Real, P: Copy, const N: usize>(lanes: usize, params: &[P], kernel: im
     Time { nanoseconds: median(times), copies: median(ratios) }
 }
 
-/// Parameters for a kernel: quaternions, normals, phases, small angles.
+/// Parameters for a kernel: quaternions, some of them near to the identity, normals, phases, small angles.
 struct Params<T> {
     quaternions: Vec<[T; 4]>,
+    near: Vec<[T; 4]>,
     normals: Vec<[T; 3]>,
     phases: Vec<[T; 2]>,
     angles: Vec<T>,
@@ -95,6 +96,7 @@ impl<T: Real> Params<T> {
         let mut random = Random::new(1);
         Self {
             quaternions: (0..64).map(|_| random.unit::<4>().map(T::lit)).collect(),
+            near: (0..64).map(|_| near(random.unit::<4>()).map(T::lit)).collect(),
             normals: (0..64).map(|_| random.unit::<3>().map(f64::abs).map(T::lit)).collect(),
             phases: (0..64).map(|_| random.unit::<2>().map(T::lit)).collect(),
             angles: (0..64).map(|_| T::lit(0.2 * random.signed())).collect(),
@@ -102,12 +104,24 @@ impl<T: Real> Params<T> {
     }
 }
 
-/// The three layouts of one kernel.
+/// A unit quaternion whose y angle is at most six degrees.
+fn near([x, y, z, w]: [f64; 4]) -> [f64; 4] {
+    let (small, large) = (x.hypot(y), z.hypot(w));
+    let (sin, cos) = 0.05f64.sin_cos();
+    [x / small * sin, y / small * sin, z / large * cos, w / large * cos]
+}
+
+/// The three layouts of one kernel, after a set-up that is not timed if there is one.
 macro_rules! times {
-    ($order:literal, $spec:literal, $field:ident, $module:ident :: $name:ident) => {{
+    (@ $p:ident) => { *$p };
+    (@ $p:ident $set_up:ident) => { $p };
+    ($order:literal, $spec:literal, $field:ident $($set_up:ident)?, $module:ident :: $name:ident) => {{
         fn layout<T: Real + Signal<T>>(lanes: usize) -> Time {
             let params = Params::<T>::new();
-            time(lanes, &params.$field, |p, c: &[T; $order * $order]| zonal::$module::$name(p, c))
+            let all = params.$field.into_iter()$(.map(zonal::$module::$set_up))?.collect::<Vec<_>>();
+            time(lanes, &all, |p, c: &[T; $order * $order]| {
+                zonal::$module::$name(times!(@ p $($set_up)?), c)
+            })
         }
         Times {
             spec: format!($spec, $order),
@@ -121,31 +135,43 @@ macro_rules! times {
 
 /// The kernels that are timed at one order.
 macro_rules! order {
-    ($progress:ident, $kernels:ident, $order:literal, $module:ident, $zyz:literal $zyz_name:ident) => {
-        order!(@ $progress, $kernels, $order, $module,
-            $zyz quaternions $zyz_name,
-            "rotate:{}:zxzxz" quaternions rotate_zxzxz,
-            "rotate:{}:align" normals rotate_align,
-            "tilt:{}" normals tilt,
-            "rotate_y:{}" phases rotate_y,
-            "taylor1:{}" angles taylor1_y,
-            "taylor15:{}" angles taylor15_y,
-            "taylor2:{}" angles taylor2_y,
-            "lf3:{}" angles lf3_y
+    ($kernels:ident, $order:literal, $module:ident, $zyz:literal $zyz_name:ident $(, $spec:literal $field:ident $name:ident)*) => {
+        order!(@ $kernels, $order, $module,
+            $zyz (quaternions) $zyz_name,
+            "rotate:{}:zxzxz" (quaternions) rotate_zxzxz,
+            "rotate:{}:angles" (quaternions angles) rotate_angles,
+            "rotate:{}:lifted" (near lifted) rotate_lifted,
+            "rotate_small:{}" (near) rotate_small,
+            "rotate:{}:align" (normals) rotate_align,
+            "tilt:{}" (normals) tilt,
+            "rotate_y:{}" (phases) rotate_y,
+            "taylor1:{}" (angles) taylor1_y,
+            "taylor15:{}" (angles) taylor15_y,
+            "taylor2:{}" (angles) taylor2_y,
+            "lf3:{}" (angles) lf3_y,
+            "lf5:{}" (angles) lf5_y
+            $(, $spec ($field) $name)*
         );
     };
-    (@ $progress:ident, $kernels:ident, $order:literal, $module:ident, $($spec:literal $field:ident $name:ident),*) => { $(
-        $kernels.push(times!($order, $spec, $field, $module::$name));
-        $progress.step();
+    (@ $kernels:ident, $order:literal, $module:ident, $($spec:literal ($field:ident $($set_up:ident)?) $name:ident),*) => { $(
+        $kernels.push(|| times!($order, $spec, $field $($set_up)?, $module::$name));
     )* };
 }
 
 /// Times the kernels of the orders 3, 5 and 8, one after another.
 pub fn measure(progress: &dyn Progress) -> Timing {
-    progress.stage("times", 27);
-    let mut kernels = Vec::new();
-    order!(progress, kernels, 3, sh3, "rotate:{}:zyz" rotate_zyz);
-    order!(progress, kernels, 5, sh5, "rotate:{}" rotate);
-    order!(progress, kernels, 8, sh8, "rotate:{}" rotate);
-    Timing { machine: format!("{}, {}", std::env::consts::ARCH, std::env::consts::OS), kernels }
+    let mut kernels: Vec<fn() -> Times> = Vec::new();
+    order!(kernels, 3, sh3, "rotate:{}:zyz" rotate_zyz);
+    order!(kernels, 5, sh5, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
+    order!(kernels, 8, sh8, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
+    progress.stage("times", kernels.len());
+    let time = |kernel: fn() -> Times| {
+        let times = kernel();
+        progress.step();
+        times
+    };
+    Timing {
+        machine: format!("{}, {}", std::env::consts::ARCH, std::env::consts::OS),
+        kernels: kernels.into_iter().map(time).collect(),
+    }
 }

@@ -40,6 +40,21 @@ fn the_docs_are_not_stale() {
     }
 }
 
+/// The run that the docs hold: a million inputs for every kernel, none above its bound.
+#[test]
+fn no_kernel_exceeded_its_bound() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure/measure.json");
+    let report: Report = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let bounds = report.bounds.expect("the docs hold bounds");
+    assert!(bounds.len() > 370);
+    for row in bounds {
+        assert!(row.inputs >= 1_000_000, "{}: `cargo measure --bounds`", row.spec);
+        for pair in [row.separate, row.fused] {
+            assert!(pair.measured <= pair.proven, "{}: {pair:?}", row.spec);
+        }
+    }
+}
+
 /// The angles in degrees at which the errors of Figure 3 of paper 000 reach 1e-3, 1e-2 and 1e-1, found with 50 digits by
 /// other code from the paper's definitions: methods, then [max, mean singular value, rms, lobe cos⁵].
 type Crossings = (&'static str, usize, [Option<[f64; 3]>; 4]);
