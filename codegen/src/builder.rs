@@ -13,11 +13,11 @@
 //!
 //! Then `include!(concat!(env!("OUT_DIR"), "/kernels.rs"));` in a module of its own, and `include_str!` for the shaders.
 
-use crate::catalog::{self, GenerateError};
-use crate::diagnostic::{Diagnostic, Place};
 use crate::emit::dialect::Target;
 use crate::files::{self, Difference, File, FileError};
+use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
+use crate::scene::diagnostic::{Diagnostic, Place};
 use crate::scene::{Located, Maps, Scene, Wanted};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -195,7 +195,7 @@ pub fn files_of(plan: &Plan) -> Result<Vec<File>, Error> {
     let mut files = Vec::new();
     for &target in &plan.targets {
         let path = format!("{name}.{}", target.extension());
-        let file = catalog::file(&plan.module, target, path).map_err(|error| located_limit(plan, error))?;
+        let file = generate::file(&plan.module, target, path).map_err(|error| located_limit(plan, error))?;
         files.push(file);
     }
     files.push(File {

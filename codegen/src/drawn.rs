@@ -1,6 +1,6 @@
 //! How a diagnostic is drawn for the person in front of a terminal.
 
-use crate::diagnostic::Diagnostic;
+use crate::scene::diagnostic::Diagnostic;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 use std::fmt;
 use std::io::{self, IsTerminal};

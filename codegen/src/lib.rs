@@ -16,46 +16,32 @@
 //! [`emit::Module`].
 //!
 //! ```
-//! use zonal_codegen::built::Built;
-//! use zonal_codegen::spec::Spec;
+//! use zonal_codegen::promise::built::Built;
+//! use zonal_codegen::families::spec::Spec;
 //!
 //! let spec: Spec = "tilt:5".parse()?;
 //! let built = Built::new(&spec);
 //! assert_eq!(built.code.cost(1).total, 133);
-//! # Ok::<(), zonal_codegen::spec::SpecError>(())
+//! # Ok::<(), zonal_codegen::families::spec::SpecError>(())
 //! ```
 //!
 //! Convention everywhere: real orthonormal harmonics with the Condon-Shortley phase (band 1 is −y, z, −x), index
 //! l(l+1)+m; order n is the bands 0 to n − 1, n² coefficients; a rotation R takes c to D(R) c with y(Rω) = D(R) y(ω).
 
-pub mod accuracy;
-pub mod bound;
 pub mod builder;
-pub mod built;
 pub mod catalog;
-pub mod choose;
-pub mod code;
-pub mod diagnostic;
 #[cfg(feature = "cli")]
 pub mod drawn;
 pub mod emit;
 #[cfg(feature = "environment")]
 pub mod environment;
-pub mod eval;
+pub mod families;
 pub mod files;
-pub mod graph;
-pub mod kernel;
-pub mod kernels;
-pub mod law;
-pub mod listing;
-pub mod names;
+pub mod generate;
+pub mod ir;
+pub mod math;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod plan;
-pub mod program;
-pub mod samples;
+pub mod promise;
 pub mod scene;
-pub mod search;
-pub mod sh;
-pub mod spec;
-pub mod validate;

@@ -5,16 +5,16 @@ use crate::{Progress, significant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
-use zonal_codegen::accuracy::{Meaning, Measure};
-use zonal_codegen::bound::{self, Bound};
-use zonal_codegen::built::code;
 use zonal_codegen::catalog;
-use zonal_codegen::code::Code;
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples;
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::spec::{Family, Method, Spec};
+use zonal_codegen::families::spec::{Family, Method, Spec};
+use zonal_codegen::ir::code::Code;
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::promise::accuracy::{Meaning, Measure};
+use zonal_codegen::promise::bound::{self, Bound};
+use zonal_codegen::promise::built::code;
+use zonal_codegen::promise::samples;
 
 /// How many inputs each kernel is measured over unless another number is asked for.
 pub const INPUTS: usize = 1_000_000;
@@ -191,7 +191,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// The largest f32 rounding error over `count` seeded inputs, in the measure of [`zonal_codegen::accuracy`], where a
+/// The largest f32 rounding error over `count` seeded inputs, in the measure of [`zonal_codegen::promise::accuracy`], where a
 /// multiply-add is rounded twice and once.
 pub fn worst(spec: &Spec, listing: &Listing, count: usize) -> [f64; 2] {
     let runner = Runner::new(spec, listing);
@@ -282,8 +282,8 @@ pub fn stale(rows: &[Bounds]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use zonal_codegen::accuracy::rounding;
-    use zonal_codegen::built::kernel;
+    use zonal_codegen::promise::accuracy::rounding;
+    use zonal_codegen::promise::built::kernel;
 
     #[test]
     fn lanes_do_what_single_numbers_do() {

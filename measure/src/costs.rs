@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::listing::{Cost, Listing};
-use zonal_codegen::spec::{Family, Form, Spec};
+use zonal_codegen::families::spec::{Family, Form, Spec};
+use zonal_codegen::generate;
+use zonal_codegen::ir::listing::{Cost, Listing};
 
 /// What a kernel costs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,8 +45,8 @@ pub fn specs() -> Vec<Spec> {
 }
 
 fn of(spec: &Spec) -> Costs {
-    let function = catalog::build(std::slice::from_ref(spec)).remove(0);
-    let listing = Listing::new(&zonal_codegen::built::kernel(spec));
+    let function = generate::build(std::slice::from_ref(spec)).remove(0);
+    let listing = Listing::new(&zonal_codegen::promise::built::kernel(spec));
     let Cost { mul, fma, special, total, .. } = listing.cost(1);
     let footprint = listing.footprint();
     let module = Module {

@@ -7,12 +7,12 @@ use crate::methods::{METHODS, Method};
 use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::accuracy::Difference;
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::sh::linear::singular_values;
-use zonal_codegen::sh::tables::{basis_factor, legendre_polynomial};
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::math::linear::singular_values;
+use zonal_codegen::math::tables::{basis_factor, legendre_polynomial};
+use zonal_codegen::promise::accuracy::Difference;
 
 /// The measures of an error, by the index that reports use.
 pub const NORMS: [&str; 5] = ["max", "mean singular value", "rms", "lobe cos⁵", "lobe cos²⁰"];

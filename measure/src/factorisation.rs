@@ -4,9 +4,9 @@
 use crate::papers::TABLE_2;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::sh::tables::x90;
-use zonal_codegen::sh::zhf::{self, Lobe, LobeSet, Mode};
+use zonal_codegen::families::zhf::lobes::{self, Lobe, LobeSet, Mode};
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::math::tables::x90;
 
 /// One band with lobes of its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,13 +75,13 @@ fn rows(a_hat: &[Vec<Exact>]) -> Vec<usize> {
 }
 
 fn condition_of(l: usize, lobes: &[Lobe]) -> f64 {
-    significant(zhf::band_condition(l, lobes))
+    significant(lobes::band_condition(l, lobes))
 }
 
 fn band(l: &usize) -> Band {
-    let lobes = zhf::single_band(*l).expect("bands 2 to 10 have lobes");
-    let lobes_of = rows(&zhf::a_hat(*l, lobes).expect("the lobes are independent"));
-    let record = zhf::chosen(Mode::Band, *l).expect("bands 2 to 10 have lobes");
+    let lobes = lobes::single_band(*l).expect("bands 2 to 10 have lobes");
+    let lobes_of = rows(&lobes::a_hat(*l, lobes).expect("the lobes are independent"));
+    let record = lobes::chosen(Mode::Band, *l).expect("bands 2 to 10 have lobes");
     Band {
         l: *l,
         nonzeros: lobes_of.iter().sum(),
@@ -113,7 +113,7 @@ pub fn measure(progress: &dyn Progress) -> Factorisation {
     let bands: Vec<usize> = (2..=10).collect();
     let bands = each(progress, "lobes of single bands", &bands, band);
     let sets: Vec<(bool, &LobeSet)> = (3..=10)
-        .flat_map(|order| [(false, zhf::shared(order)), (true, zhf::shared_free(order))])
+        .flat_map(|order| [(false, lobes::shared(order)), (true, lobes::shared_free(order))])
         .filter_map(|(free, set)| set.map(|set| (free, set)))
         .collect();
     let shared = each(progress, "shared lobes", &sets, |(free, set)| shared(*free, set));

@@ -7,14 +7,14 @@ use crate::stability::truth::norm;
 use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
-use zonal_codegen::accuracy::Difference;
-use zonal_codegen::built::{self, Built};
-use zonal_codegen::choose::{Budget, Norm, Turn, cheapest, exact};
-use zonal_codegen::code::Runner;
-use zonal_codegen::eval::Contraction;
-use zonal_codegen::samples::Random;
-use zonal_codegen::sh::linear::largest_input;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::ir::code::Runner;
+use zonal_codegen::ir::eval::Contraction;
+use zonal_codegen::math::linear::largest_input;
+use zonal_codegen::plan::choose::{Budget, Norm, Turn, cheapest, exact};
+use zonal_codegen::promise::accuracy::Difference;
+use zonal_codegen::promise::built::{self, Built};
+use zonal_codegen::promise::samples::Random;
 
 /// The orders that are weighed.
 pub const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;

@@ -1,7 +1,7 @@
 //! The approximate rotations that are compared.
 
-use zonal_codegen::kernels::y_rotation::Small;
-use zonal_codegen::spec::{Family, Spec};
+use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::families::y_rotation::Small;
 
 /// An approximate rotation of all bands.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 //! the rounding of f64 is measured against.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use zonal_codegen::eval::Number;
-use zonal_codegen::sh::exact::{Exact, Real};
+use zonal_codegen::ir::eval::Number;
+use zonal_codegen::math::exact::{Exact, Real};
 
 /// A binary16, held as the f64 of the same value.
 ///
@@ -189,7 +189,7 @@ mod tests {
     /// The crate half rounds f32 as hardware does.
     #[test]
     fn halves_are_those_of_the_crate_half() {
-        let mut random = zonal_codegen::samples::Random::new(16);
+        let mut random = zonal_codegen::promise::samples::Random::new(16);
         for _ in 0..200_000 {
             let value = f32::from_bits(random.bits() as u32);
             let (own, other) = (Half::round(f64::from(value)).0, half::f16::from_f32(value).to_f64());

@@ -5,9 +5,9 @@ use crate::factorisation::sparsity;
 use crate::methods::named;
 use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
 use crate::{File, Report};
-use zonal_codegen::accuracy::method_error;
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::spec::SMALL_ANGLE_DEGREES;
+use zonal_codegen::families::spec::SMALL_ANGLE_DEGREES;
+use zonal_codegen::promise::accuracy::method_error;
 
 /// The colour of each method that is about y, of what is exact, and of laws.
 const PLOTTED: [(&str, usize); 4] = [("taylor1", 4), ("taylor15", 1), ("taylor2", 3), ("lf3", 0)];

@@ -4,11 +4,11 @@
 use crate::numbers::{Half, Twin};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::built::kernel;
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples;
-use zonal_codegen::spec::{Family, Spec};
+use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::built::kernel;
+use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on.
 pub const SAMPLES: usize = 400;

@@ -9,9 +9,9 @@ use crate::papers::{Column, ERRATA, LOBES, SPARSITY, TABLE_2, recomputed};
 use crate::plots::dense_operations;
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::choose::Turn;
-use zonal_codegen::law;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::plan::choose::Turn;
+use zonal_codegen::promise::law;
 
 const HEAD: &str = "<!-- Written by `cargo measure`; do not edit. -->";
 

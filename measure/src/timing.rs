@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::hint::black_box;
 use std::time::Instant;
 use zonal::real::{Lanes, Real, Signal};
-use zonal_codegen::samples::Random;
+use zonal_codegen::promise::samples::Random;
 
 /// How many rounds of copy and kernel a median is taken over.
 const ROUNDS: usize = 15;

@@ -4,14 +4,14 @@ mod stability;
 
 use std::path::Path;
 use std::sync::OnceLock;
-use zonal_codegen::accuracy::method_error;
-use zonal_codegen::choose::Turn;
-use zonal_codegen::kernels::{rotate::rotate_y, y_rotation::small_y};
-use zonal_codegen::law;
-use zonal_codegen::listing::Listing;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::{rotate::rotate_y, y_rotation::small_y};
+use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::plan;
+use zonal_codegen::plan::choose::Turn;
+use zonal_codegen::promise::accuracy::method_error;
+use zonal_codegen::promise::law;
 use zonal_codegen::scene::{Maps, Scene};
-use zonal_codegen::spec::Spec;
 use zonal_measure::errors::{Comparison, LEVELS, LOBE, MAX, MEAN, RMS, SHOWN};
 use zonal_measure::fronts::{ORDERS, Plan, TURNS};
 use zonal_measure::methods::{METHODS, named};
@@ -178,7 +178,7 @@ fn no_front_is_beaten_by_a_whole_method_and_plans_are_on_it() {
         for name in ["taylor1", "taylor15", "taylor2", "lf3", "lf5"].iter().filter(|_| front.degrees <= 25.0) {
             let methods = vec![*name; front.order - 1].join("+");
             let spec: Spec = format!("rotate_small:{}:{methods}", front.order).parse().unwrap();
-            let operations = zonal_codegen::built::code(&spec).cost(1).total;
+            let operations = zonal_codegen::promise::built::code(&spec).cost(1).total;
             assert!(best(method_error(&spec, front.degrees.to_radians())) <= operations, "{spec}, {}°", front.degrees);
         }
         for plan in planned(TURNS[0], front.order, front.degrees) {

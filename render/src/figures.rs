@@ -5,10 +5,10 @@ use crate::reference::{Lights, Surface, expected};
 use crate::subject::Subject;
 use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::environment::Projection;
 use zonal_codegen::picture::brdf::Table;
 use zonal_codegen::picture::shade::Method;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// How far a frame is from another, in shares of the other's mean radiance. The radiance of a pixel, and an error of it,
 /// is the root of the sum of the squares of R, G and B.

@@ -8,11 +8,11 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 use std::time::Instant;
 use wgpu::util::{DeviceExt, TextureDataOrder};
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::environment::Projection;
 use zonal_codegen::picture::brdf::Table;
 use zonal_codegen::picture::mesh::STRIDE;
 use zonal_codegen::picture::shade::{Shading, wgsl_gbuffer};
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;

@@ -136,7 +136,7 @@ pub fn expected(brdf: &Brdf, views: &[[f64; 3]], light: &Projection, bands: usiz
 mod tests {
     use super::*;
     use std::f64::consts::PI;
-    use zonal_codegen::samples::Random;
+    use zonal_codegen::promise::samples::Random;
 
     fn surface(random: &mut Random) -> Surface {
         let [x, y, z] = random.unit::<3>();

@@ -1,9 +1,9 @@
 //! What a picture shows, with every file read: the object, its normal map, its reflectance and the light around it. It
 //! knows nothing of adapters.
 
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::environment::{Map, Projection};
-use zonal_codegen::kernels::y_rotation::Small;
+use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::families::y_rotation::Small;
 use zonal_codegen::picture::AssetError;
 use zonal_codegen::picture::brdf::Brdf;
 use zonal_codegen::picture::camera::Camera;
@@ -11,8 +11,8 @@ use zonal_codegen::picture::mesh::Mesh;
 use zonal_codegen::picture::normal_map::NormalMap;
 use zonal_codegen::picture::shade::{Method, Shading};
 use zonal_codegen::plan::Plan;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Light, Located, Order, Scene, Turn};
-use zonal_codegen::spec::{Family, Spec};
 
 /// What a picture shows.
 #[derive(Clone, Debug)]

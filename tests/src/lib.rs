@@ -6,10 +6,10 @@ pub mod shader;
 
 use serde_json::Value;
 use std::path::PathBuf;
-use zonal_codegen::built;
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::listing::Listing;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::built;
 
 /// A path below the repository.
 pub fn repository(path: &str) -> PathBuf {

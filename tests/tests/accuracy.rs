@@ -1,8 +1,10 @@
 //! What the files' heads promise, measured over inputs that the promise was not made from.
 
-use zonal_codegen::accuracy::{Accuracy, method_errors, round_up, rounding, spectral_norm};
-use zonal_codegen::catalog::{build, standard};
-use zonal_codegen::eval::Contraction;
+use zonal_codegen::catalog::standard;
+use zonal_codegen::generate::build;
+use zonal_codegen::ir::eval::Contraction;
+use zonal_codegen::math::linear::spectral_norm;
+use zonal_codegen::promise::accuracy::{Accuracy, method_errors, round_up, rounding};
 
 #[test]
 fn every_kernel_keeps_its_rounding_bound() {
@@ -69,10 +71,10 @@ fn method_errors_equal_the_measured_figure_3() {
 #[test]
 fn exact_kernels_have_no_method_error() {
     for text in ["rotate:5", "tilt:3", "rotate_y:8", "zhf:4"] {
-        let built = zonal_codegen::built::Built::new(&zonal_tests::spec(text));
+        let built = zonal_codegen::promise::built::Built::new(&zonal_tests::spec(text));
         assert!(built.accuracy.method.is_empty(), "{text}");
     }
-    let tilt: Accuracy = zonal_codegen::built::Built::new(&zonal_tests::spec("tilt:4")).accuracy;
+    let tilt: Accuracy = zonal_codegen::promise::built::Built::new(&zonal_tests::spec("tilt:4")).accuracy;
     assert_eq!(tilt.method.len(), 4);
 }
 
@@ -94,7 +96,7 @@ fn the_spectral_norm_of_a_known_matrix() {
 #[test]
 fn rounding_is_what_separates_f32_from_f64() {
     let spec = zonal_tests::spec("rotate:4");
-    let code = zonal_codegen::built::code(&spec);
+    let code = zonal_codegen::promise::built::code(&spec);
     assert_eq!(rounding::<f64>(&spec, &code, 1, 50, Contraction::Separate), 0.0);
     assert!(rounding::<f32>(&spec, &code, 1, 50, Contraction::Separate) > 1e-8);
 }

@@ -2,20 +2,20 @@
 
 use std::collections::BTreeMap;
 use std::time::Instant;
-use zonal_codegen::accuracy::{Meaning, Measure, rounding};
-use zonal_codegen::bound::phases::of_quaternion;
-use zonal_codegen::bound::plain::plain;
-use zonal_codegen::bound::{Bound, boxes, of, prove, within};
-use zonal_codegen::built::code;
 use zonal_codegen::catalog::standard;
-use zonal_codegen::code::Code;
-use zonal_codegen::eval::{Contraction, Program};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::Shape;
-use zonal_codegen::listing::{Listing, Op, Operand, Sign, Step};
-use zonal_codegen::samples::{self, Random};
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::spec::{Family, Spec};
+use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::ir::code::Code;
+use zonal_codegen::ir::eval::{Contraction, Program};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::Shape;
+use zonal_codegen::ir::listing::{Listing, Op, Operand, Sign, Step};
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::promise::accuracy::{Meaning, Measure, rounding};
+use zonal_codegen::promise::bound::phases::of_quaternion;
+use zonal_codegen::promise::bound::plain::plain;
+use zonal_codegen::promise::bound::{Bound, boxes, of, prove, within};
+use zonal_codegen::promise::built::code;
+use zonal_codegen::promise::samples::{self, Random};
 use zonal_measure::bounds::{self, Bounds, Pair};
 use zonal_tests::spec;
 

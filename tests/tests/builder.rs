@@ -2,8 +2,8 @@
 
 use zonal_codegen::builder::{Builder, Error};
 use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::validate::validate;
 use zonal_codegen::files::Difference;
-use zonal_codegen::validate::validate;
 use zonal_tests::command::Folder;
 use zonal_tests::repository;
 

@@ -1,10 +1,11 @@
 //! The checked-in set: the same bytes every time, fresh in the repository, no dearer than the ledger says.
 
 use std::collections::BTreeMap;
-use zonal_codegen::catalog::{build, files, standard};
+use zonal_codegen::catalog::{files, standard};
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::zhf;
 use zonal_codegen::files::{Difference, File, differences};
-use zonal_codegen::kernels::zhf;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::generate::build;
 use zonal_tests::{repository, spec};
 
 #[test]
@@ -97,7 +98,7 @@ fn the_papers_baseline_costs_what_it_should() {
             .map(|l| {
                 let degrees = || -(l as isize)..=l as isize;
                 let entries = degrees().flat_map(|a| degrees().map(move |b| (a, b)));
-                entries.filter(|&(a, b)| !zonal_codegen::sh::tables::swap_yz(l, a, b).is_zero()).count()
+                entries.filter(|&(a, b)| !zonal_codegen::math::tables::swap_yz(l, a, b).is_zero()).count()
             })
             .sum();
         assert_eq!(matrix, nonzeros[order - 1], "order {order}");

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::io::Read;
 use std::process::{Command, Stdio};
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::validate::validate;
+use zonal_codegen::emit::validate::validate;
 use zonal_tests::command::{Folder, Run, zonal};
 use zonal_tests::{numbers, repository};
 

@@ -1,7 +1,7 @@
 //! Every kernel against values that were computed to 50 digits by other means.
 
 use serde_json::Value;
-use zonal_codegen::samples::Random;
+use zonal_codegen::promise::samples::Random;
 use zonal_tests::{Runner, band_error, golden, larger, norm, numbers, quaternion_of_angles, spec};
 
 fn cases(file: &Value) -> &Vec<Value> {
@@ -295,7 +295,7 @@ fn tilts_meet_the_golden_values() {
 
 #[test]
 fn tailored_factorisation_takes_samples_to_rotated_coefficients() {
-    use zonal_codegen::kernels::zhf::lobes;
+    use zonal_codegen::families::zhf::lobes;
     let file = golden("rotations");
     for order in 2..=10 {
         let (basis, tailored) = (

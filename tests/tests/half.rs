@@ -2,15 +2,16 @@
 
 use half::f16;
 use std::path::PathBuf;
-use zonal_codegen::accuracy::rounding;
-use zonal_codegen::built::Built;
-use zonal_codegen::catalog::{build, file, standard};
+use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::eval::{Contraction, Number};
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::generate::{build, file};
+use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::plan::Plan;
+use zonal_codegen::promise::accuracy::rounding;
+use zonal_codegen::promise::built::Built;
 use zonal_codegen::scene::{Maps, Scene};
-use zonal_codegen::spec::Spec;
 use zonal_tests::{Runner, spec};
 
 fn halves() -> Vec<Spec> {
@@ -59,7 +60,7 @@ fn rounding_in_f16_is_that_of_f32_times_what_the_formats_differ_by() {
         let ratio = narrow.measured_f32 / wide.measured_f32;
         // Inputs are f32 numbers, whose own rounding to f16 comes on top: as much again and the amplification of it.
         assert!((1000.0..80_000.0).contains(&ratio), "{text}: {ratio}");
-        let code = zonal_codegen::built::code(&half);
+        let code = zonal_codegen::promise::built::code(&half);
         for contraction in [Contraction::Separate, Contraction::Fused] {
             let other = rounding::<f16>(&half, &code, 4242, 2000, contraction);
             assert!(other <= narrow.rounding_f32, "{text}: {other:e} above {:e}", narrow.rounding_f32);
@@ -70,7 +71,7 @@ fn rounding_in_f16_is_that_of_f32_times_what_the_formats_differ_by() {
 /// MATH section 6: the basis in f16 errs by 8e-4 at order 3 and 3.7e-3 at order 8 of a band's norm.
 #[test]
 fn the_basis_in_f16_errs_as_known() {
-    let mut random = zonal_codegen::samples::Random::new(8);
+    let mut random = zonal_codegen::promise::samples::Random::new(8);
     for (order, most) in [(3, 8e-4), (8, 3.7e-3)] {
         let spec = spec(&format!("basis:{order}"));
         let (narrow, wide) = (Runner::<f16>::new(&spec), Runner::<f64>::new(&spec));
@@ -88,7 +89,7 @@ fn the_basis_in_f16_errs_as_known() {
 #[test]
 fn f16_arithmetic_rounds_once() {
     // Products and sums of f16 are exact in f64, so that rounding them is the definition.
-    let mut random = zonal_codegen::samples::Random::new(1);
+    let mut random = zonal_codegen::promise::samples::Random::new(1);
     for _ in 0..20_000 {
         let [a, b, c] = [(); 3].map(|()| f16::from_f64(random.signed() * 100.0));
         let wide = [a, b, c].map(|x| x.to_f64());

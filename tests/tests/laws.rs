@@ -1,11 +1,11 @@
 //! The laws of the approximate rotations against their kernels' own matrices.
 
-use zonal_codegen::accuracy::band_errors;
-use zonal_codegen::eval::{Contraction, Program};
-use zonal_codegen::kernels::{rotate, y_rotation};
-use zonal_codegen::law::{self, Given};
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples::Random;
+use zonal_codegen::families::{rotate, y_rotation};
+use zonal_codegen::ir::eval::{Contraction, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::accuracy::band_errors;
+use zonal_codegen::promise::law::{self, Given};
+use zonal_codegen::promise::samples::Random;
 use zonal_tests::{norm, spec};
 
 const DEGREES: [f64; 6] = [1e-3, 1.0, 5.0, 10.0, 15.0, 25.0];

@@ -1,12 +1,12 @@
 //! The methods that widen the front: five shears, the tilt on prescaled coefficients, evaluation in monomials, the small
 //! rotation from a quaternion, and the rotation that decides between it and the exact one.
 
-use zonal_codegen::accuracy::{band_errors, method_errors};
-use zonal_codegen::built;
-use zonal_codegen::eval::{Contraction, Number};
+use zonal_codegen::families::spec::LIFTED_DEGREES;
+use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
-use zonal_codegen::samples::{self, Random};
-use zonal_codegen::spec::LIFTED_DEGREES;
+use zonal_codegen::promise::accuracy::{band_errors, method_errors};
+use zonal_codegen::promise::built;
+use zonal_codegen::promise::samples::{self, Random};
 use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 
 /// Runs a kernel of any form in f64.
@@ -202,8 +202,8 @@ fn the_limit_is_the_exact_inverse_of_the_caching_error() {
 /// section 3 has the polynomials; the shears are ours). Their errors are those of 2 × 2 matrices, as the laws are.
 #[test]
 fn what_is_not_on_the_front_is_left_out() {
-    use zonal_codegen::kernels::y_rotation::Small;
-    use zonal_codegen::law::{Given, error};
+    use zonal_codegen::families::y_rotation::Small;
+    use zonal_codegen::promise::law::{Given, error};
     // Four shears of (1 − ½√2, ½√2, ½√2, 1 − ½√2) T, the linear part of the cubic error taken off: 4/3 of LF3's shears.
     let root = 0.5f64.sqrt();
     let four = |l: usize, beta: f64| -> f64 {

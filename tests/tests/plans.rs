@@ -3,13 +3,13 @@
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
-use zonal_codegen::accuracy::band_errors;
-use zonal_codegen::built::{self, Built};
-use zonal_codegen::choose::{Budget, Norm, Turn, cheapest, exact};
-use zonal_codegen::code::{Code, Runner};
-use zonal_codegen::eval::{Contraction, Number};
-use zonal_codegen::samples::Random;
-use zonal_codegen::spec::{Family, Spec};
+use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::ir::code::{Code, Runner};
+use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::plan::choose::{Budget, Norm, Turn, cheapest, exact};
+use zonal_codegen::promise::accuracy::band_errors;
+use zonal_codegen::promise::built::{self, Built};
+use zonal_codegen::promise::samples::Random;
 use zonal_tests::{norm, quaternion_of_angles};
 
 const DEGREES: [f64; 5] = [5.0, 10.0, 15.0, 25.0, 45.0];
@@ -28,11 +28,11 @@ fn parameters(spec: &Spec, beta: f64, [alpha, gamma]: [f64; 2]) -> (Vec<Vec<f64>
             let n = vec![beta.sin() * alpha.cos(), beta.sin() * alpha.sin(), beta.cos()];
             (vec![n], turns(alpha, -alpha))
         }
-        Family::Rotate(zonal_codegen::spec::Method::Small(_)) => {
+        Family::Rotate(zonal_codegen::families::spec::Method::Small(_)) => {
             let cs = vec![alpha.cos(), alpha.sin(), gamma.cos(), gamma.sin()];
             (vec![cs, vec![beta]], turns(alpha, gamma))
         }
-        Family::Rotate(zonal_codegen::spec::Method::Euler) => {
+        Family::Rotate(zonal_codegen::families::spec::Method::Euler) => {
             let cs = vec![alpha.cos(), alpha.sin(), beta.cos(), beta.sin(), gamma.cos(), gamma.sin()];
             (vec![cs], turns(alpha, gamma))
         }
@@ -163,7 +163,8 @@ fn predictions_hold_within_a_factor_of_two() {
             }
             Norm::Signal => {
                 let bands = band_errors(spec, &[budget.max_angle]).remove(0);
-                let errors = bands.iter().map(|&max| zonal_codegen::law::Error { max, mean: 0.0 }).collect::<Vec<_>>();
+                let errors =
+                    bands.iter().map(|&max| zonal_codegen::promise::law::Error { max, mean: 0.0 }).collect::<Vec<_>>();
                 budget.combine(&errors)
             }
         };

@@ -1,9 +1,9 @@
 //! What rotations promise, over random and extreme rotations: the group law, inverses, the identity, norms, each method
 //! at its own bound; and where bad numbers may spread.
 
-use zonal_codegen::accuracy::method_errors;
-use zonal_codegen::samples::{Random, inputs};
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::promise::accuracy::method_errors;
+use zonal_codegen::promise::samples::{Random, inputs};
 use zonal_tests::{Runner, band_error, norm, quaternion_product, spec};
 
 /// Every way to rotate by a quaternion.
@@ -14,7 +14,7 @@ fn quaternion_rotations(order: usize) -> Vec<Spec> {
 
 /// Rotations and signals, extremes first, and random quaternions for a second rotation.
 fn trials(spec: &Spec, count: usize) -> Vec<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    let params = zonal_codegen::built::kernel(spec).params;
+    let params = zonal_codegen::promise::built::kernel(spec).params;
     let first = inputs(spec, &params, 31, count, 1.0);
     let mut random = Random::new(37);
     first.into_iter().map(|input| (input[0].clone(), random.unit::<4>().to_vec(), input[1].clone())).collect()
@@ -51,7 +51,7 @@ fn rotations_keep_the_norm_of_every_band_in_f32() {
     for order in [3, 5, 8, 10] {
         for spec in quaternion_rotations(order) {
             let rotate = Runner::<f32>::new(&spec);
-            let bound = zonal_codegen::built::Built::new(&spec).accuracy.rounding_f32;
+            let bound = zonal_codegen::promise::built::Built::new(&spec).accuracy.rounding_f32;
             for (q, _, c) in trials(&spec, 200) {
                 let out = rotate.run(&[q.clone(), c.clone()]);
                 for l in 0..order {
@@ -214,7 +214,7 @@ fn bands_do_not_mix() {
         ["rotate:6", "rotate:6:zxzxz", "tilt:6", "lf3:6", "taylor15:6", "rotate_z:6", "swap_yz:6", "rotate:3", "zhf:6"]
     {
         let spec = spec(text);
-        let params = zonal_codegen::built::kernel(&spec).params;
+        let params = zonal_codegen::promise::built::kernel(&spec).params;
         let clean = inputs(&spec, &params, 47, 20, 0.2).pop().expect("twenty inputs");
         let runner = Runner::<f32>::new(&spec);
         let want = runner.run(&clean);
@@ -238,7 +238,7 @@ fn bands_do_not_mix() {
 fn huge_and_small_signals_keep_their_relative_accuracy() {
     for text in ["rotate:5", "rotate:3", "tilt:5", "lf3:5", "eval:5"] {
         let spec = spec(text);
-        let params = zonal_codegen::built::kernel(&spec).params;
+        let params = zonal_codegen::promise::built::kernel(&spec).params;
         let (narrow, wide) = (Runner::<f32>::new(&spec), Runner::<f64>::new(&spec));
         for exponent in [-60, -100, 60, 100] {
             let scale = 2f64.powi(exponent);

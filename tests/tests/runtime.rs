@@ -4,7 +4,7 @@
 use glam::{DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
 use serde_json::Value;
 use zonal::Rotation;
-use zonal_codegen::samples::Random;
+use zonal_codegen::promise::samples::Random;
 use zonal_tests::{band_error, golden, norm, numbers};
 
 /// Repeats a block for every order, whose coefficients it counts.

@@ -1,10 +1,10 @@
 //! Scenes as the library plans them: the two that the project ships, and rotations chosen by their errors.
 
 use std::path::Path;
-use zonal_codegen::accuracy::method_error;
 use zonal_codegen::builder::Builder;
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::plan::{Plan, price};
+use zonal_codegen::promise::accuracy::method_error;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_tests::command::Folder;
 use zonal_tests::{repository, spec};
@@ -119,7 +119,8 @@ fn a_lifted_rotation_is_refused_outside_of_its_domain() {
     assert!(plan(17.14).is_ok());
     let refused = plan(17.15).expect_err("is too far").to_string();
     assert!(refused.contains("takes angles up to 17.14 degrees, not 17.15"), "{refused}");
-    let refused = "rotate:2:lifted".parse::<zonal_codegen::spec::Spec>().expect_err("has no such order").to_string();
+    let refused =
+        "rotate:2:lifted".parse::<zonal_codegen::families::spec::Spec>().expect_err("has no such order").to_string();
     assert!(refused.contains("orders from 3 on"), "{refused}");
 }
 

@@ -1,8 +1,8 @@
 //! The search for lobe directions: one seed finds one result, however it is cut in pieces; what it finds is counted by
 //! exact numbers; what it cannot go on with it refuses.
 
-use zonal_codegen::search::{Search, SearchError, Task, keep, resume, state_text};
-use zonal_codegen::sh::zhf::{self, Mode, Record, RecordError};
+use zonal_codegen::families::zhf::lobes::{self, Mode, Record, RecordError};
+use zonal_codegen::families::zhf::search::{Search, SearchError, Task, keep, resume, state_text};
 use zonal_tests::command::{Folder, Run};
 
 fn task(mode: Mode, size: usize, seed: u32) -> Task {
@@ -62,7 +62,7 @@ fn table_1_is_reproduced_and_beaten() {
 #[test]
 fn a_set_of_the_data_is_found_again_by_its_seed() {
     for (mode, size) in [(Mode::Band, 4), (Mode::Free, 4), (Mode::Nested, 3)] {
-        let kept = zhf::chosen(mode, size).unwrap();
+        let kept = lobes::chosen(mode, size).unwrap();
         let search = searched(task(mode, size, kept.seed), &[kept.attempt + 1]);
         assert!(search.found.contains(kept), "{kept:?}");
     }
@@ -83,9 +83,9 @@ fn zeros_are_exact() {
     let straight = Record::new(Mode::Band, 3, (0, 0), off("equator 1/3", "equator 2/3"), vec![]).unwrap();
     assert_eq!(straight.total(), 16);
     let bent = Record::new(Mode::Band, 3, (0, 0), off("equator 20000/60001", "equator 40000/60001"), vec![]).unwrap();
-    let lobes: Vec<zhf::Lobe> = bent.lobes.iter().map(|text| text.parse().unwrap()).collect();
+    let lobes: Vec<lobes::Lobe> = bent.lobes.iter().map(|text| text.parse().unwrap()).collect();
     let entries: Vec<f64> =
-        zhf::a_hat(3, &lobes).unwrap().iter().flatten().map(|x| x.to_f64().abs()).filter(|x| *x > 0.0).collect();
+        lobes::a_hat(3, &lobes).unwrap().iter().flatten().map(|x| x.to_f64().abs()).filter(|x| *x > 0.0).collect();
     let seen = entries.iter().filter(|x| **x >= 1e-9).count();
     assert_eq!(bent.total(), entries.len());
     assert!(entries.len() > 16 && seen <= entries.len(), "{entries:?}");

@@ -2,14 +2,15 @@
 //! bit, with the operations that the graph counts.
 
 use std::collections::BTreeSet;
-use zonal_codegen::catalog::{build, standard};
-use zonal_codegen::code::Code;
+use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::emit::{Function, Module};
-use zonal_codegen::eval::Contraction;
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::{Param, Shape};
-use zonal_codegen::samples;
+use zonal_codegen::generate::build;
+use zonal_codegen::ir::code::Code;
+use zonal_codegen::ir::eval::Contraction;
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::{Param, Shape};
+use zonal_codegen::promise::samples;
 use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
 
 /// How many inputs each kernel is run on; the first are the extremes.

@@ -2,10 +2,10 @@
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use zonal_codegen::kernels::lifted;
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::sh::index::{coefficients, degrees, index};
-use zonal_codegen::sh::tables;
+use zonal_codegen::families::lifted;
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::math::index::{coefficients, degrees, index};
+use zonal_codegen::math::tables;
 
 fn golden<T: DeserializeOwned>(name: &str) -> T {
     let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));

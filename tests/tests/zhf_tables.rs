@@ -4,9 +4,9 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::sh::index::degrees;
-use zonal_codegen::sh::zhf::{self, Lobe, LobeSet, Mode, Record};
+use zonal_codegen::families::zhf::lobes::{self, Lobe, LobeSet, Mode, Record};
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::math::index::degrees;
 
 fn golden<T: DeserializeOwned>(name: &str) -> T {
     let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -110,11 +110,11 @@ fn the_golden_shared_sets_are_counted_right_and_matched() {
         assert!((record.condition - worst).abs() <= 1e-6 * worst + 1e-4, "order {}", golden.order);
         for (l, (cond, (_, members))) in golden.cond.iter().zip(record.parts()).enumerate() {
             let lobes: Vec<Lobe> = members.iter().map(|&d| record.lobes[d].parse().unwrap()).collect();
-            let own = condition(&values(&zhf::lobe_values(l, &lobes)));
+            let own = condition(&values(&lobes::lobe_values(l, &lobes)));
             assert!((own / cond - 1.0).abs() < 1e-6, "order {} band {l}: {own}, golden {cond}", golden.order);
         }
-        let used = zhf::chosen(mode, golden.order).unwrap();
-        assert!(used.total() <= record.total() && used.condition <= zhf::LARGEST_CONDITION, "{used:?}");
+        let used = lobes::chosen(mode, golden.order).unwrap();
+        assert!(used.total() <= record.total() && used.condition <= lobes::LARGEST_CONDITION, "{used:?}");
     }
 }
 
@@ -126,14 +126,14 @@ fn the_golden_sets_of_bands_are_counted_right_and_matched() {
         let names = names(&golden.dirs);
         let lobes = parsed(&names);
         assert_directions(&lobes, &golden.xyz);
-        let a_hat = zhf::a_hat(l, &lobes).unwrap();
+        let a_hat = lobes::a_hat(l, &lobes).unwrap();
         let rows: Vec<_> = a_hat.iter().map(|row| non_zeros(std::slice::from_ref(row))).collect();
         assert_eq!((non_zeros(&a_hat), &rows), (golden.nnz, &golden.rows), "band {l}");
-        let cond = condition(&values(&zhf::lobe_values(l, &lobes)));
+        let cond = condition(&values(&lobes::lobe_values(l, &lobes)));
         assert!((cond / golden.cond - 1.0).abs() < 1e-6, "band {l}: {cond}, golden {}", golden.cond);
-        let used = zhf::chosen(Mode::Band, l).unwrap();
+        let used = lobes::chosen(Mode::Band, l).unwrap();
         assert!(used.total() <= golden.nnz && used.condition <= golden.cond + 1e-4, "{used:?}");
-        assert_eq!(non_zeros(&zhf::a_hat(l, zhf::single_band(l).unwrap()).unwrap()), used.total());
+        assert_eq!(non_zeros(&lobes::a_hat(l, lobes::single_band(l).unwrap()).unwrap()), used.total());
     }
 }
 
@@ -143,7 +143,7 @@ fn the_sets_in_use_are_no_denser_than_those_known_before() {
     let totals = |find: fn(usize) -> Option<&'static LobeSet>| -> Vec<usize> {
         (2..=10).map(|order| non_zeros_by_band(find(order).unwrap()).iter().skip(2).sum()).collect()
     };
-    let (nested, free) = (totals(zhf::shared), totals(zhf::shared_free));
+    let (nested, free) = (totals(lobes::shared), totals(lobes::shared_free));
     println!("from band 2, nested {nested:?}, free {free:?}");
     assert!(
         nested.iter().zip([0, 9, 28, 67, 135, 231, 352, 513, 730]).all(|(own, before)| *own <= before),
@@ -151,14 +151,14 @@ fn the_sets_in_use_are_no_denser_than_those_known_before() {
     );
     assert!(free.iter().zip([0, 9, 28, 67, 124, 218, 347, 499, 721]).all(|(own, before)| *own <= before), "{free:?}");
     for order in [0, 1, 11] {
-        assert!(zhf::shared(order).is_none() && zhf::shared_free(order).is_none());
+        assert!(lobes::shared(order).is_none() && lobes::shared_free(order).is_none());
     }
 }
 
 /// Each set of the data file is what it says, by exact numbers, and none is there that another beats.
 #[test]
 fn the_data_is_what_it_says() {
-    let all = zhf::records();
+    let all = lobes::records();
     for (mode, _) in Mode::ALL {
         for size in 2..=10 {
             let own: Vec<&Record> = all.iter().filter(|record| (record.mode, record.size) == (mode, size)).collect();
@@ -217,8 +217,8 @@ fn the_matrices_are_the_golden_ones() {
         let case = golden.cases.iter().find(|case| case.name == name).unwrap();
         let lobes: Vec<Lobe> = lobes.split(", ").map(|text| text.parse().unwrap()).collect();
         assert_directions(&lobes, &case.dirs);
-        assert_close(&values(&zhf::lobe_values(case.l, &lobes)), &case.Y, 1e-9);
-        let a_hat = zhf::a_hat(case.l, &lobes).unwrap();
+        assert_close(&values(&lobes::lobe_values(case.l, &lobes)), &case.Y, 1e-9);
+        let a_hat = lobes::a_hat(case.l, &lobes).unwrap();
         assert_close(&values(&a_hat), &case.Ahat, 1e-9);
         assert_eq!(non_zeros(&a_hat), case.nnz, "{name}");
     }
@@ -228,9 +228,9 @@ fn the_matrices_are_the_golden_ones() {
 #[test]
 fn zeros_are_told_from_small_numbers() {
     for order in 2..=10 {
-        for set in [zhf::shared(order).unwrap(), zhf::shared_free(order).unwrap()] {
+        for set in [lobes::shared(order).unwrap(), lobes::shared_free(order).unwrap()] {
             for l in 0..order {
-                let (y, a_hat) = (zhf::lobe_values(l, &set.lobes(l)), set.a_hat(l));
+                let (y, a_hat) = (lobes::lobe_values(l, &set.lobes(l)), set.a_hat(l));
                 for x in y.iter().chain(a_hat).flatten().filter(|x| !x.is_zero()) {
                     assert!(x.to_f64().abs() > 2f64.powi(-60), "order {order} band {l}: {x:?}");
                 }
@@ -257,7 +257,7 @@ fn both_ways_rotate() {
         cases: Vec<Case>,
     }
     let golden: Golden = golden("rotations");
-    let set = zhf::shared(6).unwrap();
+    let set = lobes::shared(6).unwrap();
     for (case, l) in golden.cases.iter().flat_map(|case| (1..6).map(move |l| (case, l))) {
         let a_hat = values(set.a_hat(l));
         let c: Vec<f64> = degrees(l).map(|m| ((3 * m + 1) as f64).sin()).collect();
@@ -282,7 +282,7 @@ fn both_ways_rotate() {
 
 /// Band `l` of the basis in `f64`.
 fn band(l: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
-    use zonal_codegen::sh::tables::{basis_factor, legendre_polynomial};
+    use zonal_codegen::math::tables::{basis_factor, legendre_polynomial};
     let mut values = vec![0.0; 2 * l + 1];
     let (mut cosine, mut sine) = (1.0, 0.0);
     for m in 0..=l {

@@ -5,13 +5,14 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use zonal_codegen::builder;
-use zonal_codegen::catalog::{self, Row};
-use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::files::{self, Difference, File};
+use zonal_codegen::generate::{self, Row};
 use zonal_codegen::plan::{Chosen, Plan, short, table};
+use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Maps, Scene};
 
 /// The scene that zonal carries with it.
@@ -119,7 +120,7 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
             && order.is_none_or(|order| spec.order as u64 == order)
     });
     let bar = progress(&format!("measuring {} kernels", specs.len()));
-    let rows: Vec<Row> = catalog::build(&specs).iter().map(Row::of).collect();
+    let rows: Vec<Row> = generate::build(&specs).iter().map(Row::of).collect();
     drop(bar);
     if json {
         return out_json(&rows);
@@ -154,9 +155,9 @@ pub fn show(spec: &str, target: &str) -> Result<(), Failure> {
     let spec = spec_of(spec)?;
     let target: Target = target.parse().map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let bar = progress("building and measuring");
-    let functions = catalog::build(std::slice::from_ref(&spec));
+    let functions = generate::build(std::slice::from_ref(&spec));
     let module = Module { name: spec.name(), origin: format!("`{spec}`"), functions, constants: vec![] };
-    let file = catalog::file(&module, target, format!("{}.{}", spec.name(), target.extension()))?;
+    let file = generate::file(&module, target, format!("{}.{}", spec.name(), target.extension()))?;
     drop(bar);
     out(&file.text)
 }

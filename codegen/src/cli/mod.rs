@@ -15,10 +15,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 use zonal_codegen::builder::Error;
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::drawn::draw;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::spec::{Spec, family_names};
+use zonal_codegen::families::spec::{Spec, family_names};
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.
 #[derive(Parser)]
@@ -167,7 +167,7 @@ macro_rules! failure_from {
     };
 }
 
-failure_from!(zonal_codegen::catalog::GenerateError, zonal_codegen::files::FileError);
+failure_from!(zonal_codegen::generate::GenerateError, zonal_codegen::files::FileError);
 
 /// Something that turns while a command works, on terminals only; it vanishes when it is dropped.
 fn progress(message: &str) -> ProgressBar {

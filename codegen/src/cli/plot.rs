@@ -3,9 +3,9 @@
 
 use plotters::prelude::*;
 use std::error::Error;
-use zonal_codegen::choose::Budget;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::plan::choose::Budget;
 use zonal_codegen::plan::{Chosen, Plan};
-use zonal_codegen::spec::Spec;
 
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 460;

@@ -5,7 +5,7 @@ use std::env::consts::EXE_SUFFIX;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::Command;
-use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// The program.
 const NAME: &str = "zonal-render";

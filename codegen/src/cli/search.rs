@@ -6,11 +6,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::families::zhf::lobes::{HIGHEST_SIZE, Mode, Record, Records, chosen};
+use zonal_codegen::families::zhf::search::{self, Search, Task};
 use zonal_codegen::files::{self, File};
 use zonal_codegen::plan::table;
-use zonal_codegen::search::{self, Search, Task};
-use zonal_codegen::sh::zhf::{HIGHEST_SIZE, Mode, Record, Records, chosen};
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// How many tries are made between two writings of the state.
 const BATCH: usize = 8;

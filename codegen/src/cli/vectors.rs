@@ -7,13 +7,13 @@ use serde_json::{Map, Value, json};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use zonal_codegen::built;
-use zonal_codegen::diagnostic::{Diagnostic, Place, Source};
-use zonal_codegen::eval::{Contraction, Number};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::{Param, Shape};
-use zonal_codegen::samples;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::{Param, Shape};
+use zonal_codegen::promise::built;
+use zonal_codegen::promise::samples;
+use zonal_codegen::scene::diagnostic::{Diagnostic, Place, Source};
 
 /// One parameter's numbers in flat order, for one channel or for three.
 type Channels = Vec<Vec<f64>>;
@@ -153,7 +153,7 @@ fn seeded(spec: &Spec, params: &[Param], count: usize, seed: u64) -> Vec<Vec<Cha
 }
 
 /// What the kernel gives in `T` for one case, flat, its channels side by side.
-fn run<T: Number>(runner: &zonal_codegen::code::Runner<T>, case: &[Channels], channels: usize) -> Vec<f64> {
+fn run<T: Number>(runner: &zonal_codegen::ir::code::Runner<T>, case: &[Channels], channels: usize) -> Vec<f64> {
     let results: Vec<Vec<f64>> = (0..channels)
         .map(|channel| {
             let inputs: Vec<Vec<T>> = case

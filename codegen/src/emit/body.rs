@@ -3,8 +3,8 @@
 
 use crate::emit::dialect::Dialect;
 use crate::emit::dialect::Target;
-use crate::graph::Kind;
-use crate::listing::{Listing, Op, Operand, Sign};
+use crate::ir::graph::Kind;
+use crate::ir::listing::{Listing, Op, Operand, Sign};
 
 /// An expression longer than this is given a name.
 const WIDTH: usize = 88;

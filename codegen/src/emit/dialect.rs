@@ -1,10 +1,10 @@
 //! What the three languages write differently: types, components, literals, the few operations with a name of their
 //! own. Everything else about a kernel's text is the same in all of them.
 
-use crate::eval::Number;
-use crate::graph::Kind;
-use crate::kernel::{Param, Shape};
-use crate::sh::exact::Exact;
+use crate::ir::eval::Number;
+use crate::ir::graph::Kind;
+use crate::ir::kernel::{Param, Shape};
+use crate::math::exact::Exact;
 use half::f16;
 use std::fmt;
 use std::str::FromStr;

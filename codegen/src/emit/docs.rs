@@ -1,12 +1,12 @@
 //! What stands above a function: what it computes, over which inputs, at what cost and within which error, in plain
 //! ASCII so that every compiler reads it.
 
-use crate::accuracy::{Accuracy, MARGIN};
-use crate::built::Built;
-use crate::code::Code;
-use crate::kernel::Param;
-use crate::kernels::y_rotation::Small;
-use crate::spec::{Family, Method, Spec};
+use crate::families::spec::{Family, Method, Spec};
+use crate::families::y_rotation::Small;
+use crate::ir::code::Code;
+use crate::ir::kernel::Param;
+use crate::promise::accuracy::{Accuracy, MARGIN};
+use crate::promise::built::Built;
 
 const WIDTH: usize = 100;
 

@@ -2,10 +2,10 @@
 //! template lays its lines out.
 
 use crate::emit::dialect::{Dialect, Target};
-use crate::graph::Kind;
-use crate::kernel::Shape;
-use crate::listing::Sign;
-use crate::program::{Int, IntOp, LoopKernel, Name, Num, NumOp, Stmt, Table};
+use crate::ir::graph::Kind;
+use crate::ir::kernel::Shape;
+use crate::ir::listing::Sign;
+use crate::ir::program::{Int, IntOp, LoopKernel, Name, Num, NumOp, Stmt, Table};
 use std::collections::HashMap;
 
 /// The most values of a table in a shader: beyond it, compilers take long, and copies of constant arrays take more than

@@ -25,8 +25,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::environment;
-use crate::sh::index::band_degree;
-use crate::spec::{MAX_ORDER, MIN_ORDER};
+use crate::families::spec::{MAX_ORDER, MIN_ORDER};
+use crate::math::index::band_degree;
 
 /// The sharpest and the dullest exponent of `phong`.
 pub const EXPONENTS: [f64; 2] = [1.0, 1000.0];

@@ -5,14 +5,14 @@
 //! |b_l|² |L_l|² / (2l + 1), which falls with l much faster than the light's own where the reflectance is smooth; that is
 //! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget.
 
-use crate::built;
 use crate::environment::Projection;
-use crate::eval::{Contraction, Number, Program};
-use crate::listing::Listing;
+use crate::families::spec::{MAX_HALF_ORDER, MIN_ORDER, Spec};
+use crate::ir::eval::{Contraction, Number, Program};
+use crate::ir::listing::Listing;
+use crate::math::index::{band, band_degree};
 use crate::picture::brdf::{Brdf, Table, gauss_legendre};
-use crate::samples::Random;
-use crate::sh::index::{band, band_degree};
-use crate::spec::{MAX_HALF_ORDER, MIN_ORDER, Spec};
+use crate::promise::built;
+use crate::promise::samples::Random;
 use half::f16;
 use serde::Serialize;
 use std::fmt;

@@ -17,15 +17,15 @@
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.
 
 use super::normal_map::LEAST_Z;
-use crate::catalog;
 use crate::emit::dialect::{Dialect, Target, shader_literal};
 use crate::emit::{Function, Limit, Module, docs, results};
-use crate::graph::Kind;
-use crate::kernel::{Param, Shape};
-use crate::kernels::y_rotation::Small;
-use crate::law;
-use crate::listing::Cost;
-use crate::spec::{self, Family, Spec};
+use crate::families::spec::{self, Family, Spec};
+use crate::families::y_rotation::Small;
+use crate::generate;
+use crate::ir::graph::Kind;
+use crate::ir::kernel::{Param, Shape};
+use crate::ir::listing::Cost;
+use crate::promise::law;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
@@ -85,7 +85,7 @@ impl Method {
 
     /// What the kernel of an order costs.
     pub fn cost(self, order: usize) -> Cost {
-        self.spec(order).map_or_else(Cost::default, |spec| crate::built::code(&spec).cost(1))
+        self.spec(order).map_or_else(Cost::default, |spec| crate::promise::built::code(&spec).cost(1))
     }
 
     /// For each angle in radians between the two normals, the error of each band as a spectral norm.
@@ -233,7 +233,7 @@ impl Shading {
     }
 
     /// A WGSL module with the entry points `vertex` and `fragment`, or a fragment shader in GLSL ES 3.00, with which
-    /// [`glsl_vertex`] goes. `functions` holds the [`Shading::specs`] as [`catalog::build`] makes them, others perhaps
+    /// [`glsl_vertex`] goes. `functions` holds the [`Shading::specs`] as [`generate::build`] makes them, others perhaps
     /// among them.
     ///
     /// # Errors
@@ -250,7 +250,7 @@ impl Shading {
     ///
     /// If a kernel is too long for compilers.
     pub fn wgsl(&self) -> Result<String, Limit> {
-        self.text(&catalog::build(&self.specs()), Target::Wgsl)
+        self.text(&generate::build(&self.specs()), Target::Wgsl)
     }
 
     /// [`Shading::text`] in GLSL ES 3.00, its kernels built for it alone.
@@ -259,7 +259,7 @@ impl Shading {
     ///
     /// If a kernel is too long for compilers.
     pub fn glsl_fragment(&self) -> Result<String, Limit> {
-        self.text(&catalog::build(&self.specs()), Target::Glsl)
+        self.text(&generate::build(&self.specs()), Target::Glsl)
     }
 }
 
@@ -321,7 +321,7 @@ pub fn check(function: &Function, target: Target) -> Result<String, Limit> {
 mod tests {
     use super::*;
     use crate::catalog::ORDERS;
-    use crate::validate::validate;
+    use crate::emit::validate::validate;
 
     #[test]
     fn every_shader_is_valid_wgsl() {
@@ -339,7 +339,7 @@ mod tests {
     fn every_check_is_valid_wgsl() {
         let shading = |method, isotropic| Shading { order: 5, method, isotropic };
         let specs: Vec<Spec> = Method::ALL.into_iter().flat_map(|method| shading(method, true).specs()).collect();
-        for function in catalog::build(&specs) {
+        for function in generate::build(&specs) {
             let text = check(&function, Target::Wgsl).expect("fits");
             validate(Target::Wgsl, &function.spec.to_string(), &text).unwrap_or_else(|error| panic!("{error}"));
         }
@@ -367,10 +367,10 @@ mod tests {
 
     #[test]
     fn the_error_of_leaving_a_turn_out_is_that_of_its_matrix() {
-        use crate::eval::{Contraction, Program};
-        use crate::listing::Listing;
+        use crate::ir::eval::{Contraction, Program};
+        use crate::ir::listing::Listing;
         let order = 5;
-        let program = Program::<f64>::new(&Listing::new(&crate::kernels::rotate::rotate_y(order)));
+        let program = Program::<f64>::new(&Listing::new(&crate::families::rotate::rotate_y(order)));
         for angle in [0.1f64, 0.5, 1.0, 1.5] {
             let errors = &Method::None.band_errors(order, &[angle])[0];
             let typical = &Method::None.typical_band_errors(order, &[angle])[0];
@@ -383,7 +383,7 @@ mod tests {
                         (l * l..(l + 1) * (l + 1)).map(|i| turned[i] - unit[i]).collect()
                     })
                     .collect();
-                let norm = crate::accuracy::spectral_norm(&columns);
+                let norm = crate::math::linear::spectral_norm(&columns);
                 assert!((errors[l] - norm).abs() < 1e-9, "{l} {angle}: {} {norm}", errors[l]);
                 let square = columns.iter().flatten().map(|x| x * x).sum::<f64>() / columns.len() as f64;
                 assert!((typical[l] - square.sqrt()).abs() < 1e-12, "{l} {angle}: {} {square}", typical[l]);

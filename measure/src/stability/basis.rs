@@ -5,10 +5,10 @@ use crate::numbers::{Half, Twin};
 use crate::stability::truth::{Band, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::kernels::loops::basis_loop;
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples::Random;
+use zonal_codegen::families::loops::basis_loop;
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::samples::Random;
 
 /// The orders that tables show.
 pub const ORDERS: [usize; 7] = [2, 4, 8, 16, 32, 64, 128];

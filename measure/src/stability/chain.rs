@@ -2,13 +2,13 @@
 
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::built::kernel;
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::kernel::Shape;
-use zonal_codegen::kernels::y_rotation::Small;
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples::{Random, matrix_of};
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::y_rotation::Small;
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::kernel::Shape;
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::built::kernel;
+use zonal_codegen::promise::samples::{Random, matrix_of};
 
 /// After how many rotations the norm is noted.
 pub const STEPS: [usize; 5] = [10, 100, 1_000, 10_000, 100_000];

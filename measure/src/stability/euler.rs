@@ -6,10 +6,10 @@ use crate::stability::truth::{Pair, turn};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal::glam::{Mat3, Quat};
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::kernels::rotate::angles;
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples::{Random, matrix_of};
+use zonal_codegen::families::rotate::angles;
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::promise::samples::{Random, matrix_of};
 
 /// The small angles: β, and π less β.
 pub const SMALL: [f64; 10] = [0.0, 1e-20, 1e-15, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
@@ -203,13 +203,13 @@ pub fn multiples(progress: &dyn Progress) -> Vec<Multiples> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use zonal_codegen::kernels::{multiples, phases};
+    use zonal_codegen::families::{multiples, phases};
 
     /// What is measured is what the kernels do.
     #[test]
     fn products_are_the_kernels_own() {
-        use zonal_codegen::graph::Kind;
-        use zonal_codegen::kernel::{Builder, Shape};
+        use zonal_codegen::ir::graph::Kind;
+        use zonal_codegen::ir::kernel::{Builder, Shape};
         let mut builder = Builder::new();
         let cs = builder.param("cs", Shape::Pair, Kind::Scalar, "");
         let all = multiples(&mut builder.graph, phases(&cs)[0], MULTIPLES[3]);

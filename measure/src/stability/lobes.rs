@@ -5,10 +5,10 @@ use crate::numbers::Twin;
 use crate::stability::truth::{Band, Rotation, Swap, distance};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::eval::Number;
-use zonal_codegen::samples::{Random, matrix_of};
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::sh::zhf::{HIGHEST_SIZE, Lobe, Record, a_hat, chosen, records};
+use zonal_codegen::families::zhf::lobes::{HIGHEST_SIZE, Lobe, Record, a_hat, chosen, records};
+use zonal_codegen::ir::eval::Number;
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::promise::samples::{Random, matrix_of};
 
 /// How many rotations and signals a set is tried on.
 const TRIES: usize = 3;

@@ -7,9 +7,9 @@ use crate::stability::truth::{Rotation, Swap};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Mul, Neg, Sub};
-use zonal_codegen::eval::Number;
-use zonal_codegen::sh::index::degrees;
-use zonal_codegen::sh::tables::dy_sub_diag;
+use zonal_codegen::ir::eval::Number;
+use zonal_codegen::math::index::degrees;
+use zonal_codegen::math::tables::dy_sub_diag;
 
 /// What the recursion computes with: numbers, or a function's value with its derivatives.
 trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
@@ -252,7 +252,7 @@ pub fn measure(progress: &dyn Progress, shown: &[usize]) -> Vec<Derivatives> {
 mod tests {
     use super::*;
     use crate::stability::truth::{distance, norm};
-    use zonal_codegen::samples::Random;
+    use zonal_codegen::promise::samples::Random;
 
     #[test]
     fn the_recursion_makes_rotations() {

@@ -11,7 +11,7 @@ use crate::File;
 use crate::plots::{file as picture, key};
 use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
 use crate::tables::{file, perhaps, short, table};
-use zonal_codegen::sh::zhf::LARGEST_CONDITION;
+use zonal_codegen::families::zhf::lobes::LARGEST_CONDITION;
 
 /// What the issue of the basis in f32 asks for.
 pub const BASIS_TARGET: f64 = 1e-5;

@@ -7,15 +7,15 @@ use crate::stability::recursion::Matrices;
 use crate::stability::truth::{Pair, Rotation, Swap, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::eval::{Contraction, Number, Program};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::{Builder, Param, Shape};
-use zonal_codegen::kernels::loops::rotate_loop;
-use zonal_codegen::kernels::phases;
-use zonal_codegen::kernels::rotate::{YPhases, y_band, z_band};
-use zonal_codegen::listing::Listing;
-use zonal_codegen::program::{LoopKernel, Stmt};
-use zonal_codegen::samples::Random;
+use zonal_codegen::families::loops::rotate_loop;
+use zonal_codegen::families::phases;
+use zonal_codegen::families::rotate::{YPhases, y_band, z_band};
+use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::{Builder, Param, Shape};
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::ir::program::{LoopKernel, Stmt};
+use zonal_codegen::promise::samples::Random;
 
 /// The order of the loop.
 pub const ORDER: usize = 64;

@@ -5,12 +5,12 @@
 use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::built::code;
-use zonal_codegen::code::Runner;
-use zonal_codegen::eval::Contraction;
-use zonal_codegen::kernel::{Param, Shape};
-use zonal_codegen::samples;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::ir::code::Runner;
+use zonal_codegen::ir::eval::Contraction;
+use zonal_codegen::ir::kernel::{Param, Shape};
+use zonal_codegen::promise::built::code;
+use zonal_codegen::promise::samples;
 
 /// What the coefficients of a band are scaled to.
 pub const VALUES: [(&str, f32); 6] = [

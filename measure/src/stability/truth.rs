@@ -5,9 +5,9 @@ use crate::numbers::Twin;
 use num_bigint::BigInt;
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
-use zonal_codegen::eval::Number;
-use zonal_codegen::sh::exact::{Exact, Real};
-use zonal_codegen::sh::tables::swap_yz;
+use zonal_codegen::ir::eval::Number;
+use zonal_codegen::math::exact::{Exact, Real};
+use zonal_codegen::math::tables::swap_yz;
 
 /// The bits after the point to which a value of the basis is computed.
 const BITS: u64 = 600;
@@ -237,7 +237,7 @@ pub fn sampled(bands: RangeInclusive<usize>) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use zonal_codegen::samples::Random;
+    use zonal_codegen::promise::samples::Random;
 
     /// The two truths agree: the basis at R z is the rotated basis at z.
     #[test]

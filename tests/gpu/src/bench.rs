@@ -8,10 +8,11 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use zonal_codegen::catalog::{build, standard};
+use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::generate::build;
 
 /// The order of the kernels that get a corrupted constant, if their family has it.
 const MUTATED_ORDER: usize = 4;

@@ -4,18 +4,18 @@
 use crate::job::Job;
 use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use zonal_codegen::accuracy::{MARGIN, Measure};
-use zonal_codegen::built::kernel;
-use zonal_codegen::code::Code;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::eval::{Contraction, Number};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::Param;
-use zonal_codegen::listing::Listing;
-use zonal_codegen::samples;
-use zonal_codegen::sh::exact::Exact;
-use zonal_codegen::spec::Family;
+use zonal_codegen::families::spec::Family;
+use zonal_codegen::ir::code::Code;
+use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::Param;
+use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::math::exact::Exact;
+use zonal_codegen::promise::accuracy::{MARGIN, Measure};
+use zonal_codegen::promise::built::kernel;
+use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on, at least and at most; both are multiples of [`wrap::GROUP`].
 pub const INPUTS: [usize; 2] = [2048, 8192];

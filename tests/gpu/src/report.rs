@@ -6,7 +6,7 @@ use crate::devices::COLUMNS;
 use crate::system;
 use std::collections::BTreeMap;
 use std::process::Command;
-use zonal_codegen::spec::{Family, Method, Spec};
+use zonal_codegen::families::spec::{Family, Method, Spec};
 
 /// The family and the method of a spec, without its order and its channels.
 pub fn family(spec: &Spec) -> String {

@@ -4,8 +4,8 @@
 
 use zonal_codegen::emit::dialect::{Dialect, Target};
 use zonal_codegen::emit::{Function, Module};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::{Param, Shape};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::{Param, Shape};
 
 /// How many cases one workgroup of a compute shader computes.
 pub const GROUP: usize = 64;

@@ -6,9 +6,10 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use zonal_codegen::catalog::{build, standard};
+use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::generate::build;
 use zonal_gpu_tests::system::compile;
 use zonal_gpu_tests::wrap;
 

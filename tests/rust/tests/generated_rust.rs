@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use zonal::real::{Channels, Lanes};
-use zonal_codegen::built::{self, Built};
 use zonal_codegen::catalog;
-use zonal_codegen::code::Runner;
-use zonal_codegen::eval::{Contraction, Number};
-use zonal_codegen::graph::Kind;
-use zonal_codegen::kernel::Param;
-use zonal_codegen::samples::{self, Random};
-use zonal_codegen::spec::Spec;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::ir::code::Runner;
+use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::Param;
+use zonal_codegen::promise::built::{self, Built};
+use zonal_codegen::promise::samples::{self, Random};
 
 const SEED: u64 = 0x9e_11;
 const SAMPLES: usize = 24;

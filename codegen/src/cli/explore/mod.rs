@@ -6,8 +6,8 @@ use super::{Failure, out, progress};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tiny_http::{Header, Method, Request, Response, Server};
-use zonal_codegen::diagnostic::Diagnostic;
 use zonal_codegen::files;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Where the page is written to unless another folder is named.
 const FOLDER: &str = "zonal-out/explorer";

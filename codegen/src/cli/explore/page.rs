@@ -5,18 +5,19 @@ use super::Asset;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use zonal_codegen::catalog::{self, ORDERS};
-use zonal_codegen::diagnostic::Diagnostic;
+use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::validate::validate;
 use zonal_codegen::environment::Map;
+use zonal_codegen::families::spec::Spec;
+use zonal_codegen::generate;
 use zonal_codegen::picture::brdf::{Brdf, Table};
 use zonal_codegen::picture::mesh::{self, Mesh};
 use zonal_codegen::picture::normal_map::{LEAST_Z, NormalMap};
 use zonal_codegen::picture::shade::{self, Method, Shading};
 use zonal_codegen::picture::{AssetError, assets};
-use zonal_codegen::spec::Spec;
-use zonal_codegen::validate::validate;
+use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// What a person wrote: the page itself.
 const PAGE: [(&str, &str); 8] = [
@@ -94,7 +95,7 @@ fn carried(path: &str) -> &'static [u8] {
 pub fn assets(bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
     let mut all: Vec<Asset> = PAGE.iter().map(|(path, text)| ((*path).to_owned(), text.as_bytes().to_vec())).collect();
     bar.set_message("measuring the kernels");
-    let functions = catalog::build(&specs());
+    let functions = generate::build(&specs());
     bar.set_message("writing and validating the shaders");
     all.extend(shaders(&functions)?);
     bar.set_message("projecting the reflectances");
@@ -139,7 +140,7 @@ fn specs() -> Vec<Spec> {
 }
 
 fn shaders(functions: &[Function]) -> Result<Vec<Asset>, Failure> {
-    let both = |stem: String, wgsl: String, glsl: String| -> Result<[Asset; 2], catalog::GenerateError> {
+    let both = |stem: String, wgsl: String, glsl: String| -> Result<[Asset; 2], generate::GenerateError> {
         let paths = [format!("shaders/{stem}.wgsl"), format!("shaders/{stem}.frag")];
         validate(Target::Wgsl, &paths[0], &wgsl)?;
         let [first, second] = paths;

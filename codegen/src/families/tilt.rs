@@ -1,0 +1,236 @@
+//! The tilt: the rotation that takes z to a normal by the shortest way, from the normal alone, with no trigonometry.
+//! Bands 1 and 2 are exact closed forms; from band 3 on three or five parity shears, regular at n = z and odd in (nx, ny), so
+//! that the inverse is the same code with −n (MATH section 9).
+
+use crate::families::inner;
+use crate::families::rotate::{each_band, normal, signal};
+use crate::families::y_rotation::{ParityShear, Small, parity_shears};
+use crate::ir::graph::Kind;
+use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::{Builder, Kernel, Shape};
+use crate::math::exact::Exact;
+use crate::math::index::coefficients;
+use crate::math::tables;
+
+/// What every band needs of the normal.
+struct Normal {
+    x: Id,
+    y: Id,
+    z: Id,
+    /// nx² + ny².
+    u: Id,
+    /// 1 / (1 + nz).
+    k: Id,
+}
+
+/// Band 1 exactly: six operations.
+fn band_1(g: &mut Graph, band: &[Id], n: &Normal) -> Vec<Id> {
+    let [y, z, x] = [g.neg(band[0]), band[1], g.neg(band[2])];
+    let d = inner(g, &[x, y], &[n.x, n.y]);
+    let kd = g.mul(d, n.k);
+    let w = g.sub(z, kd);
+    let zz = g.mul(z, n.z);
+    let out = [g.mul_add(w, n.y, y), g.sub(zz, d), g.mul_add(w, n.x, x)];
+    vec![g.neg(out[0]), out[1], g.neg(out[2])]
+}
+
+/// Band 2 exactly: thirty operations and no multiple angle.
+fn band_2(g: &mut Graph, band: &[Id], n: &Normal) -> Vec<Id> {
+    let root3 = Exact::sqrt_ratio(3, 1);
+    let (p12, c0, c2) = (band[0], band[2], band[4]);
+    let q = [g.neg(band[3]), g.neg(band[1])];
+    let weighted = g.scale(&root3, c0);
+    let p11 = g.sub(c2, weighted);
+    let p22 = g.add(c2, weighted);
+    let p22 = g.neg(p22);
+    let xy = [n.x, n.y];
+    let p = [inner(g, &[p11, p12], &xy), inner(g, &[p12, p22], &xy)];
+    let (a, b) = (inner(g, &p, &xy), inner(g, &q, &xy));
+    let ka = g.mul(a, n.k);
+    let twice = g.scale(&Exact::int(2), b);
+    let capital = g.sub(ka, twice);
+    let half_k = g.scale(&Exact::ratio(1, 2), n.k);
+    let e = g.mul(capital, half_k);
+    let f = g.mul_add(b, n.k, capital);
+    let w: [Id; 2] = std::array::from_fn(|i| {
+        let kp = g.mul(p[i], n.k);
+        let rest = g.sub(q[i], kp);
+        g.mul_add(e, xy[i], rest)
+    });
+    let out_2 = g.mul_add(w[0], n.x, c2);
+    let yy = g.mul(w[1], n.y);
+    let out_2 = g.sub(out_2, yy);
+    let out_12 = g.mul_add(w[1], n.x, p12);
+    let out_12 = g.mul_add(w[0], n.y, out_12);
+    let nw = inner(g, &w, &xy);
+    let out_0 = g.scale_add(&-&root3, nw, c0);
+    let q_out: [Id; 2] = std::array::from_fn(|i| {
+        let zq = g.mul(q[i], n.z);
+        let rest = g.sub(zq, p[i]);
+        g.mul_add(f, xy[i], rest)
+    });
+    vec![out_12, g.neg(q_out[1]), out_0, g.neg(q_out[0]), out_2]
+}
+
+/// What every prescaled row of a band takes from the row above it: about the geometric mean of the couplings, so that the
+/// factors of [`scale`] stay near one.
+fn unit(l: usize) -> Exact {
+    let product: f64 = (1..=l).map(|m| tables::ladder(l, m).to_f64()).product();
+    Exact::int(product.powf(1.0 / l as f64).round() as i64)
+}
+
+/// What row m of band l takes from m + 1: the ladder's coupling, or what [`scale`] makes of it.
+fn from_above(l: usize, m: usize, prescaled: bool) -> Exact {
+    if prescaled { unit(l) } else { tables::ladder(l, m + 1) }
+}
+
+/// What row m takes from m − 1.
+fn from_below(l: usize, m: usize, prescaled: bool) -> Exact {
+    let a = tables::ladder(l, m);
+    if prescaled { &(&a * &a) / &unit(l) } else { a }
+}
+
+/// What a coefficient is divided by where it is stored for `tilt_prescaled`: one in bands 0 to 2; in a higher band it
+/// makes all rows take alike from the row above.
+pub fn scale(l: usize, m: isize) -> Exact {
+    match l {
+        0..=2 => Exact::one(),
+        _ => (1..=m.unsigned_abs()).fold(Exact::one(), |d, m| &(&d * &unit(l)) / &tables::ladder(l, m)),
+    }
+}
+
+/// The coefficients of one parity's shear: for each of its rows m, (x, y) times the coupling that is written as one.
+struct Shear {
+    parity: usize,
+    rows: Vec<Row>,
+}
+
+/// A row of a shear.
+struct Row {
+    /// (x, y) times the coupling to one neighbour.
+    pair: [Id; 2],
+    /// The couplings to m + 1 and to m − 1 against that one.
+    up: Exact,
+    down: Exact,
+}
+
+impl Shear {
+    /// `constant` + `linear` · u times (nx, ny), times each row's coupling to the row above, the last row's to the row
+    /// below.
+    fn new(
+        g: &mut Graph,
+        n: &Normal,
+        l: usize,
+        parity: usize,
+        [constant, linear]: [Exact; 2],
+        prescaled: bool,
+    ) -> Self {
+        let (above, below) = (|m| from_above(l, m, prescaled), |m| from_below(l, m, prescaled));
+        let own = |m: usize| if m < l { above(m) } else { below(m) };
+        let first = own(parity);
+        let factor = g.affine(&(&first * &linear), n.u, &(&first * &constant));
+        let pair = [g.mul(factor, n.x), g.mul(factor, n.y)];
+        let rows = (parity..=l)
+            .step_by(2)
+            .map(|m| {
+                let own = own(m);
+                let ratio = &own / &first;
+                Row {
+                    pair: pair.map(|value| g.scale(&ratio, value)),
+                    up: if m < l { &above(m) / &own } else { Exact::zero() },
+                    down: if m > 0 { &below(m) / &own } else { Exact::zero() },
+                }
+            })
+            .collect();
+        Self { parity, rows }
+    }
+
+    /// x ← x + f A_φ x for the rows of this parity.
+    fn apply(&self, g: &mut Graph, x: &mut [Id], l: usize) {
+        let old = x.to_vec();
+        let (re, im) = (|m: usize| old[l + m], |m: usize| old[l - m]);
+        for (m, Row { pair: [c, s], up, down }) in (self.parity..=l).step_by(2).zip(&self.rows) {
+            // Upwards a_{m+1} (c − i s) ζ_{m+1}, from below −a_m (c + i s) ζ_{m−1}.
+            let zero = g.constant(Exact::zero());
+            let (up_re, up_im) = if m < l { (re(m + 1), im(m + 1)) } else { (zero, zero) };
+            let (down_re, down_im) = match m {
+                0 => (zero, zero),
+                1 => (re(0), zero),
+                _ => (re(m - 1), im(m - 1)),
+            };
+            let combine = |g: &mut Graph, below: &Exact, low: Id, high: Id| {
+                let above = g.scale(up, high);
+                g.scale_add(below, low, above)
+            };
+            let (minus, plus) = (-down, down.clone());
+            let difference_re = combine(g, &minus, down_re, up_re);
+            let sum_im = combine(g, &plus, down_im, up_im);
+            let mut row = g.mul_add(difference_re, *c, re(m));
+            row = g.mul_add(sum_im, *s, row);
+            x[l + m] = row;
+            if m > 0 {
+                let difference_im = combine(g, &minus, down_im, up_im);
+                let sum_re = combine(g, &plus, down_re, up_re);
+                let row = g.mul_add(difference_im, *c, im(m));
+                let term = g.mul(sum_re, *s);
+                x[l - m] = g.sub(row, term);
+            }
+        }
+    }
+}
+
+/// Three or five shears, β the tilt. With sin β for β the series' second coefficient takes c₀/6 more.
+fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: Small, prescaled: bool) -> Vec<Id> {
+    let l = band.len() / 2;
+    let mut x = band.to_vec();
+    for ParityShear { parity, series: [first, third] } in parity_shears(l, method) {
+        let third = &third + &(&first / &Exact::int(6));
+        Shear::new(g, n, l, parity, [first, third], prescaled).apply(g, &mut x, l);
+    }
+    x
+}
+
+/// The kernels `tilt` and `tilt_prescaled`, with `methods[l − 1]` for band l: exact for bands 1 and 2, shears for the
+/// others.
+pub fn tilt(order: usize, methods: &[Small], prescaled: bool) -> Kernel {
+    let mut builder = Builder::new();
+    let n = normal(&mut builder);
+    let c = match prescaled {
+        true => {
+            let doc = format!("the coefficients as `tilt_scale:{order}` stores them");
+            builder.param("c", Shape::Array(order * order), Kind::Signal, doc)
+        }
+        false => signal(&mut builder, order),
+    };
+    let g = &mut builder.graph;
+    let one = g.constant(Exact::one());
+    let above = g.add(n[2], one);
+    let n = Normal { x: n[0], y: n[1], z: n[2], u: inner(g, &n[..2], &n[..2]), k: g.recip(above) };
+    let out = each_band(g, &c, order, |g, l, band| match l {
+        0 => band.to_vec(),
+        1 => band_1(g, band, &n),
+        2 => band_2(g, band, &n),
+        _ => shears(g, band, &n, methods[l - 1], prescaled),
+    });
+    let doc = if prescaled { "the tilted coefficients, scaled alike" } else { "the tilted coefficients" };
+    builder.finish(out, Shape::Array(order * order), doc)
+}
+
+/// The kernels `tilt_scale` and `tilt_unscale`: each coefficient divided by [`scale`], or multiplied by it.
+pub fn rescale(order: usize, unscale: bool) -> Kernel {
+    let mut builder = Builder::new();
+    let c = signal(&mut builder, order);
+    let g = &mut builder.graph;
+    let out = coefficients(order)
+        .zip(&c)
+        .map(|((l, m), &value)| {
+            let scale = scale(l, m);
+            g.scale(&if unscale { scale } else { &Exact::one() / &scale }, value)
+        })
+        .collect();
+    let doc = match unscale {
+        true => "the coefficients that were scaled; those of a light, to be multiplied with scaled ones",
+        false => "the coefficients as `tilt_prescaled` takes them",
+    };
+    builder.finish(out, Shape::Array(order * order), doc)
+}

@@ -1,0 +1,93 @@
+//! From specs to text that is checked: kernels built, each once whatever its channels, printed and validated.
+
+use crate::emit::dialect::Target;
+use crate::emit::validate::{Invalid, validate};
+use crate::emit::{Function, Limit, Module};
+use crate::families::spec::{Family, Spec};
+use crate::families::zhf;
+use crate::files::File;
+use crate::promise::built::Built;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Why a set of kernels could not be generated.
+#[derive(Debug, thiserror::Error)]
+pub enum GenerateError {
+    /// A kernel cannot be printed for a target.
+    #[error(transparent)]
+    Limit(#[from] Limit),
+    /// A validator refused a text.
+    #[error(transparent)]
+    Invalid(#[from] Invalid),
+}
+
+/// Builds the kernels of specs, each once whatever its channels, in parallel.
+pub fn build(specs: &[Spec]) -> Vec<Function> {
+    let mut bases: BTreeMap<Spec, Option<Arc<Built>>> = specs.iter().map(|spec| (Built::base(spec), None)).collect();
+    bases.par_iter_mut().for_each(|(spec, built)| *built = Some(Arc::new(Built::new(spec))));
+    specs
+        .iter()
+        .map(|spec| Function {
+            built: bases[&Built::base(spec)].clone().expect("every base was built"),
+            spec: spec.clone(),
+            name: None,
+        })
+        .collect()
+}
+
+/// Prints and validates one module in one language.
+pub fn file(module: &Module, target: Target, path: String) -> Result<File, GenerateError> {
+    let text = match target {
+        Target::Rust => {
+            module.check_rust()?;
+            module.rust_alone()
+        }
+        _ => module.shader(target)?,
+    };
+    validate(target, &path, &text)?;
+    Ok(File { path, text })
+}
+
+/// The cost, the footprint and the accuracy of a spec, as `list` shows them.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Row {
+    /// The spec.
+    pub spec: String,
+    /// The function's name in shaders.
+    pub name: String,
+    /// The order.
+    pub order: usize,
+    /// How many channels the signal has.
+    pub channels: usize,
+    /// The operations.
+    #[serde(flatten)]
+    pub cost: crate::ir::listing::Cost,
+    /// Constants and live values.
+    #[serde(flatten)]
+    pub footprint: crate::ir::listing::Footprint,
+    /// The errors.
+    #[serde(flatten)]
+    pub accuracy: crate::promise::accuracy::Accuracy,
+    /// For a zonal factorisation the non-zero entries of its sparse matrix in the bands from 2 on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nonzeros: Option<usize>,
+}
+
+impl Row {
+    /// The row of a function.
+    pub fn of(function: &Function) -> Self {
+        let spec = &function.spec;
+        let factorised = matches!(spec.family, Family::Zhf | Family::ZhfWeights | Family::ZhfTailored);
+        Self {
+            spec: spec.to_string(),
+            name: function.shader_name(),
+            order: spec.order,
+            channels: spec.channels(),
+            cost: function.built.code.cost(spec.channels()),
+            footprint: function.built.code.footprint(),
+            accuracy: function.built.accuracy.clone(),
+            nonzeros: factorised.then(|| zhf::nonzeros(spec.order)),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The operations of a kernel in either form, straight lines or a loop: what both can be asked and how both are run.
+
+use crate::ir::eval::{Contraction, Number, Program};
+use crate::ir::graph::Kind;
+use crate::ir::kernel::{Param, Shape};
+use crate::ir::listing::{Cost, Footprint, Listing};
+use crate::ir::program::{LoopKernel, Stmt};
+
+/// The operations of a kernel.
+#[derive(Clone, Debug)]
+pub enum Code {
+    /// Straight lines.
+    Straight(Listing),
+    /// Tables and a loop.
+    Loop(LoopKernel),
+    /// One of two listings.
+    Branch(Box<Branch>),
+}
+
+/// Two listings of the same parameters and results, and what decides between them.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Two scalars.
+    pub condition: Listing,
+    /// What is done where the first of them is at most the second.
+    pub below: Listing,
+    /// What is done elsewhere.
+    pub above: Listing,
+}
+
+impl Code {
+    /// The parameters, in order.
+    pub fn params(&self) -> &[Param] {
+        match self {
+            Self::Straight(listing) => &listing.params,
+            Self::Loop(kernel) => &kernel.params,
+            Self::Branch(branch) => &branch.above.params,
+        }
+    }
+
+    /// The shape and the kind of the result.
+    pub fn result(&self) -> (Shape, Kind) {
+        match self {
+            Self::Straight(listing) => (listing.result, listing.result_kind),
+            Self::Loop(kernel) => (kernel.result, kernel.result_kind),
+            Self::Branch(branch) => (branch.above.result, branch.above.result_kind),
+        }
+    }
+
+    /// What the result holds.
+    pub fn result_doc(&self) -> &str {
+        match self {
+            Self::Straight(listing) => &listing.result_doc,
+            Self::Loop(kernel) => &kernel.result_doc,
+            Self::Branch(branch) => &branch.above.result_doc,
+        }
+    }
+
+    /// What it costs for so many channels, at most.
+    pub fn cost(&self, channels: usize) -> Cost {
+        match self {
+            Self::Straight(listing) => listing.cost(channels),
+            Self::Loop(kernel) => Listing::from(kernel).cost(channels),
+            Self::Branch(branch) => branch.costs(channels)[1],
+        }
+    }
+
+    /// What it needs besides operations; a loop's constants are its tables', its live values those of its arrays.
+    pub fn footprint(&self) -> Footprint {
+        match self {
+            Self::Straight(listing) => listing.footprint(),
+            Self::Loop(kernel) => Footprint {
+                constants: kernel.tables.iter().map(|table| table.values.len()).sum(),
+                live: array_items(&kernel.body),
+            },
+            Self::Branch(branch) => branch.footprint(),
+        }
+    }
+
+    /// The operations with constants rounded to `T`, ready to run.
+    pub fn runner<T: Number>(&self) -> Runner<T> {
+        match self {
+            Self::Straight(listing) => Runner::Straight(Program::new(listing)),
+            Self::Loop(kernel) => Runner::Straight(Program::new(&Listing::from(kernel))),
+            Self::Branch(branch) => {
+                Runner::Branch(Box::new([&branch.condition, &branch.below, &branch.above].map(Program::new)))
+            }
+        }
+    }
+}
+
+impl Branch {
+    /// What both ways cost for so many channels, the condition included: the cheaper one first.
+    pub fn costs(&self, channels: usize) -> [Cost; 2] {
+        let condition = self.condition.cost(channels);
+        let mut both = [&self.below, &self.above].map(|listing| listing.cost(channels) + condition);
+        both.sort_by_key(|cost| cost.total);
+        both
+    }
+
+    fn footprint(&self) -> Footprint {
+        let [below, above] = [&self.below, &self.above].map(Listing::footprint);
+        let mut constants: Vec<_> = [&self.below, &self.above].iter().flat_map(|listing| &listing.constants).collect();
+        constants.sort();
+        constants.dedup();
+        Footprint { constants: constants.len(), live: below.live.max(above.live) }
+    }
+}
+
+fn array_items(body: &[Stmt]) -> usize {
+    body.iter()
+        .map(|statement| match statement {
+            Stmt::Array(_, length, _) => *length,
+            Stmt::For { body, .. } => array_items(body),
+            _ => 0,
+        })
+        .sum()
+}
+
+/// A kernel that can be run again and again in `T`.
+#[derive(Clone, Debug)]
+pub enum Runner<T> {
+    /// Straight lines, or what a loop does.
+    Straight(Program<T>),
+    /// One of two: the condition's two scalars, what is done where the first is at most the second, and elsewhere.
+    Branch(Box<[Program<T>; 3]>),
+}
+
+impl<T: Number> Runner<T> {
+    /// Runs it for one channel. `inputs` holds one slice a parameter, of as many numbers as its shape says.
+    ///
+    /// # Panics
+    ///
+    /// If a slice is shorter than its parameter's shape.
+    pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
+        match self {
+            Self::Straight(program) => program.run(inputs, contraction),
+            Self::Branch(programs) => {
+                let [condition, below, above] = &**programs;
+                let sides = condition.run(inputs, contraction);
+                let program = if sides[0] <= sides[1] { below } else { above };
+                program.run(inputs, contraction)
+            }
+        }
+    }
+}

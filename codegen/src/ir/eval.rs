@@ -1,0 +1,168 @@
+//! The interpreter: runs a [`Listing`] in f16, f32 or f64, operation by operation, so that what the printers write can be
+//! checked against it bit for bit.
+
+use crate::ir::listing::{Listing, Op, Operand, Sign};
+use crate::math::exact::Exact;
+use half::f16;
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A floating-point type that the interpreter runs in.
+pub trait Number:
+    Copy
+    + Debug
+    + PartialEq
+    + PartialOrd
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// One.
+    const ONE: Self;
+    /// Zero.
+    const ZERO: Self;
+    /// What [`crate::ir::graph::Node::Tiny`] stands for.
+    const TINY: Self;
+    /// Half the distance from one to the next number: the unit roundoff.
+    const UNIT_ROUNDOFF: f64;
+    /// The number nearest to an exact value.
+    fn nearest(value: &Exact) -> Self;
+    /// The number nearest to an f64.
+    fn from_f64(value: f64) -> Self;
+    /// The same value as f64.
+    fn to_f64(self) -> f64;
+    /// √self.
+    fn root(self) -> Self;
+    /// self · b + c, rounded once.
+    fn fused(self, b: Self, c: Self) -> Self;
+}
+
+macro_rules! number {
+    ($float:ident, $to:ident, $tiny:literal, $roundoff:expr) => {
+        impl Number for $float {
+            const ONE: Self = 1.0;
+            const ZERO: Self = 0.0;
+            const TINY: Self = $tiny;
+            const UNIT_ROUNDOFF: f64 = $roundoff;
+            fn nearest(value: &Exact) -> Self {
+                value.$to()
+            }
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline]
+            fn root(self) -> Self {
+                self.sqrt()
+            }
+            #[inline]
+            fn fused(self, b: Self, c: Self) -> Self {
+                self.mul_add(b, c)
+            }
+        }
+    };
+}
+
+impl Number for f16 {
+    const ONE: Self = Self::ONE;
+    const ZERO: Self = Self::ZERO;
+    const TINY: Self = Self::ZERO;
+    const UNIT_ROUNDOFF: f64 = 1.0 / 2048.0;
+    fn nearest(value: &Exact) -> Self {
+        Self::from_f64(value.to_f64())
+    }
+    fn from_f64(value: f64) -> Self {
+        Self::from_f64(value)
+    }
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    fn root(self) -> Self {
+        Self::from_f64(f64::from(self).sqrt())
+    }
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self::from_f64(f64::from(self) * f64::from(b) + f64::from(c))
+    }
+}
+
+number!(f32, to_f32, 1e-15, f32::EPSILON as f64 / 2.0);
+number!(f64, to_f64, 1e-30, f64::EPSILON / 2.0);
+
+/// Whether a multiply-add is rounded once or twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contraction {
+    /// Once, as an fma instruction does.
+    Fused,
+    /// Twice: a product, then a sum.
+    Separate,
+}
+
+/// A listing with its constants rounded to `T`.
+#[derive(Clone, Debug)]
+pub struct Program<T> {
+    listing: Listing,
+    constants: Vec<T>,
+}
+
+impl<T: Number> Program<T> {
+    /// Rounds the constants of a listing.
+    pub fn new(listing: &Listing) -> Self {
+        Self { listing: listing.clone(), constants: listing.constants.iter().map(T::nearest).collect() }
+    }
+
+    /// The listing that is run.
+    pub fn listing(&self) -> &Listing {
+        &self.listing
+    }
+
+    /// Runs it for one channel. `inputs` holds one slice a parameter, of as many numbers as its shape says; the result
+    /// has as many numbers as the kernel's.
+    ///
+    /// # Panics
+    ///
+    /// If a slice is shorter than its parameter's shape.
+    pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
+        let mut values: Vec<T> = Vec::with_capacity(self.listing.steps.len());
+        for step in &self.listing.steps {
+            let get = |operand| self.get(operand, &values, inputs);
+            let value = match step.op {
+                Op::Neg(a) => -get(a),
+                Op::Add(a, b) => get(a) + get(b),
+                Op::Sub(a, b) => get(a) - get(b),
+                Op::Mul(a, b) => get(a) * get(b),
+                Op::Recip(a) => T::ONE / get(a),
+                Op::Rsqrt(a) => T::ONE / get(a).root(),
+                Op::Fma(a, b, c, sign) => {
+                    let (a, b, c) = (get(a), get(b), get(c));
+                    match (contraction, sign) {
+                        (Contraction::Fused, Sign::Plus) => a.fused(b, c),
+                        (Contraction::Fused, Sign::MinusAddend) => a.fused(b, -c),
+                        (Contraction::Fused, Sign::MinusProduct) => (-a).fused(b, c),
+                        (Contraction::Separate, Sign::Plus) => a * b + c,
+                        (Contraction::Separate, Sign::MinusAddend) => a * b - c,
+                        (Contraction::Separate, Sign::MinusProduct) => c - a * b,
+                    }
+                }
+            };
+            values.push(value);
+        }
+        self.listing.outputs.iter().map(|&operand| self.get(operand, &values, inputs)).collect()
+    }
+
+    fn get(&self, operand: Operand, values: &[T], inputs: &[&[T]]) -> T {
+        match operand {
+            Operand::Step(place) => values[place],
+            Operand::Const(place) => self.constants[place],
+            Operand::Tiny => T::TINY,
+            Operand::Input { param, index } => inputs[param][index],
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! A kernel: named parameters, a graph, and the outputs that it computes. Families in `kernels/` build it through
+//! [`Builder`]; the interpreter and the printers read it.
+
+use crate::ir::graph::{Graph, Id, Kind};
+
+/// The shape of a parameter or a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// Three numbers: x, y, z.
+    Vec3,
+    /// Four numbers: x, y, z, w.
+    Vec4,
+    /// Three columns of three numbers.
+    Mat3,
+    /// One (cosine, sine) pair.
+    Pair,
+    /// So many (cosine, sine) pairs.
+    Pairs(usize),
+    /// So many numbers.
+    Array(usize),
+    /// So many vectors of three numbers.
+    Vectors(usize),
+}
+
+impl Shape {
+    /// How many numbers it holds.
+    pub fn len(self) -> usize {
+        match self {
+            Self::Scalar => 1,
+            Self::Pair => 2,
+            Self::Vec3 => 3,
+            Self::Vec4 => 4,
+            Self::Mat3 => 9,
+            Self::Pairs(n) => 2 * n,
+            Self::Array(n) => n,
+            Self::Vectors(n) => 3 * n,
+        }
+    }
+
+    /// Whether it holds no number.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// One parameter of a kernel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Param {
+    /// Its name, the same in every language.
+    pub name: &'static str,
+    /// Its shape.
+    pub shape: Shape,
+    /// Whether it is the signal, which has one number a channel, or a number that all channels share.
+    pub kind: Kind,
+    /// What it holds, with its unit and range.
+    pub doc: String,
+}
+
+/// A straight-line kernel.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// The parameters, in order.
+    pub params: Vec<Param>,
+    /// The graph that the outputs live in.
+    pub graph: Graph,
+    /// One node a number of the result.
+    pub outputs: Vec<Id>,
+    /// The shape of the result.
+    pub result: Shape,
+    /// Whether the result is linear in the signal.
+    pub result_kind: Kind,
+    /// What the result holds.
+    pub result_doc: String,
+}
+
+/// Makes a [`Kernel`]: declare the parameters, compute on the graph, finish with the outputs.
+#[derive(Debug, Default)]
+pub struct Builder {
+    /// The graph to compute on.
+    pub graph: Graph,
+    params: Vec<Param>,
+}
+
+impl Builder {
+    /// A builder with no parameter.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Declares a parameter and returns its components in flat order.
+    pub fn param(&mut self, name: &'static str, shape: Shape, kind: Kind, doc: impl Into<String>) -> Vec<Id> {
+        let param = self.params.len() as u32;
+        self.params.push(Param { name, shape, kind, doc: doc.into() });
+        (0..shape.len() as u32).map(|index| self.graph.input(param, index, kind)).collect()
+    }
+
+    /// The kernel with these outputs.
+    pub fn finish(self, outputs: Vec<Id>, result: Shape, doc: impl Into<String>) -> Kernel {
+        assert_eq!(outputs.len(), result.len(), "one output for each number of the result");
+        let result_kind = outputs.iter().map(|&id| self.graph.kind(id)).max().unwrap_or(Kind::Scalar);
+        Kernel { params: self.params, graph: self.graph, outputs, result, result_kind, result_doc: doc.into() }
+    }
+}

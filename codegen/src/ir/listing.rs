@@ -1,0 +1,365 @@
+//! A kernel laid out: the operations in the order in which they are done, products fused into the sums that use them,
+//! what is used twice named. The interpreter runs a listing and the printers print it, so both do the same.
+
+use crate::ir::graph::{Graph, Id, Kind, Node};
+use crate::ir::kernel::{Kernel, Param, Shape};
+use crate::math::exact::Exact;
+use std::collections::HashMap;
+
+/// An operand of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operand {
+    /// The result of an earlier step.
+    Step(usize),
+    /// A constant of the listing.
+    Const(usize),
+    /// The smallest number that matters; see [`Node::Tiny`].
+    Tiny,
+    /// A component of a parameter.
+    Input {
+        /// Which parameter.
+        param: usize,
+        /// Which component, in flat order.
+        index: usize,
+    },
+}
+
+/// How the two parts of a fused operation are signed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sign {
+    /// a · b + c.
+    Plus,
+    /// a · b − c.
+    MinusAddend,
+    /// c − a · b.
+    MinusProduct,
+}
+
+/// One operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// −a.
+    Neg(Operand),
+    /// a + b.
+    Add(Operand, Operand),
+    /// a − b.
+    Sub(Operand, Operand),
+    /// a · b; a signal comes first.
+    Mul(Operand, Operand),
+    /// a · b and c, signed as said; a signal comes first in the product.
+    Fma(Operand, Operand, Operand, Sign),
+    /// 1 / a.
+    Recip(Operand),
+    /// 1 / √a.
+    Rsqrt(Operand),
+}
+
+impl Op {
+    /// The same operation on other operands.
+    pub fn map(self, mut of: impl FnMut(Operand) -> Operand) -> Self {
+        match self {
+            Self::Neg(a) => Self::Neg(of(a)),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
+            Self::Fma(a, b, c, sign) => Self::Fma(of(a), of(b), of(c), sign),
+            Self::Recip(a) => Self::Recip(of(a)),
+            Self::Rsqrt(a) => Self::Rsqrt(of(a)),
+        }
+    }
+
+    /// The operands, in the order in which they are written.
+    pub fn operands(&self) -> impl Iterator<Item = Operand> + use<> {
+        let (a, b, c) = match *self {
+            Self::Neg(a) | Self::Recip(a) | Self::Rsqrt(a) => (a, None, None),
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) => (a, Some(b), None),
+            Self::Fma(a, b, c, _) => (a, Some(b), Some(c)),
+        };
+        std::iter::once(a).chain(b).chain(c)
+    }
+}
+
+/// A step: an operation, the kind of its value, and how often it is used.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// What is done.
+    pub op: Op,
+    /// One number, or one a channel.
+    pub kind: Kind,
+    /// How many later steps and outputs use it.
+    pub uses: usize,
+}
+
+/// What a kernel costs. A multiplication, an addition or a fused multiply-add is one operation each; a negation is free;
+/// a reciprocal and an inverse square root are counted apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Cost {
+    /// Multiplications that are not fused.
+    pub mul: usize,
+    /// Additions and subtractions that are not fused.
+    pub add: usize,
+    /// Fused multiply-adds.
+    pub fma: usize,
+    /// Reciprocals and inverse square roots.
+    pub special: usize,
+    /// mul + add + fma.
+    pub total: usize,
+}
+
+impl std::ops::Add for Cost {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            mul: self.mul + other.mul,
+            add: self.add + other.add,
+            fma: self.fma + other.fma,
+            special: self.special + other.special,
+            total: self.total + other.total,
+        }
+    }
+}
+
+/// What a kernel needs besides operations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Footprint {
+    /// Distinct constants, their signs left out.
+    pub constants: usize,
+    /// The most values that are alive at once, inputs not counted.
+    pub live: usize,
+}
+
+/// A kernel laid out.
+#[derive(Clone, Debug)]
+pub struct Listing {
+    /// The parameters, in order.
+    pub params: Vec<Param>,
+    /// The constants, none of them negative unless it is an output.
+    pub constants: Vec<Exact>,
+    /// The steps, in order.
+    pub steps: Vec<Step>,
+    /// One operand a number of the result.
+    pub outputs: Vec<Operand>,
+    /// Where a proof may cut, in order, signs left out; see [`Graph::stage`].
+    pub stages: Vec<Vec<Operand>>,
+    /// The shape of the result.
+    pub result: Shape,
+    /// Whether the result is linear in the signal.
+    pub result_kind: Kind,
+    /// What the result holds.
+    pub result_doc: String,
+}
+
+struct Layout<'a> {
+    graph: &'a Graph,
+    order: Vec<Id>,
+    users: HashMap<Id, Vec<Id>>,
+}
+
+/// The node below a negation, and whether there was one.
+fn unsigned(graph: &Graph, id: Id) -> (Id, bool) {
+    match *graph.node(id) {
+        Node::Neg(inner) => (inner, true),
+        _ => (id, false),
+    }
+}
+
+impl<'a> Layout<'a> {
+    /// Depth first from the outputs; who uses each node, negations looked through.
+    fn new(kernel: &'a Kernel) -> Self {
+        let graph = &kernel.graph;
+        let mut layout = Self { graph, order: Vec::new(), users: HashMap::new() };
+        let mut seen = std::collections::HashSet::new();
+        let mut stack: Vec<(Id, bool)> = kernel.outputs.iter().rev().map(|&id| (id, false)).collect();
+        while let Some((id, ready)) = stack.pop() {
+            if ready {
+                layout.order.push(id);
+                continue;
+            }
+            if !seen.insert(id) {
+                continue;
+            }
+            stack.push((id, true));
+            let operands: Vec<Id> = match *graph.node(id) {
+                Node::Const(_) | Node::Tiny | Node::Input { .. } => vec![],
+                Node::Neg(a) | Node::Recip(a) | Node::Rsqrt(a) => vec![a],
+                Node::Add(a, b) | Node::Mul(a, b) => vec![a, b],
+            };
+            for &operand in operands.iter().rev() {
+                stack.push((operand, false));
+            }
+            if !matches!(graph.node(id), Node::Neg(_)) {
+                for &operand in &operands {
+                    layout.users.entry(unsigned(graph, operand).0).or_default().push(id);
+                }
+            }
+        }
+        layout
+    }
+
+    /// For each sum, the product that is fused into it. A product is fused when every use of it is a sum that has no
+    /// other product yet, for then the product itself vanishes; those with the fewest uses go first.
+    fn fuse(&self, outputs: &[Id]) -> HashMap<Id, Id> {
+        let place: HashMap<Id, usize> = self.order.iter().enumerate().map(|(i, &id)| (id, i)).collect();
+        let kept: std::collections::HashSet<Id> = outputs.iter().map(|&id| unsigned(self.graph, id).0).collect();
+        let mut products: Vec<Id> = self
+            .order
+            .iter()
+            .copied()
+            .filter(|id| matches!(self.graph.node(*id), Node::Mul(..)) && !kept.contains(id) && place.contains_key(id))
+            .collect();
+        products.sort_by_key(|id| self.users[id].len());
+        let mut fused: HashMap<Id, Id> = HashMap::new();
+        for product in products {
+            let users = &self.users[&product];
+            let free = users.iter().enumerate().all(|(i, user)| {
+                matches!(self.graph.node(*user), Node::Add(..))
+                    && !fused.contains_key(user)
+                    && !users[..i].contains(user)
+            });
+            if free {
+                fused.extend(users.iter().map(|&user| (user, product)));
+            }
+        }
+        fused
+    }
+}
+
+impl Listing {
+    /// Lays a kernel out.
+    pub fn new(kernel: &Kernel) -> Self {
+        let graph = &kernel.graph;
+        let layout = Layout::new(kernel);
+        let fused = layout.fuse(&kernel.outputs);
+        let vanished: std::collections::HashSet<Id> = fused.values().copied().collect();
+        let mut listing = Self {
+            params: kernel.params.clone(),
+            constants: Vec::new(),
+            steps: Vec::new(),
+            outputs: Vec::new(),
+            stages: Vec::new(),
+            result: kernel.result,
+            result_kind: kernel.result_kind,
+            result_doc: kernel.result_doc.clone(),
+        };
+        let mut operands: HashMap<Id, Operand> = HashMap::new();
+        let mut constants: HashMap<Exact, usize> = HashMap::new();
+        let outputs: std::collections::HashSet<Id> = kernel.outputs.iter().copied().collect();
+        for &id in &layout.order {
+            if vanished.contains(&id) {
+                continue;
+            }
+            let operand = match graph.node(id) {
+                Node::Const(value) => {
+                    let next = constants.len();
+                    let place = *constants.entry(value.clone()).or_insert(next);
+                    if place == next {
+                        listing.constants.push(value.clone());
+                    }
+                    Operand::Const(place)
+                }
+                Node::Tiny => Operand::Tiny,
+                &Node::Input { param, index } => Operand::Input { param: param as usize, index: index as usize },
+                // A negation is a step only where nothing else can carry the sign.
+                Node::Neg(_) if !outputs.contains(&id) => continue,
+                node => {
+                    let op = match *node {
+                        Node::Neg(a) => Op::Neg(operands[&a]),
+                        Node::Recip(a) => Op::Recip(operands[&a]),
+                        Node::Rsqrt(a) => Op::Rsqrt(operands[&a]),
+                        Node::Mul(a, b) => Op::Mul(operands[&a], operands[&b]),
+                        Node::Add(a, b) => Self::sum(graph, &operands, fused.get(&id).copied(), a, b),
+                        _ => unreachable!("leaves are handled above"),
+                    };
+                    listing.steps.push(Step { op, kind: graph.kind(id), uses: 0 });
+                    Operand::Step(listing.steps.len() - 1)
+                }
+            };
+            operands.insert(id, operand);
+        }
+        listing.outputs = kernel.outputs.iter().map(|id| operands[id]).collect();
+        let stage = |ids: &Vec<Id>| ids.iter().map(|&id| operands.get(&unsigned(graph, id).0).copied()).collect();
+        listing.stages = graph.stages().iter().filter_map(stage).collect();
+        listing.count_uses();
+        listing
+    }
+
+    fn sum(graph: &Graph, operands: &HashMap<Id, Operand>, product: Option<Id>, a: Id, b: Id) -> Op {
+        let ((x, x_minus), (y, y_minus)) = (unsigned(graph, a), unsigned(graph, b));
+        debug_assert!(!x_minus, "the first summand carries no sign");
+        let Some(product) = product else {
+            return match y_minus {
+                false => Op::Add(operands[&x], operands[&y]),
+                true => Op::Sub(operands[&x], operands[&y]),
+            };
+        };
+        let &Node::Mul(p, q) = graph.node(product) else {
+            unreachable!("only products are fused");
+        };
+        let (p, q) = (operands[&p], operands[&q]);
+        match (x == product, y_minus) {
+            (true, false) => Op::Fma(p, q, operands[&y], Sign::Plus),
+            (true, true) => Op::Fma(p, q, operands[&y], Sign::MinusAddend),
+            (false, false) => Op::Fma(p, q, operands[&x], Sign::Plus),
+            (false, true) => Op::Fma(p, q, operands[&x], Sign::MinusProduct),
+        }
+    }
+
+    pub(crate) fn count_uses(&mut self) {
+        let mut uses = vec![0; self.steps.len()];
+        for operand in self.steps.iter().flat_map(|step| step.op.operands()).chain(self.outputs.iter().copied()) {
+            if let Operand::Step(step) = operand {
+                uses[step] += 1;
+            }
+        }
+        for (step, uses) in self.steps.iter_mut().zip(uses) {
+            step.uses = uses;
+        }
+    }
+
+    /// What it costs for a signal of so many channels.
+    pub fn cost(&self, channels: usize) -> Cost {
+        let mut cost = Cost::default();
+        for step in &self.steps {
+            let times = match step.kind {
+                Kind::Scalar => 1,
+                Kind::Signal => channels,
+            };
+            match step.op {
+                Op::Neg(_) => {}
+                Op::Add(..) | Op::Sub(..) => cost.add += times,
+                Op::Mul(..) => cost.mul += times,
+                Op::Fma(..) => cost.fma += times,
+                Op::Recip(_) | Op::Rsqrt(_) => cost.special += times,
+            }
+        }
+        cost.total = cost.mul + cost.add + cost.fma;
+        cost
+    }
+
+    /// What it needs besides operations.
+    pub fn footprint(&self) -> Footprint {
+        let mut last = vec![0; self.steps.len()];
+        for (place, step) in self.steps.iter().enumerate() {
+            for operand in step.op.operands() {
+                if let Operand::Step(used) = operand {
+                    last[used] = place;
+                }
+            }
+        }
+        for operand in &self.outputs {
+            if let Operand::Step(used) = *operand {
+                last[used] = self.steps.len();
+            }
+        }
+        let mut ends = vec![0usize; self.steps.len() + 1];
+        let (mut alive, mut live) = (0usize, 0usize);
+        for (place, &end) in last.iter().enumerate() {
+            alive -= ends[place];
+            alive += 1;
+            ends[end] += 1;
+            live = live.max(alive);
+        }
+        Footprint { constants: self.constants.len(), live }
+    }
+}

@@ -1,0 +1,112 @@
+//! Proven bounds of the f32 rounding error of a kernel, in the measure of [`crate::promise::accuracy`] (MATH section
+//! 11). What is bounded is the distance between the kernel's f32 result and the same formula in exact arithmetic on the
+//! same f32 inputs.
+//!
+//! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
+//! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation and
+//! for a lifted one, whose given couplings are those of an angle, rounded to f32.
+//! Left out are signals so small that products underflow, and where adding the tiny number does not help: a quaternion
+//! with w (or y) within 1e-16 of −1e-15 and z (or x) below 1e-16; for `align` a normal whose x and y are below 2e-8 and not
+//! both zero, where the tiny number turns the spin, which is open.
+//!
+//! The arithmetic is IEEE's: 1/x is rounded once and 1/√x twice; a contraction is one of [`crate::ir::eval::Contraction`]'s.
+//! A shader compiler that flushes, reorders or takes a less exact inverse root is outside of it.
+//!
+//! Method: a band is cut where the kernel notes a stage ([`crate::ir::graph::Graph::stage`]); errors of stages add, each
+//! multiplied by the exact norm of what follows. A stage falls into parts that do not mix. A plane that a phase turns is
+//! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
+//! grid of its one to three angles ([`domain`] says why a grid proves it). Whatever is not recognised has no bound.
+
+pub mod boxes;
+pub mod domain;
+mod lobes;
+pub mod norm;
+pub mod phases;
+pub mod plain;
+mod prover;
+pub mod roundoff;
+pub mod section;
+mod sweep;
+
+use crate::families::spec::{Family, MAX_ORDER, Method, Spec};
+use crate::families::{lifted, rotate};
+use crate::ir::code::Code;
+use crate::ir::listing::Listing;
+use plain::plain;
+use prover::Prover;
+use roundoff::{Both, larger};
+
+/// A kernel's proven f32 rounding bound, in the measure of [`crate::promise::accuracy`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Bound {
+    /// Where a multiply-add is rounded twice.
+    pub separate: f64,
+    /// Where a multiply-add is rounded once.
+    pub fused: f64,
+    /// For a kernel that is measured band by band, the larger of both for each band.
+    pub bands: Vec<f64>,
+}
+
+impl Bound {
+    /// The larger of both contractions.
+    pub fn value(&self) -> f64 {
+        self.separate.max(self.fused)
+    }
+
+    fn of(bands: &[Both], is_banded: bool) -> Option<Self> {
+        let [separate, fused] = bands.iter().copied().fold([0.0; 2], larger);
+        let bands = if is_banded { bands.iter().map(|both| both[0].max(both[1])).collect() } else { vec![] };
+        (separate.is_finite() && fused.is_finite()).then_some(Self { separate, fused, bands })
+    }
+}
+
+/// The bound of a spec's kernel in any form.
+pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
+    within(spec, code, spec.max_angle())
+}
+
+/// The same for an approximate rotation by at most this angle in radians, which is at most [`Spec::max_angle`].
+pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound> {
+    let prove = |spec: &Spec, listing: &Listing| prove_within(spec, listing, max_angle);
+    match code {
+        Code::Straight(listing) => prove(spec, listing),
+        Code::Branch(branch) => {
+            let Family::RotateAdaptive(methods) = &spec.family else { return None };
+            let way = |family, listing| prove(&Spec { family, ..spec.clone() }, listing);
+            let below = way(Family::RotateSmall(methods.clone()), &branch.below)?;
+            let above = way(Family::Rotate(Method::Zyz), &branch.above)?;
+            let larger = |a: &f64, b: &f64| a.max(*b);
+            Some(Bound {
+                separate: larger(&below.separate, &above.separate),
+                fused: larger(&below.fused, &above.fused),
+                bands: below.bands.iter().zip(&above.bands).map(|(a, b)| larger(a, b)).collect(),
+            })
+        }
+        // Beyond these orders the proof of a basis takes longer than a build may.
+        Code::Loop(_) if spec.family == Family::Basis && spec.order > MAX_ORDER => None,
+        Code::Loop(kernel) => prove(spec, &plain(&Listing::from(kernel))),
+    }
+}
+
+/// The bound of a spec's kernel, laid out. None for a listing whose set-up is not recognised.
+pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
+    prove_within(spec, listing, spec.max_angle())
+}
+
+fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Option<Bound> {
+    let prover = Prover::new(spec, listing, max_angle)?;
+    match spec.family {
+        Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
+        Family::Eval | Family::EvalMonomial => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
+        Family::Angles | Family::Lifted => {
+            let rotation = Listing::new(&match spec.family {
+                Family::Angles => rotate::zyz_from_angles(spec.order),
+                _ => lifted::rotate(spec.order),
+            });
+            Bound::of(&prover.rotating(&rotation)?.bands()?, true)
+        }
+        Family::ToMonomial => Bound::of(&prover.mixed()?, true),
+        Family::Zhf => Bound::of(&prover.turned_lobes()?, true),
+        _ => Bound::of(&prover.bands()?, true),
+    }
+}

@@ -1,0 +1,698 @@
+//! A part of a listing, run on enclosures: every scalar is an interval with a bound of its f32 error, every number that is
+//! linear in the signal an interval and an error weight for each number of the signal that it depends on. Both ways of
+//! contraction are bounded at once.
+
+use crate::ir::eval::Number;
+use crate::ir::graph::Kind;
+use crate::ir::listing::{Listing, Op, Operand, Sign};
+use crate::promise::bound::domain::{Degree, Domain, Enclosure, Root};
+use crate::promise::bound::norm::{Matrix, SLACK};
+use crate::promise::bound::roundoff::{Both, larger};
+use std::collections::HashMap;
+
+/// Half of f32's smallest number: what a product that underflows may lose besides.
+const UNDERFLOW: f64 = 1e-45;
+/// More than f64's unit roundoff: what a midpoint may lose.
+const EPSILON: f64 = f64::EPSILON;
+
+/// A scalar: its exact value is within `radius` of `mid`, its f32 value within `error` of the exact one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Value {
+    mid: f64,
+    radius: f64,
+    error: Both,
+}
+
+impl Value {
+    fn magnitude(self) -> f64 {
+        self.mid.abs() + self.radius
+    }
+
+    fn times(self, b: Self) -> Self {
+        let mid = self.mid * b.mid;
+        let (size, other) = (self.magnitude(), b.magnitude());
+        let error = |i: usize| size * b.error[i] + other * self.error[i] + self.error[i] * b.error[i];
+        let radius = self.mid.abs() * b.radius + self.radius * other + mid.abs() * EPSILON;
+        Self { mid, radius, error: [error(0), error(1)] }
+    }
+
+    fn plus(self, b: Self) -> Self {
+        let mid = self.mid + b.mid;
+        let error = [self.error[0] + b.error[0], self.error[1] + b.error[1]];
+        Self { mid, radius: self.radius + b.radius + mid.abs() * EPSILON, error }
+    }
+
+    fn negated(self) -> Self {
+        Self { mid: -self.mid, ..self }
+    }
+
+    /// Rounded in the modes that say so.
+    fn rounded(mut self, roundoff: f64, modes: [bool; 2]) -> Self {
+        let size = self.magnitude();
+        for (error, _) in self.error.iter_mut().zip(modes).filter(|(_, rounded)| *rounded) {
+            *error += roundoff * (size + *error) + UNDERFLOW;
+        }
+        self
+    }
+
+    /// f(x) for a positive f that falls in |x|, with the error of rounding it and `times` − 1 denominators.
+    fn falling(self, f: impl Fn(f64) -> f64, roundoff: f64, times: i32) -> Self {
+        let low = self.mid.abs() - self.radius;
+        let (least, most) = (f(self.magnitude()) * (1.0 - 1e-14), f(low) * (1.0 + 1e-14));
+        let error = self.error.map(|e| {
+            if low <= e {
+                return f64::INFINITY;
+            }
+            // f is convex: its change is largest where the argument is smallest.
+            let change = f(low - e) - f(low) + 1e-14 * f(low);
+            change + (f(low) + change) * ((1.0 + roundoff) * (1.0 - roundoff).powi(1 - times) - 1.0)
+        });
+        Self { mid: (least + most) / 2.0 * self.mid.signum(), radius: (most - least) / 2.0, error }
+    }
+}
+
+impl Value {
+    /// The derivative of |x|^−p for a p of 1 or ½, as a midpoint and a radius, and what the change of x^−p by x's error differs from it.
+    fn slope(self, p: f64) -> (f64, f64, Both) {
+        let (low, high) = (self.mid.abs() - self.radius, self.magnitude());
+        let slope = |x: f64| -p * x.powf(-p - 1.0);
+        let rest = self.error.map(|e| match low > e {
+            true => p * (p + 1.0) / 2.0 * (low - e).powf(-p - 2.0) * e * e * SLACK,
+            false => f64::INFINITY,
+        });
+        let (steep, flat) = (slope(low), slope(high));
+        ((steep + flat) / 2.0, (flat - steep).abs() / 2.0 + 1e-14 * steep.abs(), rest)
+    }
+}
+
+/// What a section starts from: a root of its domain, with the error that it comes with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// What it is exactly.
+    pub root: Root,
+    /// Its exact value may differ from that by so much, relative to it: an input that was rounded to f32.
+    pub spread: f64,
+    /// Its f32 value may differ from its exact value by so much.
+    pub error: Both,
+}
+
+/// What a slot holds.
+#[derive(Clone, Debug, PartialEq)]
+enum Slot {
+    Constant {
+        value: [u64; 2],
+        power: bool,
+    },
+    Start(usize),
+    Signal(usize),
+    /// An operation on slots.
+    Step(Op),
+}
+
+/// A part of a listing between values that are given and values that are wanted.
+#[derive(Clone, Debug)]
+pub struct Section {
+    slots: Vec<Slot>,
+    kinds: Vec<Kind>,
+    starts: Vec<Start>,
+    outputs: Vec<usize>,
+    columns: usize,
+    degrees: Vec<Degree>,
+    /// For each slot of a signal the columns that it depends on and where its entries begin.
+    support: Vec<Vec<u16>>,
+    offset: Vec<usize>,
+    /// The steps of the signal by depth.
+    levels: Vec<Vec<usize>>,
+    /// For each entry of a step the entries of its first and of its last signal operand; 0 is an entry of zero.
+    from: Vec<[u32; 2]>,
+    /// The scalars that are wanted or that the signal is multiplied by, each with what it is made of, last step first.
+    cones: Vec<(usize, Vec<usize>)>,
+    /// The sums of both squares of a pair: exactly one.
+    ones: Vec<usize>,
+}
+
+/// The exact map of a section and the weights of its error.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    mid: Vec<f64>,
+    radius: Vec<f64>,
+    weight: [Vec<f64>; 2],
+    scalars: Vec<Value>,
+    /// For each scalar the derivative of what is wanted, as a midpoint and a radius.
+    derivative: Vec<Enclosure>,
+}
+
+fn is_power_of_two(value: f64) -> bool {
+    value != 0.0 && value.to_bits() << 12 == 0
+}
+
+impl Section {
+    /// The part of `listing` that computes `outputs` from the signal values `inputs` and whatever `start` knows. None if
+    /// it needs another signal value, an unknown parameter, or divides by what an angle changes.
+    pub fn new(
+        listing: &Listing,
+        domain: Domain,
+        inputs: &[Operand],
+        outputs: &[Operand],
+        start: impl Fn(Operand) -> Option<Start>,
+    ) -> Option<Self> {
+        let mut section = Self {
+            slots: vec![],
+            kinds: vec![],
+            starts: vec![],
+            outputs: vec![],
+            columns: inputs.len(),
+            degrees: vec![],
+            support: vec![],
+            offset: vec![],
+            levels: vec![],
+            from: vec![[0, 0]],
+            cones: vec![],
+            ones: vec![],
+        };
+        let mut known: HashMap<Operand, usize> = HashMap::new();
+        for (column, &input) in inputs.iter().enumerate() {
+            let next = section.push(Slot::Signal(column), Kind::Signal, [0; 3], vec![column as u16], vec![[0, 0]]);
+            known.entry(input).or_insert(next);
+        }
+        let mut stack: Vec<(Operand, bool)> = outputs.iter().rev().map(|&output| (output, false)).collect();
+        while let Some((operand, ready)) = stack.pop() {
+            if known.contains_key(&operand) {
+                continue;
+            }
+            let place = match operand {
+                Operand::Const(place) => {
+                    let value = listing.constants[place].to_f64();
+                    let error = (f64::from(listing.constants[place].to_f32()) - value).abs();
+                    section.constant(value, error + value.abs() * EPSILON)
+                }
+                Operand::Tiny => section.constant(f32::TINY.into(), 0.0),
+                operand if start(operand).is_some() => {
+                    let start = start(operand)?;
+                    section.starts.push(start);
+                    let place = section.starts.len() - 1;
+                    section.push(Slot::Start(place), Kind::Scalar, domain.degree(start.root), vec![], vec![])
+                }
+                Operand::Input { .. } => return None,
+                Operand::Step(step) if !ready => {
+                    stack.push((operand, true));
+                    stack.extend(listing.steps[step].op.operands().map(|operand| (operand, false)));
+                    continue;
+                }
+                Operand::Step(step) => section.step(listing.steps[step].op, listing.steps[step].kind, &known)?,
+            };
+            known.insert(operand, place);
+        }
+        section.outputs = outputs.iter().map(|output| known[output]).collect();
+        if domain == Domain::Pairs {
+            section.ones = (0..section.slots.len()).filter(|&slot| section.is_one(slot)).collect();
+        }
+        section.sort_by_depth();
+        section.cones = section.wanted().into_iter().map(|slot| (slot, section.cone(&[slot]))).collect();
+        Some(section)
+    }
+
+    /// Whether it is x² + y² of a pair (x, y).
+    fn is_one(&self, slot: usize) -> bool {
+        let square = |a: Operand, b: Operand| match self.slots[place(a)] {
+            Slot::Start(start) if a == b => match self.starts[start].root {
+                Root::Component(component) => Some(component),
+                _ => None,
+            },
+            _ => None,
+        };
+        let product = |operand: Operand| match self.slots[place(operand)] {
+            Slot::Step(Op::Mul(a, b)) => square(a, b),
+            _ => None,
+        };
+        let both = match self.slots[slot] {
+            Slot::Step(Op::Fma(a, b, c, Sign::Plus)) => square(a, b).zip(product(c)),
+            Slot::Step(Op::Add(a, b)) => product(a).zip(product(b)),
+            _ => None,
+        };
+        both.is_some_and(|(a, b)| a != b && a / 2 == b / 2)
+    }
+
+    /// The scalars that are outputs or factors of the signal, but for those that are made in one step: their errors are
+    /// what [`Section::run`] first finds.
+    fn wanted(&self) -> Vec<usize> {
+        let is_made = |slot: usize| matches!(self.slots[slot], Slot::Step(_)) && self.kinds[slot] == Kind::Scalar;
+        let mut wanted = self.outputs.clone();
+        for (at, slot) in self.slots.iter().enumerate() {
+            if let (Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) {
+                wanted.extend(op.operands().map(place));
+            }
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted.retain(|&slot| match self.slots[slot] {
+            Slot::Step(op) => is_made(slot) && op.operands().any(|operand| is_made(place(operand))),
+            _ => false,
+        });
+        wanted
+    }
+
+    /// What some scalars are made of, themselves among it, last step first.
+    fn cone(&self, slots: &[usize]) -> Vec<usize> {
+        let mut cone: Vec<usize> = Vec::new();
+        let mut stack = slots.to_vec();
+        while let Some(slot) = stack.pop() {
+            if !cone.contains(&slot) {
+                cone.push(slot);
+                if let Slot::Step(op) = self.slots[slot] {
+                    stack.extend(op.operands().map(place));
+                }
+            }
+        }
+        cone.sort_unstable_by(|a, b| b.cmp(a));
+        cone
+    }
+
+    fn push(&mut self, slot: Slot, kind: Kind, degree: Degree, support: Vec<u16>, from: Vec<[u32; 2]>) -> usize {
+        self.offset.push(self.from.len());
+        self.slots.push(slot);
+        self.kinds.push(kind);
+        self.degrees.push(degree);
+        self.support.push(support);
+        self.from.extend(from);
+        self.slots.len() - 1
+    }
+
+    fn constant(&mut self, value: f64, error: f64) -> usize {
+        let slot = Slot::Constant { value: [value.to_bits(), error.to_bits()], power: is_power_of_two(value) };
+        self.push(slot, Kind::Scalar, [0; 3], vec![], vec![])
+    }
+
+    fn step(&mut self, op: Op, kind: Kind, known: &HashMap<Operand, usize>) -> Option<usize> {
+        let slot = |operand: Operand| Operand::Step(known[&operand]);
+        let op = op.map(slot);
+        let of = |operand: Operand| self.degrees[place(operand)];
+        let product = |a: Degree, b: Degree| std::array::from_fn(|i| a[i] + b[i]);
+        let sum = |a: Degree, b: Degree| std::array::from_fn(|i| a[i].max(b[i]));
+        let degree: Degree = match op {
+            Op::Neg(a) => of(a),
+            Op::Add(a, b) | Op::Sub(a, b) => sum(of(a), of(b)),
+            Op::Mul(a, b) => product(of(a), of(b)),
+            Op::Fma(a, b, c, _) => sum(product(of(a), of(b)), of(c)),
+            Op::Recip(a) | Op::Rsqrt(a) => (of(a) == [0; 3]).then_some([0; 3])?,
+        };
+        if kind == Kind::Scalar {
+            return Some(self.push(Slot::Step(op), kind, degree, vec![], vec![]));
+        }
+        if matches!(op, Op::Recip(_) | Op::Rsqrt(_)) {
+            return None;
+        }
+        let (first, last) = ends(op);
+        if std::iter::once(first).chain(last).any(|slot| self.kinds[slot] == Kind::Scalar) {
+            return None;
+        }
+        let entries = |slot: usize| (&self.support[slot], self.offset[slot]);
+        let mut support: Vec<u16> = entries(first).0.clone();
+        support.extend(last.iter().flat_map(|&last| entries(last).0));
+        support.sort_unstable();
+        support.dedup();
+        let entry = |slot: usize, column: u16| {
+            let (columns, offset) = entries(slot);
+            columns.binary_search(&column).map_or(0, |at| (offset + at) as u32)
+        };
+        let from =
+            support.iter().map(|&column| [entry(first, column), last.map_or(0, |last| entry(last, column))]).collect();
+        Some(self.push(Slot::Step(op), kind, degree, support, from))
+    }
+
+    fn sort_by_depth(&mut self) {
+        let mut depth = vec![0; self.slots.len()];
+        for (at, slot) in self.slots.iter().enumerate() {
+            if let (Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) {
+                depth[at] = 1 + op.operands().map(|operand| depth[place(operand)]).max().unwrap_or(0);
+                self.levels.resize(self.levels.len().max(depth[at]), vec![]);
+                self.levels[depth[at] - 1].push(at);
+            }
+        }
+    }
+
+    /// The numbers that it starts from.
+    pub fn starts(&self) -> &[Start] {
+        &self.starts
+    }
+
+    /// The largest degree of any output in each angle of the domain.
+    pub fn degree(&self) -> Degree {
+        let all = self.outputs.iter().map(|&output| self.degrees[output]);
+        all.fold([0; 3], |a, b| std::array::from_fn(|i| a[i].max(b[i])))
+    }
+
+    /// Whether every number that the signal is multiplied by is a constant or one of the roots, and none is multiplied
+    /// by another: the map is then affine in the roots.
+    pub fn is_affine(&self) -> bool {
+        let mut depth = vec![0usize; self.slots.len()];
+        for (at, slot) in self.slots.iter().enumerate() {
+            let of = |operand: Operand| depth[place(operand)];
+            depth[at] = match slot {
+                Slot::Constant { .. } | Slot::Signal(_) => 0,
+                Slot::Start(_) => 1,
+                Slot::Step(_) if self.kinds[at] == Kind::Scalar => 2,
+                Slot::Step(Op::Neg(a)) => of(*a),
+                Slot::Step(Op::Add(a, b) | Op::Sub(a, b)) => of(*a).max(of(*b)),
+                Slot::Step(Op::Mul(a, b)) => of(*a) + of(*b),
+                Slot::Step(Op::Fma(a, b, c, _)) => (of(*a) + of(*b)).max(of(*c)),
+                Slot::Step(_) => 2,
+            };
+        }
+        self.outputs.iter().all(|&output| depth[output] <= 1)
+    }
+
+    /// Runs it with the roots' values; `roundoff` is [`U`], or 0 to have errors only from the roots' own errors.
+    pub fn run(&self, values: &[Enclosure], starts: &[Start], roundoff: f64, run: &mut Run) {
+        let entries = self.from.len();
+        for list in [&mut run.mid, &mut run.radius].into_iter().chain(&mut run.weight) {
+            list.clear();
+            list.resize(entries, 0.0);
+        }
+        run.scalars.clear();
+        run.scalars.resize(self.slots.len(), Value::default());
+        run.derivative.clear();
+        run.derivative.resize(self.slots.len(), (0.0, 0.0));
+        // Slots are in order: all that a slot needs comes before it.
+        let mut cones = self.cones.iter().peekable();
+        for (at, slot) in self.slots.iter().enumerate() {
+            match slot {
+                &Slot::Constant { value: [value, error], .. } => {
+                    let (mid, error) = (f64::from_bits(value), f64::from_bits(error));
+                    let error = if roundoff == 0.0 { 0.0 } else { error };
+                    run.scalars[at] = Value { mid, radius: mid.abs() * EPSILON, error: [error; 2] };
+                }
+                &Slot::Start(place) => {
+                    let ((mid, radius), Start { spread, error, .. }) = (values[place], starts[place]);
+                    run.scalars[at] = Value { mid, radius: radius + (mid.abs() + radius) * spread, error };
+                }
+                Slot::Signal(_) => run.mid[self.offset[at]] = 1.0,
+                Slot::Step(op) if self.kinds[at] == Kind::Scalar => {
+                    run.scalars[at] = self.scalar(*op, &run.scalars, roundoff);
+                    if self.ones.contains(&at) {
+                        let known = &mut run.scalars[at];
+                        (known.mid, known.radius) = (1.0, 0.0);
+                    }
+                }
+                Slot::Step(op) => self.signal(at, *op, roundoff, run),
+            }
+            if let Some((slot, cone)) = cones.next_if(|(slot, _)| *slot == at) {
+                let error = self.toward(&[(*slot, 1.0)], cone, roundoff, run);
+                let known = &mut run.scalars[at].error;
+                *known = [known[0].min(error[0]), known[1].min(error[1])];
+            }
+        }
+    }
+
+    /// The error of a sum of scalars, each times a number, by what every step rounds times the sum's derivative by it.
+    /// Errors on the way keep their signs, so that what cancels does; what errors do to each other is bounded by the
+    /// scalars' own bounds. `cone` is what the scalars are made of.
+    fn toward(&self, sum: &[(usize, f64)], cone: &[usize], roundoff: f64, run: &mut Run) -> Both {
+        let Run { scalars, derivative, .. } = run;
+        for &(slot, factor) in sum {
+            derivative[slot].0 += factor;
+        }
+        let mut total = [0.0; 2];
+        for &at in cone {
+            let (mid, radius) = std::mem::take(&mut derivative[at]);
+            let size = mid.abs() + radius;
+            if size == 0.0 {
+                continue;
+            }
+            let of = |operand: Operand| scalars[place(operand)];
+            let value = scalars[at];
+            let mut pass = |to: Operand, by: f64, loose: f64| {
+                let (m, r) = &mut derivative[place(to)];
+                let change = mid * by;
+                *m += change;
+                *r += mid.abs() * loose + radius * (by.abs() + loose) + (change.abs() + m.abs()) * EPSILON;
+            };
+            // What rounding once adds in each mode, besides the product of errors.
+            // The value before it was rounded is at most as much larger than what it is rounded to.
+            let unit = roundoff * (1.0 + 4.0 * roundoff);
+            let once = |mode: usize| unit * (value.magnitude() + value.error[mode]) + UNDERFLOW;
+            let mut fresh = [0.0; 2];
+            match self.slots[at] {
+                Slot::Constant { .. } | Slot::Start(_) => fresh = value.error,
+                Slot::Signal(_) => return [f64::INFINITY; 2],
+                Slot::Step(op) => match op {
+                    Op::Neg(a) => pass(a, -1.0, 0.0),
+                    Op::Add(a, b) | Op::Sub(a, b) => {
+                        pass(a, 1.0, 0.0);
+                        pass(b, if matches!(op, Op::Sub(..)) { -1.0 } else { 1.0 }, 0.0);
+                        fresh = [once(0), once(1)];
+                    }
+                    Op::Mul(a, b) | Op::Fma(a, b, _, _) => {
+                        let (x, y) = (of(a), of(b));
+                        let (sign, fused) = match op {
+                            Op::Fma(_, _, c, sign) => {
+                                pass(c, if sign == Sign::MinusAddend { -1.0 } else { 1.0 }, 0.0);
+                                (if sign == Sign::MinusProduct { -1.0 } else { 1.0 }, true)
+                            }
+                            _ => (1.0, false),
+                        };
+                        pass(a, sign * y.mid, y.radius);
+                        pass(b, sign * x.mid, x.radius);
+                        let exact = self.is_power(place(a)) || self.is_power(place(b));
+                        let product = x.times(y);
+                        for mode in 0..2 {
+                            fresh[mode] = x.error[mode] * y.error[mode];
+                            if !exact && (!fused || mode == 0) {
+                                fresh[mode] += roundoff * (product.magnitude() + product.error[mode]) + UNDERFLOW;
+                            }
+                            if fused {
+                                fresh[mode] += once(mode);
+                            }
+                        }
+                    }
+                    Op::Recip(a) => {
+                        let (slope, loose, rest) = of(a).slope(1.0);
+                        pass(a, slope, loose);
+                        fresh = std::array::from_fn(|mode| rest[mode] + once(mode));
+                    }
+                    Op::Rsqrt(a) => {
+                        let (slope, loose, rest) = of(a).slope(0.5);
+                        pass(a, slope, loose);
+                        fresh = std::array::from_fn(|mode| rest[mode] + (2.0 + 8.0 * roundoff) * once(mode));
+                    }
+                },
+            }
+            for mode in 0..2 {
+                total[mode] += size * fresh[mode];
+            }
+        }
+        total.map(|error| error * SLACK)
+    }
+
+    /// The largest error of one or two outputs, which are scalars, taken together as one vector.
+    pub fn error_together(&self, run: &mut Run, roundoff: f64) -> Both {
+        const DIRECTIONS: usize = 16;
+        let [x, y] = match self.outputs[..] {
+            [x] => return self.toward(&[(x, 1.0)], &self.cone(&[x]), roundoff, run),
+            [x, y] => [x, y],
+            _ => return [f64::INFINITY; 2],
+        };
+        let cone = self.cone(&[x, y]);
+        let mut worst = [0.0; 2];
+        for i in 0..DIRECTIONS {
+            let (sin, cos) = (std::f64::consts::PI * i as f64 / DIRECTIONS as f64).sin_cos();
+            worst = larger(worst, self.toward(&[(x, cos), (y, sin)], &cone, roundoff, run));
+        }
+        // Between two directions a vector's longest component is at most that much longer.
+        worst.map(|error| error / (std::f64::consts::PI / (2 * DIRECTIONS) as f64).cos() * SLACK)
+    }
+
+    fn is_power(&self, slot: usize) -> bool {
+        matches!(self.slots[slot], Slot::Constant { power: true, .. })
+    }
+
+    fn scalar(&self, op: Op, values: &[Value], roundoff: f64) -> Value {
+        let of = |operand: Operand| values[place(operand)];
+        let exact = |a: Operand, b: Operand| self.is_power(place(a)) || self.is_power(place(b));
+        match op {
+            Op::Neg(a) => of(a).negated(),
+            Op::Add(a, b) => of(a).plus(of(b)).rounded(roundoff, [true; 2]),
+            Op::Sub(a, b) => of(a).plus(of(b).negated()).rounded(roundoff, [true; 2]),
+            Op::Mul(a, b) => of(a).times(of(b)).rounded(roundoff, [!exact(a, b); 2]),
+            Op::Fma(a, b, c, sign) => {
+                let product = of(a).times(of(b)).rounded(roundoff, [!exact(a, b), false]);
+                let sum = match sign {
+                    Sign::Plus => product.plus(of(c)),
+                    Sign::MinusAddend => product.plus(of(c).negated()),
+                    Sign::MinusProduct => of(c).plus(product.negated()),
+                };
+                sum.rounded(roundoff, [true; 2])
+            }
+            Op::Recip(a) => of(a).falling(|x| 1.0 / x, roundoff, 1),
+            Op::Rsqrt(a) => of(a).falling(|x| 1.0 / x.sqrt(), roundoff, 2),
+        }
+    }
+
+    /// A step of the signal as ±(factor · first) ± last: the factor, whether its product and the sum are rounded where
+    /// nothing is fused, and the signs.
+    fn form(&self, op: Op, scalars: &[Value]) -> (Value, [bool; 2], [f64; 2]) {
+        let one = Value { mid: 1.0, ..Value::default() };
+        let factor = |operand: Operand| (scalars[place(operand)], !self.is_power(place(operand)));
+        match op {
+            Op::Neg(_) => (one, [false, false], [-1.0, 0.0]),
+            Op::Add(..) => (one, [false, true], [1.0, 1.0]),
+            Op::Sub(..) => (one, [false, true], [1.0, -1.0]),
+            Op::Mul(_, b) => (factor(b).0, [factor(b).1, false], [1.0, 0.0]),
+            Op::Fma(_, b, _, sign) => {
+                let signs = match sign {
+                    Sign::Plus => [1.0, 1.0],
+                    Sign::MinusAddend => [1.0, -1.0],
+                    Sign::MinusProduct => [-1.0, 1.0],
+                };
+                (factor(b).0, [factor(b).1, true], signs)
+            }
+            Op::Recip(_) | Op::Rsqrt(_) => unreachable!("refused when the section was made"),
+        }
+    }
+
+    fn signal(&self, at: usize, op: Op, roundoff: f64, run: &mut Run) {
+        let (factor, rounds, [plus, minus]) = self.form(op, &run.scalars);
+        // A product alone is rounded in both modes, one that is fused only where it is not.
+        let product_rounds = [rounds[0], rounds[0] && !rounds[1]];
+        let size = factor.magnitude();
+        for entry in self.offset[at]..self.offset[at] + self.support[at].len() {
+            let [a, c] = self.from[entry].map(|entry| entry as usize);
+            let product = run.mid[a] * factor.mid;
+            let given = run.mid[a].abs() + run.radius[a];
+            let mut radius = run.mid[a].abs() * factor.radius + run.radius[a] * size + product.abs() * EPSILON;
+            let product_size = product.abs() + radius;
+            let mid = plus * product + minus * run.mid[c];
+            radius += run.radius[c] + mid.abs() * EPSILON;
+            for mode in 0..2 {
+                let weight = run.weight[mode][a];
+                let mut error = size * weight + factor.error[mode] * (given + weight);
+                if product_rounds[mode] {
+                    error += roundoff * (product_size + error);
+                }
+                error += run.weight[mode][c];
+                if rounds[1] {
+                    error += roundoff * (mid.abs() + radius + error);
+                }
+                run.weight[mode][entry] = error;
+            }
+            run.mid[entry] = mid;
+            run.radius[entry] = radius;
+        }
+    }
+
+    fn matrix(&self, values: &[f64]) -> Matrix {
+        let mut entries = vec![0.0; self.outputs.len() * self.columns];
+        for (row, &output) in self.outputs.iter().enumerate() {
+            for (at, &column) in self.support[output].iter().enumerate() {
+                entries[row * self.columns + column as usize] = values[self.offset[output] + at];
+            }
+        }
+        Matrix { columns: self.columns, entries }
+    }
+
+    /// Another bound of the error's norm: with P the map from a depth's values to the outputs and V that from the inputs
+    /// to what is rounded there, a depth adds ‖P‖ ‖V‖ u. It keeps the signs that weights lose, and counts depths.
+    pub fn error_by_depth(&self, run: &Run, roundoff: f64) -> Both {
+        let rows = self.outputs.len();
+        let (mut mid, mut radius) = (vec![0.0; self.slots.len() * rows], vec![0.0; self.slots.len() * rows]);
+        for (row, &output) in self.outputs.iter().enumerate() {
+            mid[output * rows + row] += 1.0;
+        }
+        let mut total = [0.0; 2];
+        for (at, slot) in self.slots.iter().enumerate().rev() {
+            let (&Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) else { continue };
+            let (factor, _, [plus, minus]) = self.form(op, &run.scalars);
+            let (first, last) = ends(op);
+            for row in 0..rows {
+                let (m, r) = (mid[at * rows + row], radius[at * rows + row]);
+                let to = first * rows + row;
+                mid[to] += plus * factor.mid * m;
+                radius[to] += m.abs() * (factor.radius + EPSILON * factor.mid.abs()) + r * factor.magnitude();
+                radius[to] += mid[to].abs() * EPSILON;
+                if let Some(last) = last {
+                    let to = last * rows + row;
+                    mid[to] += minus * m;
+                    radius[to] += r + mid[to].abs() * EPSILON;
+                }
+            }
+        }
+        for level in &self.levels {
+            let side = |values: &[f64]| -> Matrix {
+                let entries = level.iter().flat_map(|&at| values[at * rows..(at + 1) * rows].iter().copied()).collect();
+                Matrix { columns: rows, entries }
+            };
+            let after = side(&mid).quick_norm() + side(&radius).frobenius();
+            // What each step rounds: its sum and its product; what its factor is off by; and errors of errors.
+            let mut parts: [Matrix; 3] = std::array::from_fn(|_| self.empty(level.len()));
+            let mut factors = [self.empty(level.len()), self.empty(level.len())];
+            let (mut rest, mut thick) = ([0.0; 2], 0.0);
+            for (i, &at) in level.iter().enumerate() {
+                let Slot::Step(op) = self.slots[at] else { unreachable!("a level holds steps") };
+                let (factor, rounds, _) = self.form(op, &run.scalars);
+                for (entry, &column) in (self.offset[at]..).zip(&self.support[at]) {
+                    let (a, to) = (self.from[entry][0] as usize, i * self.columns + column as usize);
+                    let (given, size) = (run.mid[a], factor.magnitude());
+                    parts[0].entries[to] = if rounds[1] { run.mid[entry] } else { 0.0 };
+                    let product = if rounds[0] { factor.mid * given } else { 0.0 };
+                    parts[if rounds[1] { 1 } else { 2 }].entries[to] = product;
+                    let loose =
+                        run.radius[entry] + run.radius[a] * size + given.abs() * (factor.radius + EPSILON * size);
+                    thick += loose * loose;
+                    for mode in 0..2 {
+                        factors[mode].entries[to] = factor.error[mode] * given;
+                        let error = 2.0 * roundoff * run.weight[mode][entry]
+                            + factor.error[mode] * (run.radius[a] + run.weight[mode][a]);
+                        rest[mode] += error * error;
+                    }
+                }
+            }
+            let [sum, fused, alone] = parts.map(|part| part.quick_norm());
+            for mode in 0..2 {
+                let rounded = sum + alone + if mode == 0 { fused } else { 0.0 } + 4.0 * thick.sqrt();
+                let error = roundoff * rounded + factors[mode].quick_norm() + rest[mode].sqrt();
+                total[mode] += if error == 0.0 { 0.0 } else { after * error };
+            }
+        }
+        total.map(|error| error * SLACK)
+    }
+
+    fn empty(&self, rows: usize) -> Matrix {
+        Matrix { columns: self.columns, entries: vec![0.0; rows * self.columns] }
+    }
+
+    /// The error's weights, a row an output.
+    pub fn weights(&self, run: &Run, mode: usize) -> Matrix {
+        self.matrix(&run.weight[mode])
+    }
+
+    /// The exact map's midpoints and radii, a row an output.
+    pub fn map(&self, run: &Run) -> [Matrix; 2] {
+        [self.matrix(&run.mid), self.matrix(&run.radius)]
+    }
+
+    /// The errors of outputs that are scalars.
+    pub fn errors(&self, run: &Run) -> Vec<Both> {
+        self.outputs.iter().map(|&output| run.scalars[output].error.map(|error| error * SLACK)).collect()
+    }
+
+    /// What tells sections apart whose bounds differ.
+    pub fn key(&self) -> String {
+        format!("{:?} {:?} {:?} {:?}", self.slots, self.kinds, self.starts, self.outputs)
+    }
+}
+
+fn place(slot: Operand) -> usize {
+    match slot {
+        Operand::Step(place) => place,
+        _ => unreachable!("the operands of a section are slots"),
+    }
+}
+
+/// The signal operands of a step: the one in its product, or its first, and the one that is added.
+fn ends(op: Op) -> (usize, Option<usize>) {
+    match op {
+        Op::Neg(a) | Op::Mul(a, _) | Op::Recip(a) | Op::Rsqrt(a) => (place(a), None),
+        Op::Add(a, b) | Op::Sub(a, b) => (place(a), Some(place(b))),
+        Op::Fma(a, _, c, _) => (place(a), Some(place(c))),
+    }
+}

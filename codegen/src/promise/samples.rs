@@ -1,0 +1,202 @@
+//! Inputs to try a kernel on: seeded, the extremes among them. They use no transcendental function, so that they are
+//! the same to the last bit on every machine, and every number is an f32.
+
+use crate::families::spec::{Family, Method, Spec};
+use crate::families::{lifted, rotate};
+use crate::ir::eval::{Contraction, Program};
+use crate::ir::kernel::{Param, Shape};
+use crate::ir::listing::Listing;
+
+/// A small generator of numbers (splitmix64).
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// The sequence of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number in [−1, 1).
+    pub fn signed(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// A vector of unit length, by rejection.
+    pub fn unit<const N: usize>(&mut self) -> [f64; N] {
+        loop {
+            let v: [f64; N] = std::array::from_fn(|_| self.signed());
+            let square: f64 = v.iter().map(|x| x * x).sum();
+            if square > 0.01 && square < 1.0 {
+                return v.map(|x| x / square.sqrt());
+            }
+        }
+    }
+}
+
+fn normalised<const N: usize>(v: [f64; N]) -> [f64; N] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
+}
+
+/// Directions at and near what is special: poles, axes, the horizon.
+const DIRECTIONS: [[f64; 3]; 12] = [
+    [0.0, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [1e-4, 0.0, 1.0],
+    [0.0, 1e-4, -1.0],
+    [1e-8, 1e-8, 1.0],
+    [1e-20, 0.0, 1.0],
+    [1.0, 1.0, 1e-8],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 1.0],
+    [-1.0, 1.0, -1.0],
+];
+
+/// Rotations at and near what is special, as quaternions (x, y, z, w): identity, half and quarter turns, tiny angles.
+const QUATERNIONS: [[f64; 4]; 14] = [
+    [0.0, 0.0, 0.0, 1.0],
+    [0.0, 0.0, 0.0, -1.0],
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [1.0, 0.0, 0.0, 1.0],
+    [0.0, 1.0, 0.0, 1.0],
+    [0.0, 0.0, 1.0, 1.0],
+    [1e-4, 0.0, 0.0, 1.0],
+    [0.0, 5e-8, 0.0, 1.0],
+    [1e-9, 2e-9, 0.6, 0.8],
+    [0.6, 0.8, 0.0, 1e-8],
+    [1e-20, 0.0, 0.0, 1.0],
+    [0.6, 0.8, 1e-20, 1e-20],
+];
+
+fn direction(random: &mut Random, i: usize) -> [f64; 3] {
+    DIRECTIONS.get(i).map_or_else(|| random.unit(), |d| normalised(*d))
+}
+
+fn quaternion(random: &mut Random, i: usize) -> [f64; 4] {
+    QUATERNIONS.get(i).map_or_else(|| random.unit(), |q| normalised(*q))
+}
+
+/// The rotation matrix of a unit quaternion (x, y, z, w), by columns.
+pub fn matrix_of([x, y, z, w]: [f64; 4]) -> [f64; 9] {
+    [
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y + w * z),
+        2.0 * (x * z - w * y),
+        2.0 * (x * y - w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z + w * x),
+        2.0 * (x * z + w * y),
+        2.0 * (y * z - w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    ]
+}
+
+fn pairs(random: &mut Random, i: usize, count: usize) -> Vec<f64> {
+    const PAIRS: [[f64; 2]; 5] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [1.0, 1e-8], [-1.0, 1e-4]];
+    (0..count).flat_map(|_| PAIRS.get(i).map_or_else(|| random.unit(), |p| normalised(*p))).collect()
+}
+
+/// A signal: every whole band of unit norm if there are n² numbers, the whole of unit norm otherwise.
+fn signal(random: &mut Random, count: usize) -> Vec<f64> {
+    let mut values: Vec<f64> = (0..count).map(|_| random.signed()).collect();
+    let order = count.isqrt();
+    let ranges: Vec<_> = match order * order == count {
+        true => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
+        false => std::iter::once(0..count).collect(),
+    };
+    for range in ranges {
+        let norm = values[range.clone()].iter().map(|x| x * x).sum::<f64>().sqrt();
+        values[range].iter_mut().for_each(|x| *x /= norm);
+    }
+    values
+}
+
+/// `count` sets of inputs for a kernel's parameters, extremes first; `max_angle` bounds `beta` and the tilt of `n` in
+/// radians (an exact tilt takes every normal with n.z ≥ 0). Each input is one list of numbers a parameter, in flat order, every number an f32.
+pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle: f64) -> Vec<Vec<Vec<f64>>> {
+    let mut random = Random::new(seed);
+    let set_up = match spec.family {
+        Family::Rotate(Method::Angles) => Some(rotate::angles(spec.order)),
+        Family::Rotate(Method::Lifted) => Some(lifted::lifted(spec.order)),
+        _ => None,
+    };
+    let set_up = set_up.map(|kernel| Program::<f64>::new(&Listing::new(&kernel)));
+    let tilts = matches!(spec.family, Family::Tilt(_) | Family::TiltPrescaled(_));
+    let small = !tilts && spec.max_angle().is_some() && !matches!(spec.family, Family::RotateAdaptive(_));
+    let turn = |random: &mut Random, i: usize| match small {
+        true => small_rotation(random, i, max_angle),
+        false => quaternion(random, i),
+    };
+    (0..count)
+        .map(|i| {
+            let values = params.iter().map(|param| match (param.name, param.shape) {
+                ("beta", _) => {
+                    const FRACTIONS: [f64; 6] = [0.0, 1.0, -1.0, 1e-7, 1e-20, -0.5];
+                    vec![FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed()) * max_angle]
+                }
+                ("limit", _) => {
+                    // The half angle's sine: at most a third of a per cent below half the angle at 25 degrees.
+                    let half = max_angle / 2.0;
+                    vec![random.signed().abs() * (half - half * half * half / 6.0)]
+                }
+                ("n", _) if tilts && spec.max_angle().is_some() => tilted(&mut random, i, max_angle).to_vec(),
+                ("n", _) if tilts => {
+                    let [x, y, z] = direction(&mut random, i);
+                    vec![x, y, z.abs()]
+                }
+                (_, Shape::Vec3) => direction(&mut random, i).to_vec(),
+                (_, Shape::Vec4) => turn(&mut random, i).to_vec(),
+                (_, Shape::Mat3) => matrix_of(quaternion(&mut random, i)).to_vec(),
+                (_, Shape::Pair) => pairs(&mut random, i, 1),
+                (_, Shape::Pairs(n)) => match &set_up {
+                    Some(program) => program.run(&[&turn(&mut random, i)], Contraction::Separate),
+                    None => pairs(&mut random, i, n),
+                },
+                (_, shape) => signal(&mut random, shape.len()),
+            });
+            values.map(|list: Vec<f64>| list.into_iter().map(|x| f64::from(x as f32)).collect()).collect()
+        })
+        .collect()
+}
+
+/// A unit quaternion whose y angle is at most `max_angle`; the extremes are those of [`tilted`].
+fn small_rotation(random: &mut Random, i: usize, max_angle: f64) -> [f64; 4] {
+    let [sin, _, cos] = tilted_by(random, i, max_angle);
+    // The half angle's cosine and sine from the angle's.
+    let cosine = ((1.0 + cos) / 2.0).sqrt();
+    let sine = sin / (2.0 * cosine);
+    let ([a, b], [c, d]) = (random.unit::<2>(), random.unit::<2>());
+    [sine * a, sine * b, cosine * c, cosine * d]
+}
+
+/// A unit vector within `max_angle` of z; the extremes are z itself, tiny tilts and the largest.
+fn tilted(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
+    let [cos, sin] = random.unit::<2>();
+    let [x, _, z] = tilted_by(random, i, max_angle);
+    [x * cos, x * sin, z]
+}
+
+/// The same in the plane of x and z.
+fn tilted_by(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
+    const FRACTIONS: [f64; 5] = [0.0, 1e-8, 1.0, 1e-4, 1e-20];
+    // The tangent of the tilt stays below that of the largest: no trigonometry, the same bits everywhere.
+    let fraction = FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed());
+    let (half, square) = (max_angle / 2.0, max_angle * max_angle / 4.0);
+    // Half-angle tangent from its series, two terms: 1e-3 below the angle at 45 degrees.
+    let t = fraction * half * (1.0 + square / 3.0).min(1.1);
+    normalised([2.0 * t, 0.0, 1.0 - t * t])
+}

@@ -1,7 +1,0 @@
-//! Pure mathematics: exact constants and the tables made of them. Imports nothing else of this crate.
-
-pub mod exact;
-pub mod index;
-pub mod linear;
-pub mod tables;
-pub mod zhf;
