@@ -3,8 +3,8 @@
 use crate::emit::dialect::Target;
 use crate::emit::validate::validate;
 use crate::emit::{Function, Module, support};
-use crate::families::spec::{Family, Form, Method, Spec};
-use crate::families::y_rotation::Small;
+use crate::families::all::ALL;
+use crate::families::family::Spec;
 use crate::files::File;
 use crate::generate::{GenerateError, Row, build, file};
 use rayon::prelude::*;
@@ -16,83 +16,9 @@ pub const ORDERS: RangeInclusive<usize> = 2..=10;
 /// The table of costs in the checked-in set.
 pub const COSTS: &str = "COSTS.md";
 
-/// The bands that irradiance has below order 5: the cosine lobe has no band 3.
-pub const IRRADIANCE_BANDS: [usize; 4] = [0, 1, 2, 4];
-
-/// Every spec of the checked-in set, sorted by order.
+/// Every spec of the checked-in set, sorted by order, then as families are listed.
 pub fn standard() -> Vec<Spec> {
-    ORDERS.flat_map(of_order).collect()
-}
-
-fn of_order(order: usize) -> Vec<Spec> {
-    let small = |method: Small| vec![method; order - 1];
-    let mut specs = vec![Spec::new(Family::Basis, order), Spec::new(Family::Angles, order)];
-    let mut families = vec![
-        Family::Eval,
-        Family::RotateZ,
-        Family::RotateY,
-        Family::SwapYz,
-        Family::RotateXPlus90,
-        Family::RotateXMinus90,
-        Family::Rotate(Method::Zyz),
-        Family::Rotate(Method::Euler),
-        Family::Rotate(Method::Angles),
-        Family::Rotate(Method::Zxzxz),
-        Family::Rotate(Method::Align),
-        Family::Rotate(Method::Zonal),
-        Family::Tilt(Small::Lf3.from_band_3(order)),
-        Family::RotateSmall(Small::Lf3.from_band_3(order)),
-        Family::EvalMonomial,
-        Family::ToMonomial,
-        Family::Zhf,
-        Family::ZhfWeights,
-        Family::ZhfTailored,
-    ];
-    for (method, _) in Small::ALL {
-        families.push(Family::SmallY(small(method)));
-        families.push(Family::Rotate(Method::Small(small(method))));
-    }
-    if order <= 3 {
-        families.push(Family::Rotate(Method::Tensor));
-        families.push(Family::Rotate(Method::Matrix));
-    }
-    if order > 2 {
-        specs.push(Spec::new(Family::Lifted, order));
-        families.push(Family::Rotate(Method::Lifted));
-    }
-    if order > 3 {
-        families.push(Family::TiltScale);
-        families.push(Family::TiltUnscale);
-        for method in [Small::Lf3, Small::Lf5] {
-            families.push(Family::TiltPrescaled(method.from_band_3(order)));
-        }
-        families.push(Family::Tilt(Small::Lf5.from_band_3(order)));
-        families.push(Family::RotateSmall(Small::Lf5.from_band_3(order)));
-        families.push(Family::RotateAdaptive(Small::Lf3.from_band_3(order)));
-    }
-    for family in families {
-        let spec = Spec::new(family, order);
-        specs.push(spec.clone());
-        specs.push(spec.rgb());
-    }
-    if order == 5 {
-        let spec = Spec { bands: IRRADIANCE_BANDS.to_vec(), ..Spec::new(Family::Eval, order) };
-        specs.push(spec.clone());
-        specs.push(spec.rgb());
-    }
-    let mixed = Family::SmallY([vec![Small::Taylor15; 3], vec![Small::Taylor1]].concat());
-    if order == 5 {
-        // Paper 000's own mixture.
-        specs.push(Spec::new(mixed, order));
-    }
-    for family in [Family::Basis, Family::Rotate(Method::Zyz), Family::SmallY(small(Small::Taylor15))] {
-        let spec = Spec { form: Form::Loop, ..Spec::new(family, order) };
-        specs.push(spec.clone());
-        if spec.family != Family::Basis {
-            specs.push(spec.rgb());
-        }
-    }
-    specs
+    ORDERS.flat_map(|order| ALL.iter().flat_map(move |family| (family.shown)(order))).collect()
 }
 
 /// The table of costs as Markdown.

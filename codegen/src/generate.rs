@@ -3,8 +3,7 @@
 use crate::emit::dialect::Target;
 use crate::emit::validate::{Invalid, validate};
 use crate::emit::{Function, Limit, Module};
-use crate::families::spec::{Family, Spec};
-use crate::families::zhf;
+use crate::families::family::Spec;
 use crate::files::File;
 use crate::promise::built::Built;
 use rayon::prelude::*;
@@ -24,12 +23,12 @@ pub enum GenerateError {
 
 /// Builds the kernels of specs, each once whatever its channels, in parallel.
 pub fn build(specs: &[Spec]) -> Vec<Function> {
-    let mut bases: BTreeMap<Spec, Option<Arc<Built>>> = specs.iter().map(|spec| (Built::base(spec), None)).collect();
+    let mut bases: BTreeMap<Spec, Option<Arc<Built>>> = specs.iter().map(|spec| (spec.base(), None)).collect();
     bases.par_iter_mut().for_each(|(spec, built)| *built = Some(Arc::new(Built::new(spec))));
     specs
         .iter()
         .map(|spec| Function {
-            built: bases[&Built::base(spec)].clone().expect("every base was built"),
+            built: bases[&spec.base()].clone().expect("every base was built"),
             spec: spec.clone(),
             name: None,
         })
@@ -78,7 +77,6 @@ impl Row {
     /// The row of a function.
     pub fn of(function: &Function) -> Self {
         let spec = &function.spec;
-        let factorised = matches!(spec.family, Family::Zhf | Family::ZhfWeights | Family::ZhfTailored);
         Self {
             spec: spec.to_string(),
             name: function.shader_name(),
@@ -87,7 +85,7 @@ impl Row {
             cost: function.built.code.cost(spec.channels()),
             footprint: function.built.code.footprint(),
             accuracy: function.built.accuracy.clone(),
-            nonzeros: factorised.then(|| zhf::nonzeros(spec.order)),
+            nonzeros: spec.family.nonzeros.map(|count| count(spec.order)),
         }
     }
 }

@@ -17,12 +17,12 @@
 //!
 //! ```
 //! use zonal_codegen::promise::built::Built;
-//! use zonal_codegen::families::spec::Spec;
+//! use zonal_codegen::families::{Spec};
 //!
 //! let spec: Spec = "tilt:5".parse()?;
 //! let built = Built::new(&spec);
 //! assert_eq!(built.code.cost(1).total, 133);
-//! # Ok::<(), zonal_codegen::families::spec::SpecError>(())
+//! # Ok::<(), zonal_codegen::families::SpecError>(())
 //! ```
 //!
 //! Convention everywhere: real orthonormal harmonics with the Condon-Shortley phase (band 1 is −y, z, −x), index

@@ -23,12 +23,12 @@ pub const SH2_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh2/basis.glsl"),
 };
 
-/// `angles:2`.
-pub const SH2_ANGLES: Shader = Shader {
-    spec: "angles:2",
-    name: "sh2_angles",
-    wgsl: include_str!("../wgsl/sh2/angles.wgsl"),
-    glsl: include_str!("../glsl/sh2/angles.glsl"),
+/// `basis:2:loop`.
+pub const SH2_BASIS_LOOP: Shader = Shader {
+    spec: "basis:2:loop",
+    name: "sh2_basis_loop",
+    wgsl: include_str!("../wgsl/sh2/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh2/basis_loop.glsl"),
 };
 
 /// `eval:2`.
@@ -47,84 +47,36 @@ pub const SH2_EVAL_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh2/eval_rgb.glsl"),
 };
 
-/// `rotate_z:2`.
-pub const SH2_ROTATE_Z: Shader = Shader {
-    spec: "rotate_z:2",
-    name: "sh2_rotate_z",
-    wgsl: include_str!("../wgsl/sh2/rotate_z.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_z.glsl"),
+/// `eval_monomial:2`.
+pub const SH2_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:2",
+    name: "sh2_eval_monomial",
+    wgsl: include_str!("../wgsl/sh2/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh2/eval_monomial.glsl"),
 };
 
-/// `rotate_z:2:rgb`.
-pub const SH2_ROTATE_Z_RGB: Shader = Shader {
-    spec: "rotate_z:2:rgb",
-    name: "sh2_rotate_z_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_z_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_z_rgb.glsl"),
+/// `eval_monomial:2:rgb`.
+pub const SH2_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:2:rgb",
+    name: "sh2_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh2/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/eval_monomial_rgb.glsl"),
 };
 
-/// `rotate_y:2`.
-pub const SH2_ROTATE_Y: Shader = Shader {
-    spec: "rotate_y:2",
-    name: "sh2_rotate_y",
-    wgsl: include_str!("../wgsl/sh2/rotate_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_y.glsl"),
+/// `to_monomial:2`.
+pub const SH2_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:2",
+    name: "sh2_to_monomial",
+    wgsl: include_str!("../wgsl/sh2/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh2/to_monomial.glsl"),
 };
 
-/// `rotate_y:2:rgb`.
-pub const SH2_ROTATE_Y_RGB: Shader = Shader {
-    spec: "rotate_y:2:rgb",
-    name: "sh2_rotate_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_y_rgb.glsl"),
-};
-
-/// `swap_yz:2`.
-pub const SH2_SWAP_YZ: Shader = Shader {
-    spec: "swap_yz:2",
-    name: "sh2_swap_yz",
-    wgsl: include_str!("../wgsl/sh2/swap_yz.wgsl"),
-    glsl: include_str!("../glsl/sh2/swap_yz.glsl"),
-};
-
-/// `swap_yz:2:rgb`.
-pub const SH2_SWAP_YZ_RGB: Shader = Shader {
-    spec: "swap_yz:2:rgb",
-    name: "sh2_swap_yz_rgb",
-    wgsl: include_str!("../wgsl/sh2/swap_yz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/swap_yz_rgb.glsl"),
-};
-
-/// `rotate_x_plus_90:2`.
-pub const SH2_ROTATE_X_PLUS_90DEG: Shader = Shader {
-    spec: "rotate_x_plus_90:2",
-    name: "sh2_rotate_x_plus_90deg",
-    wgsl: include_str!("../wgsl/sh2/rotate_x_plus_90deg.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_x_plus_90deg.glsl"),
-};
-
-/// `rotate_x_plus_90:2:rgb`.
-pub const SH2_ROTATE_X_PLUS_90DEG_RGB: Shader = Shader {
-    spec: "rotate_x_plus_90:2:rgb",
-    name: "sh2_rotate_x_plus_90deg_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_x_plus_90deg_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_x_plus_90deg_rgb.glsl"),
-};
-
-/// `rotate_x_minus_90:2`.
-pub const SH2_ROTATE_X_MINUS_90DEG: Shader = Shader {
-    spec: "rotate_x_minus_90:2",
-    name: "sh2_rotate_x_minus_90deg",
-    wgsl: include_str!("../wgsl/sh2/rotate_x_minus_90deg.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_x_minus_90deg.glsl"),
-};
-
-/// `rotate_x_minus_90:2:rgb`.
-pub const SH2_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
-    spec: "rotate_x_minus_90:2:rgb",
-    name: "sh2_rotate_x_minus_90deg_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_x_minus_90deg_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_x_minus_90deg_rgb.glsl"),
+/// `to_monomial:2:rgb`.
+pub const SH2_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:2:rgb",
+    name: "sh2_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh2/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/to_monomial_rgb.glsl"),
 };
 
 /// `rotate:2:zyz`.
@@ -143,6 +95,54 @@ pub const SH2_ROTATE_ZYZ_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh2/rotate_zyz_rgb.glsl"),
 };
 
+/// `rotate:2:zyz:loop`.
+pub const SH2_ROTATE_ZYZ_LOOP: Shader = Shader {
+    spec: "rotate:2:zyz:loop",
+    name: "sh2_rotate_zyz_loop",
+    wgsl: include_str!("../wgsl/sh2/rotate_zyz_loop.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_zyz_loop.glsl"),
+};
+
+/// `rotate:2:zyz:rgb:loop`.
+pub const SH2_ROTATE_ZYZ_RGB_LOOP: Shader = Shader {
+    spec: "rotate:2:zyz:rgb:loop",
+    name: "sh2_rotate_zyz_rgb_loop",
+    wgsl: include_str!("../wgsl/sh2/rotate_zyz_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_zyz_rgb_loop.glsl"),
+};
+
+/// `rotate:2`.
+pub const SH2_ROTATE: Shader = Shader {
+    spec: "rotate:2",
+    name: "sh2_rotate",
+    wgsl: include_str!("../wgsl/sh2/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate.glsl"),
+};
+
+/// `rotate:2:rgb`.
+pub const SH2_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:2:rgb",
+    name: "sh2_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_rgb.glsl"),
+};
+
+/// `rotate:2:matrix`.
+pub const SH2_ROTATE_MATRIX: Shader = Shader {
+    spec: "rotate:2:matrix",
+    name: "sh2_rotate_matrix",
+    wgsl: include_str!("../wgsl/sh2/rotate_matrix.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_matrix.glsl"),
+};
+
+/// `rotate:2:matrix:rgb`.
+pub const SH2_ROTATE_MATRIX_RGB: Shader = Shader {
+    spec: "rotate:2:matrix:rgb",
+    name: "sh2_rotate_matrix_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_matrix_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_matrix_rgb.glsl"),
+};
+
 /// `rotate:2:euler`.
 pub const SH2_ROTATE_EULER: Shader = Shader {
     spec: "rotate:2:euler",
@@ -157,6 +157,14 @@ pub const SH2_ROTATE_EULER_RGB: Shader = Shader {
     name: "sh2_rotate_euler_rgb",
     wgsl: include_str!("../wgsl/sh2/rotate_euler_rgb.wgsl"),
     glsl: include_str!("../glsl/sh2/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:2`.
+pub const SH2_ANGLES: Shader = Shader {
+    spec: "angles:2",
+    name: "sh2_angles",
+    wgsl: include_str!("../wgsl/sh2/angles.wgsl"),
+    glsl: include_str!("../glsl/sh2/angles.glsl"),
 };
 
 /// `rotate:2:angles`.
@@ -239,6 +247,182 @@ pub const SH2_TILT_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh2/tilt_rgb.glsl"),
 };
 
+/// `taylor1:2`.
+pub const SH2_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:2",
+    name: "sh2_taylor1_y",
+    wgsl: include_str!("../wgsl/sh2/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor1_y.glsl"),
+};
+
+/// `taylor1:2:rgb`.
+pub const SH2_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:2:rgb",
+    name: "sh2_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:2`.
+pub const SH2_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:2",
+    name: "sh2_taylor15_y",
+    wgsl: include_str!("../wgsl/sh2/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_y.glsl"),
+};
+
+/// `taylor15:2:rgb`.
+pub const SH2_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:2:rgb",
+    name: "sh2_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:2`.
+pub const SH2_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:2",
+    name: "sh2_taylor2_y",
+    wgsl: include_str!("../wgsl/sh2/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor2_y.glsl"),
+};
+
+/// `taylor2:2:rgb`.
+pub const SH2_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:2:rgb",
+    name: "sh2_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:2`.
+pub const SH2_LF3_Y: Shader = Shader {
+    spec: "lf3:2",
+    name: "sh2_lf3_y",
+    wgsl: include_str!("../wgsl/sh2/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf3_y.glsl"),
+};
+
+/// `lf3:2:rgb`.
+pub const SH2_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:2:rgb",
+    name: "sh2_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:2`.
+pub const SH2_LF5_Y: Shader = Shader {
+    spec: "lf5:2",
+    name: "sh2_lf5_y",
+    wgsl: include_str!("../wgsl/sh2/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_y.glsl"),
+};
+
+/// `lf5:2:rgb`.
+pub const SH2_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:2:rgb",
+    name: "sh2_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:2:loop`.
+pub const SH2_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:2:loop",
+    name: "sh2_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh2/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:2:rgb:loop`.
+pub const SH2_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:2:rgb:loop",
+    name: "sh2_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh2/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:2:taylor1`.
+pub const SH2_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:2:taylor1",
+    name: "sh2_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh2/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor1_zyz.glsl"),
+};
+
+/// `rotate:2:taylor1:rgb`.
+pub const SH2_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:taylor1:rgb",
+    name: "sh2_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:2:taylor15`.
+pub const SH2_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:2:taylor15",
+    name: "sh2_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh2/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_zyz.glsl"),
+};
+
+/// `rotate:2:taylor15:rgb`.
+pub const SH2_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:taylor15:rgb",
+    name: "sh2_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:2:taylor2`.
+pub const SH2_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:2:taylor2",
+    name: "sh2_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh2/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor2_zyz.glsl"),
+};
+
+/// `rotate:2:taylor2:rgb`.
+pub const SH2_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:taylor2:rgb",
+    name: "sh2_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:2:lf3`.
+pub const SH2_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:2:lf3",
+    name: "sh2_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh2/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf3_zyz.glsl"),
+};
+
+/// `rotate:2:lf3:rgb`.
+pub const SH2_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:lf3:rgb",
+    name: "sh2_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:2:lf5`.
+pub const SH2_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:2:lf5",
+    name: "sh2_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh2/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_zyz.glsl"),
+};
+
+/// `rotate:2:lf5:rgb`.
+pub const SH2_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:2:lf5:rgb",
+    name: "sh2_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh2/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/lf5_zyz_rgb.glsl"),
+};
+
 /// `rotate_small:2`.
 pub const SH2_ROTATE_SMALL: Shader = Shader {
     spec: "rotate_small:2",
@@ -253,38 +437,6 @@ pub const SH2_ROTATE_SMALL_RGB: Shader = Shader {
     name: "sh2_rotate_small_rgb",
     wgsl: include_str!("../wgsl/sh2/rotate_small_rgb.wgsl"),
     glsl: include_str!("../glsl/sh2/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:2`.
-pub const SH2_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:2",
-    name: "sh2_eval_monomial",
-    wgsl: include_str!("../wgsl/sh2/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh2/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:2:rgb`.
-pub const SH2_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:2:rgb",
-    name: "sh2_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh2/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:2`.
-pub const SH2_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:2",
-    name: "sh2_to_monomial",
-    wgsl: include_str!("../wgsl/sh2/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh2/to_monomial.glsl"),
-};
-
-/// `to_monomial:2:rgb`.
-pub const SH2_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:2:rgb",
-    name: "sh2_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh2/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/to_monomial_rgb.glsl"),
 };
 
 /// `zhf:2`.
@@ -335,236 +487,84 @@ pub const SH2_ZHF_TAILORED_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh2/zhf_tailored_rgb.glsl"),
 };
 
-/// `taylor1:2`.
-pub const SH2_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:2",
-    name: "sh2_taylor1_y",
-    wgsl: include_str!("../wgsl/sh2/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor1_y.glsl"),
+/// `rotate_z:2`.
+pub const SH2_ROTATE_Z: Shader = Shader {
+    spec: "rotate_z:2",
+    name: "sh2_rotate_z",
+    wgsl: include_str!("../wgsl/sh2/rotate_z.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_z.glsl"),
 };
 
-/// `taylor1:2:rgb`.
-pub const SH2_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:2:rgb",
-    name: "sh2_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor1_y_rgb.glsl"),
+/// `rotate_z:2:rgb`.
+pub const SH2_ROTATE_Z_RGB: Shader = Shader {
+    spec: "rotate_z:2:rgb",
+    name: "sh2_rotate_z_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_z_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_z_rgb.glsl"),
 };
 
-/// `rotate:2:taylor1`.
-pub const SH2_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:2:taylor1",
-    name: "sh2_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh2/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor1_zyz.glsl"),
+/// `rotate_y:2`.
+pub const SH2_ROTATE_Y: Shader = Shader {
+    spec: "rotate_y:2",
+    name: "sh2_rotate_y",
+    wgsl: include_str!("../wgsl/sh2/rotate_y.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_y.glsl"),
 };
 
-/// `rotate:2:taylor1:rgb`.
-pub const SH2_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:2:taylor1:rgb",
-    name: "sh2_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor1_zyz_rgb.glsl"),
+/// `rotate_y:2:rgb`.
+pub const SH2_ROTATE_Y_RGB: Shader = Shader {
+    spec: "rotate_y:2:rgb",
+    name: "sh2_rotate_y_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_y_rgb.glsl"),
 };
 
-/// `taylor15:2`.
-pub const SH2_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:2",
-    name: "sh2_taylor15_y",
-    wgsl: include_str!("../wgsl/sh2/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_y.glsl"),
+/// `swap_yz:2`.
+pub const SH2_SWAP_YZ: Shader = Shader {
+    spec: "swap_yz:2",
+    name: "sh2_swap_yz",
+    wgsl: include_str!("../wgsl/sh2/swap_yz.wgsl"),
+    glsl: include_str!("../glsl/sh2/swap_yz.glsl"),
 };
 
-/// `taylor15:2:rgb`.
-pub const SH2_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:2:rgb",
-    name: "sh2_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_y_rgb.glsl"),
+/// `swap_yz:2:rgb`.
+pub const SH2_SWAP_YZ_RGB: Shader = Shader {
+    spec: "swap_yz:2:rgb",
+    name: "sh2_swap_yz_rgb",
+    wgsl: include_str!("../wgsl/sh2/swap_yz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/swap_yz_rgb.glsl"),
 };
 
-/// `rotate:2:taylor15`.
-pub const SH2_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:2:taylor15",
-    name: "sh2_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh2/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_zyz.glsl"),
+/// `rotate_x_plus_90:2`.
+pub const SH2_ROTATE_X_PLUS_90DEG: Shader = Shader {
+    spec: "rotate_x_plus_90:2",
+    name: "sh2_rotate_x_plus_90deg",
+    wgsl: include_str!("../wgsl/sh2/rotate_x_plus_90deg.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_x_plus_90deg.glsl"),
 };
 
-/// `rotate:2:taylor15:rgb`.
-pub const SH2_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:2:taylor15:rgb",
-    name: "sh2_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_zyz_rgb.glsl"),
+/// `rotate_x_plus_90:2:rgb`.
+pub const SH2_ROTATE_X_PLUS_90DEG_RGB: Shader = Shader {
+    spec: "rotate_x_plus_90:2:rgb",
+    name: "sh2_rotate_x_plus_90deg_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_x_plus_90deg_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_x_plus_90deg_rgb.glsl"),
 };
 
-/// `taylor2:2`.
-pub const SH2_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:2",
-    name: "sh2_taylor2_y",
-    wgsl: include_str!("../wgsl/sh2/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor2_y.glsl"),
+/// `rotate_x_minus_90:2`.
+pub const SH2_ROTATE_X_MINUS_90DEG: Shader = Shader {
+    spec: "rotate_x_minus_90:2",
+    name: "sh2_rotate_x_minus_90deg",
+    wgsl: include_str!("../wgsl/sh2/rotate_x_minus_90deg.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_x_minus_90deg.glsl"),
 };
 
-/// `taylor2:2:rgb`.
-pub const SH2_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:2:rgb",
-    name: "sh2_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:2:taylor2`.
-pub const SH2_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:2:taylor2",
-    name: "sh2_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh2/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor2_zyz.glsl"),
-};
-
-/// `rotate:2:taylor2:rgb`.
-pub const SH2_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:2:taylor2:rgb",
-    name: "sh2_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh2/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:2`.
-pub const SH2_LF3_Y: Shader = Shader {
-    spec: "lf3:2",
-    name: "sh2_lf3_y",
-    wgsl: include_str!("../wgsl/sh2/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf3_y.glsl"),
-};
-
-/// `lf3:2:rgb`.
-pub const SH2_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:2:rgb",
-    name: "sh2_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:2:lf3`.
-pub const SH2_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:2:lf3",
-    name: "sh2_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh2/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf3_zyz.glsl"),
-};
-
-/// `rotate:2:lf3:rgb`.
-pub const SH2_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:2:lf3:rgb",
-    name: "sh2_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh2/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:2`.
-pub const SH2_LF5_Y: Shader = Shader {
-    spec: "lf5:2",
-    name: "sh2_lf5_y",
-    wgsl: include_str!("../wgsl/sh2/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf5_y.glsl"),
-};
-
-/// `lf5:2:rgb`.
-pub const SH2_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:2:rgb",
-    name: "sh2_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh2/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:2:lf5`.
-pub const SH2_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:2:lf5",
-    name: "sh2_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh2/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf5_zyz.glsl"),
-};
-
-/// `rotate:2:lf5:rgb`.
-pub const SH2_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:2:lf5:rgb",
-    name: "sh2_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh2/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:2`.
-pub const SH2_ROTATE: Shader = Shader {
-    spec: "rotate:2",
-    name: "sh2_rotate",
-    wgsl: include_str!("../wgsl/sh2/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate.glsl"),
-};
-
-/// `rotate:2:rgb`.
-pub const SH2_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:2:rgb",
-    name: "sh2_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_rgb.glsl"),
-};
-
-/// `rotate:2:matrix`.
-pub const SH2_ROTATE_MATRIX: Shader = Shader {
-    spec: "rotate:2:matrix",
-    name: "sh2_rotate_matrix",
-    wgsl: include_str!("../wgsl/sh2/rotate_matrix.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_matrix.glsl"),
-};
-
-/// `rotate:2:matrix:rgb`.
-pub const SH2_ROTATE_MATRIX_RGB: Shader = Shader {
-    spec: "rotate:2:matrix:rgb",
-    name: "sh2_rotate_matrix_rgb",
-    wgsl: include_str!("../wgsl/sh2/rotate_matrix_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_matrix_rgb.glsl"),
-};
-
-/// `basis:2:loop`.
-pub const SH2_BASIS_LOOP: Shader = Shader {
-    spec: "basis:2:loop",
-    name: "sh2_basis_loop",
-    wgsl: include_str!("../wgsl/sh2/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh2/basis_loop.glsl"),
-};
-
-/// `rotate:2:zyz:loop`.
-pub const SH2_ROTATE_ZYZ_LOOP: Shader = Shader {
-    spec: "rotate:2:zyz:loop",
-    name: "sh2_rotate_zyz_loop",
-    wgsl: include_str!("../wgsl/sh2/rotate_zyz_loop.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_zyz_loop.glsl"),
-};
-
-/// `rotate:2:zyz:rgb:loop`.
-pub const SH2_ROTATE_ZYZ_RGB_LOOP: Shader = Shader {
-    spec: "rotate:2:zyz:rgb:loop",
-    name: "sh2_rotate_zyz_rgb_loop",
-    wgsl: include_str!("../wgsl/sh2/rotate_zyz_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh2/rotate_zyz_rgb_loop.glsl"),
-};
-
-/// `taylor15:2:loop`.
-pub const SH2_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:2:loop",
-    name: "sh2_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh2/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:2:rgb:loop`.
-pub const SH2_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:2:rgb:loop",
-    name: "sh2_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh2/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh2/taylor15_y_rgb_loop.glsl"),
+/// `rotate_x_minus_90:2:rgb`.
+pub const SH2_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
+    spec: "rotate_x_minus_90:2:rgb",
+    name: "sh2_rotate_x_minus_90deg_rgb",
+    wgsl: include_str!("../wgsl/sh2/rotate_x_minus_90deg_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh2/rotate_x_minus_90deg_rgb.glsl"),
 };
 
 /// `basis:3`.
@@ -575,20 +575,12 @@ pub const SH3_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh3/basis.glsl"),
 };
 
-/// `angles:3`.
-pub const SH3_ANGLES: Shader = Shader {
-    spec: "angles:3",
-    name: "sh3_angles",
-    wgsl: include_str!("../wgsl/sh3/angles.wgsl"),
-    glsl: include_str!("../glsl/sh3/angles.glsl"),
-};
-
-/// `lifted:3`.
-pub const SH3_LIFTED: Shader = Shader {
-    spec: "lifted:3",
-    name: "sh3_lifted",
-    wgsl: include_str!("../wgsl/sh3/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh3/lifted.glsl"),
+/// `basis:3:loop`.
+pub const SH3_BASIS_LOOP: Shader = Shader {
+    spec: "basis:3:loop",
+    name: "sh3_basis_loop",
+    wgsl: include_str!("../wgsl/sh3/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh3/basis_loop.glsl"),
 };
 
 /// `eval:3`.
@@ -605,6 +597,470 @@ pub const SH3_EVAL_RGB: Shader = Shader {
     name: "sh3_eval_rgb",
     wgsl: include_str!("../wgsl/sh3/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh3/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:3`.
+pub const SH3_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:3",
+    name: "sh3_eval_monomial",
+    wgsl: include_str!("../wgsl/sh3/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh3/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:3:rgb`.
+pub const SH3_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:3:rgb",
+    name: "sh3_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh3/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:3`.
+pub const SH3_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:3",
+    name: "sh3_to_monomial",
+    wgsl: include_str!("../wgsl/sh3/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh3/to_monomial.glsl"),
+};
+
+/// `to_monomial:3:rgb`.
+pub const SH3_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:3:rgb",
+    name: "sh3_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh3/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:3:zyz`.
+pub const SH3_ROTATE_ZYZ: Shader = Shader {
+    spec: "rotate:3:zyz",
+    name: "sh3_rotate_zyz",
+    wgsl: include_str!("../wgsl/sh3/rotate_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zyz.glsl"),
+};
+
+/// `rotate:3:rgb`.
+pub const SH3_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:3:rgb",
+    name: "sh3_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_rgb.glsl"),
+};
+
+/// `rotate:3:zyz:loop`.
+pub const SH3_ROTATE_ZYZ_LOOP: Shader = Shader {
+    spec: "rotate:3:zyz:loop",
+    name: "sh3_rotate_zyz_loop",
+    wgsl: include_str!("../wgsl/sh3/rotate_zyz_loop.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zyz_loop.glsl"),
+};
+
+/// `rotate:3:rgb:loop`.
+pub const SH3_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:3:rgb:loop",
+    name: "sh3_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh3/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:3`.
+pub const SH3_ROTATE: Shader = Shader {
+    spec: "rotate:3",
+    name: "sh3_rotate",
+    wgsl: include_str!("../wgsl/sh3/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate.glsl"),
+};
+
+/// `rotate:3:tensor:rgb`.
+pub const SH3_ROTATE_TENSOR_RGB: Shader = Shader {
+    spec: "rotate:3:tensor:rgb",
+    name: "sh3_rotate_tensor_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_tensor_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_tensor_rgb.glsl"),
+};
+
+/// `rotate:3:matrix`.
+pub const SH3_ROTATE_MATRIX: Shader = Shader {
+    spec: "rotate:3:matrix",
+    name: "sh3_rotate_matrix",
+    wgsl: include_str!("../wgsl/sh3/rotate_matrix.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_matrix.glsl"),
+};
+
+/// `rotate:3:matrix:rgb`.
+pub const SH3_ROTATE_MATRIX_RGB: Shader = Shader {
+    spec: "rotate:3:matrix:rgb",
+    name: "sh3_rotate_matrix_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_matrix_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_matrix_rgb.glsl"),
+};
+
+/// `rotate:3:euler`.
+pub const SH3_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:3:euler",
+    name: "sh3_rotate_euler",
+    wgsl: include_str!("../wgsl/sh3/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_euler.glsl"),
+};
+
+/// `rotate:3:euler:rgb`.
+pub const SH3_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:3:euler:rgb",
+    name: "sh3_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:3`.
+pub const SH3_ANGLES: Shader = Shader {
+    spec: "angles:3",
+    name: "sh3_angles",
+    wgsl: include_str!("../wgsl/sh3/angles.wgsl"),
+    glsl: include_str!("../glsl/sh3/angles.glsl"),
+};
+
+/// `rotate:3:angles`.
+pub const SH3_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:3:angles",
+    name: "sh3_rotate_angles",
+    wgsl: include_str!("../wgsl/sh3/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_angles.glsl"),
+};
+
+/// `rotate:3:angles:rgb`.
+pub const SH3_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:3:angles:rgb",
+    name: "sh3_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:3`.
+pub const SH3_LIFTED: Shader = Shader {
+    spec: "lifted:3",
+    name: "sh3_lifted",
+    wgsl: include_str!("../wgsl/sh3/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/lifted.glsl"),
+};
+
+/// `rotate:3:lifted`.
+pub const SH3_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:3:lifted",
+    name: "sh3_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
+};
+
+/// `rotate:3:lifted:rgb`.
+pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:3:lifted:rgb",
+    name: "sh3_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:3:zxzxz`.
+pub const SH3_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:3:zxzxz",
+    name: "sh3_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh3/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:3:zxzxz:rgb`.
+pub const SH3_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:3:zxzxz:rgb",
+    name: "sh3_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:3:align`.
+pub const SH3_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:3:align",
+    name: "sh3_rotate_align",
+    wgsl: include_str!("../wgsl/sh3/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_align.glsl"),
+};
+
+/// `rotate:3:align:rgb`.
+pub const SH3_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:3:align:rgb",
+    name: "sh3_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:3:zonal`.
+pub const SH3_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:3:zonal",
+    name: "sh3_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh3/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zonal.glsl"),
+};
+
+/// `rotate:3:zonal:rgb`.
+pub const SH3_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:3:zonal:rgb",
+    name: "sh3_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:3`.
+pub const SH3_TILT: Shader = Shader {
+    spec: "tilt:3",
+    name: "sh3_tilt",
+    wgsl: include_str!("../wgsl/sh3/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh3/tilt.glsl"),
+};
+
+/// `tilt:3:rgb`.
+pub const SH3_TILT_RGB: Shader = Shader {
+    spec: "tilt:3:rgb",
+    name: "sh3_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh3/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/tilt_rgb.glsl"),
+};
+
+/// `taylor1:3`.
+pub const SH3_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:3",
+    name: "sh3_taylor1_y",
+    wgsl: include_str!("../wgsl/sh3/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor1_y.glsl"),
+};
+
+/// `taylor1:3:rgb`.
+pub const SH3_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:3:rgb",
+    name: "sh3_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:3`.
+pub const SH3_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:3",
+    name: "sh3_taylor15_y",
+    wgsl: include_str!("../wgsl/sh3/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_y.glsl"),
+};
+
+/// `taylor15:3:rgb`.
+pub const SH3_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:3:rgb",
+    name: "sh3_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:3`.
+pub const SH3_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:3",
+    name: "sh3_taylor2_y",
+    wgsl: include_str!("../wgsl/sh3/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor2_y.glsl"),
+};
+
+/// `taylor2:3:rgb`.
+pub const SH3_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:3:rgb",
+    name: "sh3_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:3`.
+pub const SH3_LF3_Y: Shader = Shader {
+    spec: "lf3:3",
+    name: "sh3_lf3_y",
+    wgsl: include_str!("../wgsl/sh3/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf3_y.glsl"),
+};
+
+/// `lf3:3:rgb`.
+pub const SH3_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:3:rgb",
+    name: "sh3_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:3`.
+pub const SH3_LF5_Y: Shader = Shader {
+    spec: "lf5:3",
+    name: "sh3_lf5_y",
+    wgsl: include_str!("../wgsl/sh3/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_y.glsl"),
+};
+
+/// `lf5:3:rgb`.
+pub const SH3_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:3:rgb",
+    name: "sh3_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:3:loop`.
+pub const SH3_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:3:loop",
+    name: "sh3_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh3/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:3:rgb:loop`.
+pub const SH3_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:3:rgb:loop",
+    name: "sh3_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh3/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:3:taylor1`.
+pub const SH3_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:3:taylor1",
+    name: "sh3_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh3/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor1_zyz.glsl"),
+};
+
+/// `rotate:3:taylor1:rgb`.
+pub const SH3_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:taylor1:rgb",
+    name: "sh3_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:3:taylor15`.
+pub const SH3_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:3:taylor15",
+    name: "sh3_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh3/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_zyz.glsl"),
+};
+
+/// `rotate:3:taylor15:rgb`.
+pub const SH3_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:taylor15:rgb",
+    name: "sh3_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:3:taylor2`.
+pub const SH3_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:3:taylor2",
+    name: "sh3_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh3/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor2_zyz.glsl"),
+};
+
+/// `rotate:3:taylor2:rgb`.
+pub const SH3_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:taylor2:rgb",
+    name: "sh3_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:3:lf3`.
+pub const SH3_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:3:lf3",
+    name: "sh3_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh3/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf3_zyz.glsl"),
+};
+
+/// `rotate:3:lf3:rgb`.
+pub const SH3_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:lf3:rgb",
+    name: "sh3_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:3:lf5`.
+pub const SH3_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:3:lf5",
+    name: "sh3_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh3/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_zyz.glsl"),
+};
+
+/// `rotate:3:lf5:rgb`.
+pub const SH3_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:3:lf5:rgb",
+    name: "sh3_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh3/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:3`.
+pub const SH3_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:3",
+    name: "sh3_rotate_small",
+    wgsl: include_str!("../wgsl/sh3/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_small.glsl"),
+};
+
+/// `rotate_small:3:rgb`.
+pub const SH3_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:3:rgb",
+    name: "sh3_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh3/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/rotate_small_rgb.glsl"),
+};
+
+/// `zhf:3`.
+pub const SH3_ZHF: Shader = Shader {
+    spec: "zhf:3",
+    name: "sh3_zhf",
+    wgsl: include_str!("../wgsl/sh3/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf.glsl"),
+};
+
+/// `zhf:3:rgb`.
+pub const SH3_ZHF_RGB: Shader = Shader {
+    spec: "zhf:3:rgb",
+    name: "sh3_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh3/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:3`.
+pub const SH3_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:3",
+    name: "sh3_zhf_weights",
+    wgsl: include_str!("../wgsl/sh3/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:3:rgb`.
+pub const SH3_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:3:rgb",
+    name: "sh3_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh3/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:3`.
+pub const SH3_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:3",
+    name: "sh3_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh3/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:3:rgb`.
+pub const SH3_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:3:rgb",
+    name: "sh3_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh3/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh3/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:3`.
@@ -687,462 +1143,6 @@ pub const SH3_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh3/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:3:zyz`.
-pub const SH3_ROTATE_ZYZ: Shader = Shader {
-    spec: "rotate:3:zyz",
-    name: "sh3_rotate_zyz",
-    wgsl: include_str!("../wgsl/sh3/rotate_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zyz.glsl"),
-};
-
-/// `rotate:3:rgb`.
-pub const SH3_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:3:rgb",
-    name: "sh3_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_rgb.glsl"),
-};
-
-/// `rotate:3:euler`.
-pub const SH3_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:3:euler",
-    name: "sh3_rotate_euler",
-    wgsl: include_str!("../wgsl/sh3/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_euler.glsl"),
-};
-
-/// `rotate:3:euler:rgb`.
-pub const SH3_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:3:euler:rgb",
-    name: "sh3_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:3:angles`.
-pub const SH3_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:3:angles",
-    name: "sh3_rotate_angles",
-    wgsl: include_str!("../wgsl/sh3/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_angles.glsl"),
-};
-
-/// `rotate:3:angles:rgb`.
-pub const SH3_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:3:angles:rgb",
-    name: "sh3_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:3:zxzxz`.
-pub const SH3_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:3:zxzxz",
-    name: "sh3_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh3/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:3:zxzxz:rgb`.
-pub const SH3_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:3:zxzxz:rgb",
-    name: "sh3_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:3:align`.
-pub const SH3_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:3:align",
-    name: "sh3_rotate_align",
-    wgsl: include_str!("../wgsl/sh3/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_align.glsl"),
-};
-
-/// `rotate:3:align:rgb`.
-pub const SH3_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:3:align:rgb",
-    name: "sh3_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:3:zonal`.
-pub const SH3_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:3:zonal",
-    name: "sh3_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh3/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zonal.glsl"),
-};
-
-/// `rotate:3:zonal:rgb`.
-pub const SH3_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:3:zonal:rgb",
-    name: "sh3_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:3`.
-pub const SH3_TILT: Shader = Shader {
-    spec: "tilt:3",
-    name: "sh3_tilt",
-    wgsl: include_str!("../wgsl/sh3/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh3/tilt.glsl"),
-};
-
-/// `tilt:3:rgb`.
-pub const SH3_TILT_RGB: Shader = Shader {
-    spec: "tilt:3:rgb",
-    name: "sh3_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh3/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:3`.
-pub const SH3_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:3",
-    name: "sh3_rotate_small",
-    wgsl: include_str!("../wgsl/sh3/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_small.glsl"),
-};
-
-/// `rotate_small:3:rgb`.
-pub const SH3_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:3:rgb",
-    name: "sh3_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:3`.
-pub const SH3_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:3",
-    name: "sh3_eval_monomial",
-    wgsl: include_str!("../wgsl/sh3/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh3/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:3:rgb`.
-pub const SH3_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:3:rgb",
-    name: "sh3_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh3/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:3`.
-pub const SH3_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:3",
-    name: "sh3_to_monomial",
-    wgsl: include_str!("../wgsl/sh3/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh3/to_monomial.glsl"),
-};
-
-/// `to_monomial:3:rgb`.
-pub const SH3_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:3:rgb",
-    name: "sh3_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh3/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:3`.
-pub const SH3_ZHF: Shader = Shader {
-    spec: "zhf:3",
-    name: "sh3_zhf",
-    wgsl: include_str!("../wgsl/sh3/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf.glsl"),
-};
-
-/// `zhf:3:rgb`.
-pub const SH3_ZHF_RGB: Shader = Shader {
-    spec: "zhf:3:rgb",
-    name: "sh3_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh3/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:3`.
-pub const SH3_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:3",
-    name: "sh3_zhf_weights",
-    wgsl: include_str!("../wgsl/sh3/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:3:rgb`.
-pub const SH3_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:3:rgb",
-    name: "sh3_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh3/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:3`.
-pub const SH3_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:3",
-    name: "sh3_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh3/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:3:rgb`.
-pub const SH3_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:3:rgb",
-    name: "sh3_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh3/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:3`.
-pub const SH3_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:3",
-    name: "sh3_taylor1_y",
-    wgsl: include_str!("../wgsl/sh3/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor1_y.glsl"),
-};
-
-/// `taylor1:3:rgb`.
-pub const SH3_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:3:rgb",
-    name: "sh3_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:3:taylor1`.
-pub const SH3_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:3:taylor1",
-    name: "sh3_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh3/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor1_zyz.glsl"),
-};
-
-/// `rotate:3:taylor1:rgb`.
-pub const SH3_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:3:taylor1:rgb",
-    name: "sh3_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:3`.
-pub const SH3_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:3",
-    name: "sh3_taylor15_y",
-    wgsl: include_str!("../wgsl/sh3/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_y.glsl"),
-};
-
-/// `taylor15:3:rgb`.
-pub const SH3_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:3:rgb",
-    name: "sh3_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:3:taylor15`.
-pub const SH3_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:3:taylor15",
-    name: "sh3_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh3/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_zyz.glsl"),
-};
-
-/// `rotate:3:taylor15:rgb`.
-pub const SH3_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:3:taylor15:rgb",
-    name: "sh3_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:3`.
-pub const SH3_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:3",
-    name: "sh3_taylor2_y",
-    wgsl: include_str!("../wgsl/sh3/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor2_y.glsl"),
-};
-
-/// `taylor2:3:rgb`.
-pub const SH3_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:3:rgb",
-    name: "sh3_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:3:taylor2`.
-pub const SH3_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:3:taylor2",
-    name: "sh3_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh3/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor2_zyz.glsl"),
-};
-
-/// `rotate:3:taylor2:rgb`.
-pub const SH3_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:3:taylor2:rgb",
-    name: "sh3_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh3/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:3`.
-pub const SH3_LF3_Y: Shader = Shader {
-    spec: "lf3:3",
-    name: "sh3_lf3_y",
-    wgsl: include_str!("../wgsl/sh3/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf3_y.glsl"),
-};
-
-/// `lf3:3:rgb`.
-pub const SH3_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:3:rgb",
-    name: "sh3_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh3/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:3:lf3`.
-pub const SH3_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:3:lf3",
-    name: "sh3_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh3/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf3_zyz.glsl"),
-};
-
-/// `rotate:3:lf3:rgb`.
-pub const SH3_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:3:lf3:rgb",
-    name: "sh3_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh3/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:3`.
-pub const SH3_LF5_Y: Shader = Shader {
-    spec: "lf5:3",
-    name: "sh3_lf5_y",
-    wgsl: include_str!("../wgsl/sh3/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf5_y.glsl"),
-};
-
-/// `lf5:3:rgb`.
-pub const SH3_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:3:rgb",
-    name: "sh3_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh3/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:3:lf5`.
-pub const SH3_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:3:lf5",
-    name: "sh3_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh3/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf5_zyz.glsl"),
-};
-
-/// `rotate:3:lf5:rgb`.
-pub const SH3_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:3:lf5:rgb",
-    name: "sh3_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh3/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:3`.
-pub const SH3_ROTATE: Shader = Shader {
-    spec: "rotate:3",
-    name: "sh3_rotate",
-    wgsl: include_str!("../wgsl/sh3/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate.glsl"),
-};
-
-/// `rotate:3:tensor:rgb`.
-pub const SH3_ROTATE_TENSOR_RGB: Shader = Shader {
-    spec: "rotate:3:tensor:rgb",
-    name: "sh3_rotate_tensor_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_tensor_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_tensor_rgb.glsl"),
-};
-
-/// `rotate:3:matrix`.
-pub const SH3_ROTATE_MATRIX: Shader = Shader {
-    spec: "rotate:3:matrix",
-    name: "sh3_rotate_matrix",
-    wgsl: include_str!("../wgsl/sh3/rotate_matrix.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_matrix.glsl"),
-};
-
-/// `rotate:3:matrix:rgb`.
-pub const SH3_ROTATE_MATRIX_RGB: Shader = Shader {
-    spec: "rotate:3:matrix:rgb",
-    name: "sh3_rotate_matrix_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_matrix_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_matrix_rgb.glsl"),
-};
-
-/// `rotate:3:lifted`.
-pub const SH3_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:3:lifted",
-    name: "sh3_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh3/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_lifted.glsl"),
-};
-
-/// `rotate:3:lifted:rgb`.
-pub const SH3_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:3:lifted:rgb",
-    name: "sh3_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh3/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_lifted_rgb.glsl"),
-};
-
-/// `basis:3:loop`.
-pub const SH3_BASIS_LOOP: Shader = Shader {
-    spec: "basis:3:loop",
-    name: "sh3_basis_loop",
-    wgsl: include_str!("../wgsl/sh3/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh3/basis_loop.glsl"),
-};
-
-/// `rotate:3:zyz:loop`.
-pub const SH3_ROTATE_ZYZ_LOOP: Shader = Shader {
-    spec: "rotate:3:zyz:loop",
-    name: "sh3_rotate_zyz_loop",
-    wgsl: include_str!("../wgsl/sh3/rotate_zyz_loop.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_zyz_loop.glsl"),
-};
-
-/// `rotate:3:rgb:loop`.
-pub const SH3_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:3:rgb:loop",
-    name: "sh3_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh3/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh3/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:3:loop`.
-pub const SH3_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:3:loop",
-    name: "sh3_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh3/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:3:rgb:loop`.
-pub const SH3_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:3:rgb:loop",
-    name: "sh3_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh3/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh3/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:4`.
 pub const SH4_BASIS: Shader = Shader {
     spec: "basis:4",
@@ -1151,20 +1151,12 @@ pub const SH4_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh4/basis.glsl"),
 };
 
-/// `angles:4`.
-pub const SH4_ANGLES: Shader = Shader {
-    spec: "angles:4",
-    name: "sh4_angles",
-    wgsl: include_str!("../wgsl/sh4/angles.wgsl"),
-    glsl: include_str!("../glsl/sh4/angles.glsl"),
-};
-
-/// `lifted:4`.
-pub const SH4_LIFTED: Shader = Shader {
-    spec: "lifted:4",
-    name: "sh4_lifted",
-    wgsl: include_str!("../wgsl/sh4/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh4/lifted.glsl"),
+/// `basis:4:loop`.
+pub const SH4_BASIS_LOOP: Shader = Shader {
+    spec: "basis:4:loop",
+    name: "sh4_basis_loop",
+    wgsl: include_str!("../wgsl/sh4/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh4/basis_loop.glsl"),
 };
 
 /// `eval:4`.
@@ -1181,6 +1173,550 @@ pub const SH4_EVAL_RGB: Shader = Shader {
     name: "sh4_eval_rgb",
     wgsl: include_str!("../wgsl/sh4/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh4/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:4`.
+pub const SH4_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:4",
+    name: "sh4_eval_monomial",
+    wgsl: include_str!("../wgsl/sh4/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh4/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:4:rgb`.
+pub const SH4_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:4:rgb",
+    name: "sh4_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh4/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:4`.
+pub const SH4_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:4",
+    name: "sh4_to_monomial",
+    wgsl: include_str!("../wgsl/sh4/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh4/to_monomial.glsl"),
+};
+
+/// `to_monomial:4:rgb`.
+pub const SH4_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:4:rgb",
+    name: "sh4_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh4/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:4`.
+pub const SH4_ROTATE: Shader = Shader {
+    spec: "rotate:4",
+    name: "sh4_rotate",
+    wgsl: include_str!("../wgsl/sh4/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate.glsl"),
+};
+
+/// `rotate:4:rgb`.
+pub const SH4_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:4:rgb",
+    name: "sh4_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_rgb.glsl"),
+};
+
+/// `rotate:4:loop`.
+pub const SH4_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:4:loop",
+    name: "sh4_rotate_loop",
+    wgsl: include_str!("../wgsl/sh4/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_loop.glsl"),
+};
+
+/// `rotate:4:rgb:loop`.
+pub const SH4_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:4:rgb:loop",
+    name: "sh4_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh4/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:4:euler`.
+pub const SH4_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:4:euler",
+    name: "sh4_rotate_euler",
+    wgsl: include_str!("../wgsl/sh4/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_euler.glsl"),
+};
+
+/// `rotate:4:euler:rgb`.
+pub const SH4_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:4:euler:rgb",
+    name: "sh4_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:4`.
+pub const SH4_ANGLES: Shader = Shader {
+    spec: "angles:4",
+    name: "sh4_angles",
+    wgsl: include_str!("../wgsl/sh4/angles.wgsl"),
+    glsl: include_str!("../glsl/sh4/angles.glsl"),
+};
+
+/// `rotate:4:angles`.
+pub const SH4_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:4:angles",
+    name: "sh4_rotate_angles",
+    wgsl: include_str!("../wgsl/sh4/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_angles.glsl"),
+};
+
+/// `rotate:4:angles:rgb`.
+pub const SH4_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:4:angles:rgb",
+    name: "sh4_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:4`.
+pub const SH4_LIFTED: Shader = Shader {
+    spec: "lifted:4",
+    name: "sh4_lifted",
+    wgsl: include_str!("../wgsl/sh4/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/lifted.glsl"),
+};
+
+/// `rotate:4:lifted`.
+pub const SH4_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:4:lifted",
+    name: "sh4_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
+};
+
+/// `rotate:4:lifted:rgb`.
+pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:4:lifted:rgb",
+    name: "sh4_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:4:zxzxz`.
+pub const SH4_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:4:zxzxz",
+    name: "sh4_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh4/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:4:zxzxz:rgb`.
+pub const SH4_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:4:zxzxz:rgb",
+    name: "sh4_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:4:align`.
+pub const SH4_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:4:align",
+    name: "sh4_rotate_align",
+    wgsl: include_str!("../wgsl/sh4/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_align.glsl"),
+};
+
+/// `rotate:4:align:rgb`.
+pub const SH4_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:4:align:rgb",
+    name: "sh4_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:4:zonal`.
+pub const SH4_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:4:zonal",
+    name: "sh4_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh4/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_zonal.glsl"),
+};
+
+/// `rotate:4:zonal:rgb`.
+pub const SH4_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:4:zonal:rgb",
+    name: "sh4_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:4`.
+pub const SH4_TILT: Shader = Shader {
+    spec: "tilt:4",
+    name: "sh4_tilt",
+    wgsl: include_str!("../wgsl/sh4/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt.glsl"),
+};
+
+/// `tilt:4:rgb`.
+pub const SH4_TILT_RGB: Shader = Shader {
+    spec: "tilt:4:rgb",
+    name: "sh4_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_rgb.glsl"),
+};
+
+/// `tilt:4:lf5`.
+pub const SH4_LF5_TILT: Shader = Shader {
+    spec: "tilt:4:lf5",
+    name: "sh4_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt.glsl"),
+};
+
+/// `tilt:4:lf5:rgb`.
+pub const SH4_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:4:lf5:rgb",
+    name: "sh4_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:4`.
+pub const SH4_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:4",
+    name: "sh4_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh4/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:4:rgb`.
+pub const SH4_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:4:rgb",
+    name: "sh4_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:4:lf5`.
+pub const SH4_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:4:lf5",
+    name: "sh4_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:4:lf5:rgb`.
+pub const SH4_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:4:lf5:rgb",
+    name: "sh4_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:4`.
+pub const SH4_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:4",
+    name: "sh4_tilt_scale",
+    wgsl: include_str!("../wgsl/sh4/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:4:rgb`.
+pub const SH4_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:4:rgb",
+    name: "sh4_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:4`.
+pub const SH4_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:4",
+    name: "sh4_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh4/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:4:rgb`.
+pub const SH4_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:4:rgb",
+    name: "sh4_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh4/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:4`.
+pub const SH4_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:4",
+    name: "sh4_taylor1_y",
+    wgsl: include_str!("../wgsl/sh4/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor1_y.glsl"),
+};
+
+/// `taylor1:4:rgb`.
+pub const SH4_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:4:rgb",
+    name: "sh4_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:4`.
+pub const SH4_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:4",
+    name: "sh4_taylor15_y",
+    wgsl: include_str!("../wgsl/sh4/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_y.glsl"),
+};
+
+/// `taylor15:4:rgb`.
+pub const SH4_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:4:rgb",
+    name: "sh4_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:4`.
+pub const SH4_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:4",
+    name: "sh4_taylor2_y",
+    wgsl: include_str!("../wgsl/sh4/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor2_y.glsl"),
+};
+
+/// `taylor2:4:rgb`.
+pub const SH4_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:4:rgb",
+    name: "sh4_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:4`.
+pub const SH4_LF3_Y: Shader = Shader {
+    spec: "lf3:4",
+    name: "sh4_lf3_y",
+    wgsl: include_str!("../wgsl/sh4/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf3_y.glsl"),
+};
+
+/// `lf3:4:rgb`.
+pub const SH4_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:4:rgb",
+    name: "sh4_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:4`.
+pub const SH4_LF5_Y: Shader = Shader {
+    spec: "lf5:4",
+    name: "sh4_lf5_y",
+    wgsl: include_str!("../wgsl/sh4/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_y.glsl"),
+};
+
+/// `lf5:4:rgb`.
+pub const SH4_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:4:rgb",
+    name: "sh4_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:4:loop`.
+pub const SH4_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:4:loop",
+    name: "sh4_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh4/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:4:rgb:loop`.
+pub const SH4_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:4:rgb:loop",
+    name: "sh4_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh4/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:4:taylor1`.
+pub const SH4_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:4:taylor1",
+    name: "sh4_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh4/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor1_zyz.glsl"),
+};
+
+/// `rotate:4:taylor1:rgb`.
+pub const SH4_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:taylor1:rgb",
+    name: "sh4_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:4:taylor15`.
+pub const SH4_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:4:taylor15",
+    name: "sh4_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh4/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_zyz.glsl"),
+};
+
+/// `rotate:4:taylor15:rgb`.
+pub const SH4_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:taylor15:rgb",
+    name: "sh4_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:4:taylor2`.
+pub const SH4_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:4:taylor2",
+    name: "sh4_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh4/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor2_zyz.glsl"),
+};
+
+/// `rotate:4:taylor2:rgb`.
+pub const SH4_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:taylor2:rgb",
+    name: "sh4_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:4:lf3`.
+pub const SH4_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:4:lf3",
+    name: "sh4_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh4/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf3_zyz.glsl"),
+};
+
+/// `rotate:4:lf3:rgb`.
+pub const SH4_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:lf3:rgb",
+    name: "sh4_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:4:lf5`.
+pub const SH4_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:4:lf5",
+    name: "sh4_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh4/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_zyz.glsl"),
+};
+
+/// `rotate:4:lf5:rgb`.
+pub const SH4_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:4:lf5:rgb",
+    name: "sh4_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:4`.
+pub const SH4_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:4",
+    name: "sh4_rotate_small",
+    wgsl: include_str!("../wgsl/sh4/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_small.glsl"),
+};
+
+/// `rotate_small:4:rgb`.
+pub const SH4_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:4:rgb",
+    name: "sh4_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:4:lf5`.
+pub const SH4_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:4:lf5",
+    name: "sh4_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:4:lf5:rgb`.
+pub const SH4_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:4:lf5:rgb",
+    name: "sh4_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:4`.
+pub const SH4_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:4",
+    name: "sh4_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh4/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:4:rgb`.
+pub const SH4_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:4:rgb",
+    name: "sh4_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh4/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:4`.
+pub const SH4_ZHF: Shader = Shader {
+    spec: "zhf:4",
+    name: "sh4_zhf",
+    wgsl: include_str!("../wgsl/sh4/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf.glsl"),
+};
+
+/// `zhf:4:rgb`.
+pub const SH4_ZHF_RGB: Shader = Shader {
+    spec: "zhf:4:rgb",
+    name: "sh4_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh4/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:4`.
+pub const SH4_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:4",
+    name: "sh4_zhf_weights",
+    wgsl: include_str!("../wgsl/sh4/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:4:rgb`.
+pub const SH4_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:4:rgb",
+    name: "sh4_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh4/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:4`.
+pub const SH4_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:4",
+    name: "sh4_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh4/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:4:rgb`.
+pub const SH4_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:4:rgb",
+    name: "sh4_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh4/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh4/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:4`.
@@ -1263,542 +1799,6 @@ pub const SH4_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh4/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:4`.
-pub const SH4_ROTATE: Shader = Shader {
-    spec: "rotate:4",
-    name: "sh4_rotate",
-    wgsl: include_str!("../wgsl/sh4/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate.glsl"),
-};
-
-/// `rotate:4:rgb`.
-pub const SH4_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:4:rgb",
-    name: "sh4_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_rgb.glsl"),
-};
-
-/// `rotate:4:euler`.
-pub const SH4_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:4:euler",
-    name: "sh4_rotate_euler",
-    wgsl: include_str!("../wgsl/sh4/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_euler.glsl"),
-};
-
-/// `rotate:4:euler:rgb`.
-pub const SH4_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:4:euler:rgb",
-    name: "sh4_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:4:angles`.
-pub const SH4_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:4:angles",
-    name: "sh4_rotate_angles",
-    wgsl: include_str!("../wgsl/sh4/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_angles.glsl"),
-};
-
-/// `rotate:4:angles:rgb`.
-pub const SH4_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:4:angles:rgb",
-    name: "sh4_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:4:zxzxz`.
-pub const SH4_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:4:zxzxz",
-    name: "sh4_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh4/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:4:zxzxz:rgb`.
-pub const SH4_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:4:zxzxz:rgb",
-    name: "sh4_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:4:align`.
-pub const SH4_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:4:align",
-    name: "sh4_rotate_align",
-    wgsl: include_str!("../wgsl/sh4/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_align.glsl"),
-};
-
-/// `rotate:4:align:rgb`.
-pub const SH4_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:4:align:rgb",
-    name: "sh4_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:4:zonal`.
-pub const SH4_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:4:zonal",
-    name: "sh4_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh4/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_zonal.glsl"),
-};
-
-/// `rotate:4:zonal:rgb`.
-pub const SH4_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:4:zonal:rgb",
-    name: "sh4_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:4`.
-pub const SH4_TILT: Shader = Shader {
-    spec: "tilt:4",
-    name: "sh4_tilt",
-    wgsl: include_str!("../wgsl/sh4/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt.glsl"),
-};
-
-/// `tilt:4:rgb`.
-pub const SH4_TILT_RGB: Shader = Shader {
-    spec: "tilt:4:rgb",
-    name: "sh4_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh4/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:4`.
-pub const SH4_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:4",
-    name: "sh4_rotate_small",
-    wgsl: include_str!("../wgsl/sh4/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_small.glsl"),
-};
-
-/// `rotate_small:4:rgb`.
-pub const SH4_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:4:rgb",
-    name: "sh4_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:4`.
-pub const SH4_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:4",
-    name: "sh4_eval_monomial",
-    wgsl: include_str!("../wgsl/sh4/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh4/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:4:rgb`.
-pub const SH4_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:4:rgb",
-    name: "sh4_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh4/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:4`.
-pub const SH4_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:4",
-    name: "sh4_to_monomial",
-    wgsl: include_str!("../wgsl/sh4/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh4/to_monomial.glsl"),
-};
-
-/// `to_monomial:4:rgb`.
-pub const SH4_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:4:rgb",
-    name: "sh4_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh4/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:4`.
-pub const SH4_ZHF: Shader = Shader {
-    spec: "zhf:4",
-    name: "sh4_zhf",
-    wgsl: include_str!("../wgsl/sh4/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf.glsl"),
-};
-
-/// `zhf:4:rgb`.
-pub const SH4_ZHF_RGB: Shader = Shader {
-    spec: "zhf:4:rgb",
-    name: "sh4_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh4/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:4`.
-pub const SH4_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:4",
-    name: "sh4_zhf_weights",
-    wgsl: include_str!("../wgsl/sh4/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:4:rgb`.
-pub const SH4_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:4:rgb",
-    name: "sh4_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh4/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:4`.
-pub const SH4_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:4",
-    name: "sh4_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh4/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:4:rgb`.
-pub const SH4_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:4:rgb",
-    name: "sh4_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh4/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:4`.
-pub const SH4_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:4",
-    name: "sh4_taylor1_y",
-    wgsl: include_str!("../wgsl/sh4/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor1_y.glsl"),
-};
-
-/// `taylor1:4:rgb`.
-pub const SH4_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:4:rgb",
-    name: "sh4_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:4:taylor1`.
-pub const SH4_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:4:taylor1",
-    name: "sh4_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh4/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor1_zyz.glsl"),
-};
-
-/// `rotate:4:taylor1:rgb`.
-pub const SH4_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:4:taylor1:rgb",
-    name: "sh4_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:4`.
-pub const SH4_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:4",
-    name: "sh4_taylor15_y",
-    wgsl: include_str!("../wgsl/sh4/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_y.glsl"),
-};
-
-/// `taylor15:4:rgb`.
-pub const SH4_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:4:rgb",
-    name: "sh4_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:4:taylor15`.
-pub const SH4_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:4:taylor15",
-    name: "sh4_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh4/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_zyz.glsl"),
-};
-
-/// `rotate:4:taylor15:rgb`.
-pub const SH4_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:4:taylor15:rgb",
-    name: "sh4_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:4`.
-pub const SH4_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:4",
-    name: "sh4_taylor2_y",
-    wgsl: include_str!("../wgsl/sh4/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor2_y.glsl"),
-};
-
-/// `taylor2:4:rgb`.
-pub const SH4_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:4:rgb",
-    name: "sh4_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:4:taylor2`.
-pub const SH4_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:4:taylor2",
-    name: "sh4_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh4/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor2_zyz.glsl"),
-};
-
-/// `rotate:4:taylor2:rgb`.
-pub const SH4_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:4:taylor2:rgb",
-    name: "sh4_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh4/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:4`.
-pub const SH4_LF3_Y: Shader = Shader {
-    spec: "lf3:4",
-    name: "sh4_lf3_y",
-    wgsl: include_str!("../wgsl/sh4/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf3_y.glsl"),
-};
-
-/// `lf3:4:rgb`.
-pub const SH4_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:4:rgb",
-    name: "sh4_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:4:lf3`.
-pub const SH4_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:4:lf3",
-    name: "sh4_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh4/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf3_zyz.glsl"),
-};
-
-/// `rotate:4:lf3:rgb`.
-pub const SH4_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:4:lf3:rgb",
-    name: "sh4_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:4`.
-pub const SH4_LF5_Y: Shader = Shader {
-    spec: "lf5:4",
-    name: "sh4_lf5_y",
-    wgsl: include_str!("../wgsl/sh4/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_y.glsl"),
-};
-
-/// `lf5:4:rgb`.
-pub const SH4_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:4:rgb",
-    name: "sh4_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:4:lf5`.
-pub const SH4_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:4:lf5",
-    name: "sh4_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh4/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_zyz.glsl"),
-};
-
-/// `rotate:4:lf5:rgb`.
-pub const SH4_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:4:lf5:rgb",
-    name: "sh4_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:4:lifted`.
-pub const SH4_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:4:lifted",
-    name: "sh4_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh4/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_lifted.glsl"),
-};
-
-/// `rotate:4:lifted:rgb`.
-pub const SH4_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:4:lifted:rgb",
-    name: "sh4_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:4`.
-pub const SH4_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:4",
-    name: "sh4_tilt_scale",
-    wgsl: include_str!("../wgsl/sh4/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:4:rgb`.
-pub const SH4_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:4:rgb",
-    name: "sh4_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh4/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:4`.
-pub const SH4_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:4",
-    name: "sh4_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh4/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:4:rgb`.
-pub const SH4_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:4:rgb",
-    name: "sh4_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh4/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:4`.
-pub const SH4_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:4",
-    name: "sh4_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh4/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:4:rgb`.
-pub const SH4_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:4:rgb",
-    name: "sh4_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh4/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:4:lf5`.
-pub const SH4_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:4:lf5",
-    name: "sh4_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:4:lf5:rgb`.
-pub const SH4_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:4:lf5:rgb",
-    name: "sh4_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:4:lf5`.
-pub const SH4_LF5_TILT: Shader = Shader {
-    spec: "tilt:4:lf5",
-    name: "sh4_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh4/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_tilt.glsl"),
-};
-
-/// `tilt:4:lf5:rgb`.
-pub const SH4_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:4:lf5:rgb",
-    name: "sh4_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:4:lf5`.
-pub const SH4_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:4:lf5",
-    name: "sh4_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:4:lf5:rgb`.
-pub const SH4_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:4:lf5:rgb",
-    name: "sh4_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh4/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:4`.
-pub const SH4_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:4",
-    name: "sh4_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh4/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:4:rgb`.
-pub const SH4_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:4:rgb",
-    name: "sh4_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh4/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:4:loop`.
-pub const SH4_BASIS_LOOP: Shader = Shader {
-    spec: "basis:4:loop",
-    name: "sh4_basis_loop",
-    wgsl: include_str!("../wgsl/sh4/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh4/basis_loop.glsl"),
-};
-
-/// `rotate:4:loop`.
-pub const SH4_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:4:loop",
-    name: "sh4_rotate_loop",
-    wgsl: include_str!("../wgsl/sh4/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_loop.glsl"),
-};
-
-/// `rotate:4:rgb:loop`.
-pub const SH4_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:4:rgb:loop",
-    name: "sh4_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh4/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh4/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:4:loop`.
-pub const SH4_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:4:loop",
-    name: "sh4_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh4/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:4:rgb:loop`.
-pub const SH4_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:4:rgb:loop",
-    name: "sh4_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh4/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh4/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:5`.
 pub const SH5_BASIS: Shader = Shader {
     spec: "basis:5",
@@ -1807,20 +1807,12 @@ pub const SH5_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh5/basis.glsl"),
 };
 
-/// `angles:5`.
-pub const SH5_ANGLES: Shader = Shader {
-    spec: "angles:5",
-    name: "sh5_angles",
-    wgsl: include_str!("../wgsl/sh5/angles.wgsl"),
-    glsl: include_str!("../glsl/sh5/angles.glsl"),
-};
-
-/// `lifted:5`.
-pub const SH5_LIFTED: Shader = Shader {
-    spec: "lifted:5",
-    name: "sh5_lifted",
-    wgsl: include_str!("../wgsl/sh5/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh5/lifted.glsl"),
+/// `basis:5:loop`.
+pub const SH5_BASIS_LOOP: Shader = Shader {
+    spec: "basis:5:loop",
+    name: "sh5_basis_loop",
+    wgsl: include_str!("../wgsl/sh5/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh5/basis_loop.glsl"),
 };
 
 /// `eval:5`.
@@ -1837,6 +1829,574 @@ pub const SH5_EVAL_RGB: Shader = Shader {
     name: "sh5_eval_rgb",
     wgsl: include_str!("../wgsl/sh5/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh5/eval_rgb.glsl"),
+};
+
+/// `eval:5:bands=0+1+2+4`.
+pub const SH5_BANDS_0_1_2_4_EVAL: Shader = Shader {
+    spec: "eval:5:bands=0+1+2+4",
+    name: "sh5_bands_0_1_2_4_eval",
+    wgsl: include_str!("../wgsl/sh5/bands_0_1_2_4_eval.wgsl"),
+    glsl: include_str!("../glsl/sh5/bands_0_1_2_4_eval.glsl"),
+};
+
+/// `eval:5:bands=0+1+2+4:rgb`.
+pub const SH5_BANDS_0_1_2_4_EVAL_RGB: Shader = Shader {
+    spec: "eval:5:bands=0+1+2+4:rgb",
+    name: "sh5_bands_0_1_2_4_eval_rgb",
+    wgsl: include_str!("../wgsl/sh5/bands_0_1_2_4_eval_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/bands_0_1_2_4_eval_rgb.glsl"),
+};
+
+/// `eval_monomial:5`.
+pub const SH5_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:5",
+    name: "sh5_eval_monomial",
+    wgsl: include_str!("../wgsl/sh5/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh5/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:5:rgb`.
+pub const SH5_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:5:rgb",
+    name: "sh5_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh5/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:5`.
+pub const SH5_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:5",
+    name: "sh5_to_monomial",
+    wgsl: include_str!("../wgsl/sh5/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh5/to_monomial.glsl"),
+};
+
+/// `to_monomial:5:rgb`.
+pub const SH5_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:5:rgb",
+    name: "sh5_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh5/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:5`.
+pub const SH5_ROTATE: Shader = Shader {
+    spec: "rotate:5",
+    name: "sh5_rotate",
+    wgsl: include_str!("../wgsl/sh5/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate.glsl"),
+};
+
+/// `rotate:5:rgb`.
+pub const SH5_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:5:rgb",
+    name: "sh5_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_rgb.glsl"),
+};
+
+/// `rotate:5:loop`.
+pub const SH5_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:5:loop",
+    name: "sh5_rotate_loop",
+    wgsl: include_str!("../wgsl/sh5/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_loop.glsl"),
+};
+
+/// `rotate:5:rgb:loop`.
+pub const SH5_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:5:rgb:loop",
+    name: "sh5_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh5/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:5:euler`.
+pub const SH5_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:5:euler",
+    name: "sh5_rotate_euler",
+    wgsl: include_str!("../wgsl/sh5/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_euler.glsl"),
+};
+
+/// `rotate:5:euler:rgb`.
+pub const SH5_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:5:euler:rgb",
+    name: "sh5_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:5`.
+pub const SH5_ANGLES: Shader = Shader {
+    spec: "angles:5",
+    name: "sh5_angles",
+    wgsl: include_str!("../wgsl/sh5/angles.wgsl"),
+    glsl: include_str!("../glsl/sh5/angles.glsl"),
+};
+
+/// `rotate:5:angles`.
+pub const SH5_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:5:angles",
+    name: "sh5_rotate_angles",
+    wgsl: include_str!("../wgsl/sh5/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_angles.glsl"),
+};
+
+/// `rotate:5:angles:rgb`.
+pub const SH5_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:5:angles:rgb",
+    name: "sh5_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:5`.
+pub const SH5_LIFTED: Shader = Shader {
+    spec: "lifted:5",
+    name: "sh5_lifted",
+    wgsl: include_str!("../wgsl/sh5/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/lifted.glsl"),
+};
+
+/// `rotate:5:lifted`.
+pub const SH5_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:5:lifted",
+    name: "sh5_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
+};
+
+/// `rotate:5:lifted:rgb`.
+pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:5:lifted:rgb",
+    name: "sh5_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:5:zxzxz`.
+pub const SH5_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:5:zxzxz",
+    name: "sh5_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh5/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:5:zxzxz:rgb`.
+pub const SH5_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:5:zxzxz:rgb",
+    name: "sh5_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:5:align`.
+pub const SH5_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:5:align",
+    name: "sh5_rotate_align",
+    wgsl: include_str!("../wgsl/sh5/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_align.glsl"),
+};
+
+/// `rotate:5:align:rgb`.
+pub const SH5_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:5:align:rgb",
+    name: "sh5_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:5:zonal`.
+pub const SH5_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:5:zonal",
+    name: "sh5_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh5/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_zonal.glsl"),
+};
+
+/// `rotate:5:zonal:rgb`.
+pub const SH5_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:5:zonal:rgb",
+    name: "sh5_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:5`.
+pub const SH5_TILT: Shader = Shader {
+    spec: "tilt:5",
+    name: "sh5_tilt",
+    wgsl: include_str!("../wgsl/sh5/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt.glsl"),
+};
+
+/// `tilt:5:rgb`.
+pub const SH5_TILT_RGB: Shader = Shader {
+    spec: "tilt:5:rgb",
+    name: "sh5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_rgb.glsl"),
+};
+
+/// `tilt:5:lf5`.
+pub const SH5_LF5_TILT: Shader = Shader {
+    spec: "tilt:5:lf5",
+    name: "sh5_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt.glsl"),
+};
+
+/// `tilt:5:lf5:rgb`.
+pub const SH5_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:5:lf5:rgb",
+    name: "sh5_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:5`.
+pub const SH5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:5",
+    name: "sh5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh5/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:5:rgb`.
+pub const SH5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:5:rgb",
+    name: "sh5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:5:lf5`.
+pub const SH5_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:5:lf5",
+    name: "sh5_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:5:lf5:rgb`.
+pub const SH5_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:5:lf5:rgb",
+    name: "sh5_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:5`.
+pub const SH5_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:5",
+    name: "sh5_tilt_scale",
+    wgsl: include_str!("../wgsl/sh5/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:5:rgb`.
+pub const SH5_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:5:rgb",
+    name: "sh5_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:5`.
+pub const SH5_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:5",
+    name: "sh5_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh5/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:5:rgb`.
+pub const SH5_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:5:rgb",
+    name: "sh5_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh5/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:5`.
+pub const SH5_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:5",
+    name: "sh5_taylor1_y",
+    wgsl: include_str!("../wgsl/sh5/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor1_y.glsl"),
+};
+
+/// `taylor1:5:rgb`.
+pub const SH5_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:5:rgb",
+    name: "sh5_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:5`.
+pub const SH5_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:5",
+    name: "sh5_taylor15_y",
+    wgsl: include_str!("../wgsl/sh5/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_y.glsl"),
+};
+
+/// `taylor15:5:rgb`.
+pub const SH5_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:5:rgb",
+    name: "sh5_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:5`.
+pub const SH5_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:5",
+    name: "sh5_taylor2_y",
+    wgsl: include_str!("../wgsl/sh5/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor2_y.glsl"),
+};
+
+/// `taylor2:5:rgb`.
+pub const SH5_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:5:rgb",
+    name: "sh5_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:5`.
+pub const SH5_LF3_Y: Shader = Shader {
+    spec: "lf3:5",
+    name: "sh5_lf3_y",
+    wgsl: include_str!("../wgsl/sh5/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf3_y.glsl"),
+};
+
+/// `lf3:5:rgb`.
+pub const SH5_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:5:rgb",
+    name: "sh5_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:5`.
+pub const SH5_LF5_Y: Shader = Shader {
+    spec: "lf5:5",
+    name: "sh5_lf5_y",
+    wgsl: include_str!("../wgsl/sh5/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_y.glsl"),
+};
+
+/// `lf5:5:rgb`.
+pub const SH5_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:5:rgb",
+    name: "sh5_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_y_rgb.glsl"),
+};
+
+/// `mix:5:taylor15+taylor15+taylor15+taylor1`.
+pub const SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y: Shader = Shader {
+    spec: "mix:5:taylor15+taylor15+taylor15+taylor1",
+    name: "sh5_taylor15_taylor15_taylor15_taylor1_y",
+    wgsl: include_str!("../wgsl/sh5/taylor15_taylor15_taylor15_taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_taylor15_taylor15_taylor1_y.glsl"),
+};
+
+/// `taylor15:5:loop`.
+pub const SH5_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:5:loop",
+    name: "sh5_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh5/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:5:rgb:loop`.
+pub const SH5_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:5:rgb:loop",
+    name: "sh5_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh5/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:5:taylor1`.
+pub const SH5_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:5:taylor1",
+    name: "sh5_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh5/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor1_zyz.glsl"),
+};
+
+/// `rotate:5:taylor1:rgb`.
+pub const SH5_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:taylor1:rgb",
+    name: "sh5_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:5:taylor15`.
+pub const SH5_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:5:taylor15",
+    name: "sh5_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh5/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_zyz.glsl"),
+};
+
+/// `rotate:5:taylor15:rgb`.
+pub const SH5_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:taylor15:rgb",
+    name: "sh5_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:5:taylor2`.
+pub const SH5_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:5:taylor2",
+    name: "sh5_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh5/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor2_zyz.glsl"),
+};
+
+/// `rotate:5:taylor2:rgb`.
+pub const SH5_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:taylor2:rgb",
+    name: "sh5_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:5:lf3`.
+pub const SH5_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:5:lf3",
+    name: "sh5_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh5/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf3_zyz.glsl"),
+};
+
+/// `rotate:5:lf3:rgb`.
+pub const SH5_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:lf3:rgb",
+    name: "sh5_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:5:lf5`.
+pub const SH5_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:5:lf5",
+    name: "sh5_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh5/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_zyz.glsl"),
+};
+
+/// `rotate:5:lf5:rgb`.
+pub const SH5_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:5:lf5:rgb",
+    name: "sh5_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:5`.
+pub const SH5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:5",
+    name: "sh5_rotate_small",
+    wgsl: include_str!("../wgsl/sh5/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_small.glsl"),
+};
+
+/// `rotate_small:5:rgb`.
+pub const SH5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:5:rgb",
+    name: "sh5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:5:lf5`.
+pub const SH5_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:5:lf5",
+    name: "sh5_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:5:lf5:rgb`.
+pub const SH5_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:5:lf5:rgb",
+    name: "sh5_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:5`.
+pub const SH5_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:5",
+    name: "sh5_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh5/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:5:rgb`.
+pub const SH5_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:5:rgb",
+    name: "sh5_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh5/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:5`.
+pub const SH5_ZHF: Shader = Shader {
+    spec: "zhf:5",
+    name: "sh5_zhf",
+    wgsl: include_str!("../wgsl/sh5/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf.glsl"),
+};
+
+/// `zhf:5:rgb`.
+pub const SH5_ZHF_RGB: Shader = Shader {
+    spec: "zhf:5:rgb",
+    name: "sh5_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh5/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:5`.
+pub const SH5_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:5",
+    name: "sh5_zhf_weights",
+    wgsl: include_str!("../wgsl/sh5/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:5:rgb`.
+pub const SH5_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:5:rgb",
+    name: "sh5_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh5/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:5`.
+pub const SH5_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:5",
+    name: "sh5_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh5/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:5:rgb`.
+pub const SH5_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:5:rgb",
+    name: "sh5_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh5/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh5/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:5`.
@@ -1919,566 +2479,6 @@ pub const SH5_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh5/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:5`.
-pub const SH5_ROTATE: Shader = Shader {
-    spec: "rotate:5",
-    name: "sh5_rotate",
-    wgsl: include_str!("../wgsl/sh5/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate.glsl"),
-};
-
-/// `rotate:5:rgb`.
-pub const SH5_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:5:rgb",
-    name: "sh5_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_rgb.glsl"),
-};
-
-/// `rotate:5:euler`.
-pub const SH5_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:5:euler",
-    name: "sh5_rotate_euler",
-    wgsl: include_str!("../wgsl/sh5/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_euler.glsl"),
-};
-
-/// `rotate:5:euler:rgb`.
-pub const SH5_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:5:euler:rgb",
-    name: "sh5_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:5:angles`.
-pub const SH5_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:5:angles",
-    name: "sh5_rotate_angles",
-    wgsl: include_str!("../wgsl/sh5/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_angles.glsl"),
-};
-
-/// `rotate:5:angles:rgb`.
-pub const SH5_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:5:angles:rgb",
-    name: "sh5_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:5:zxzxz`.
-pub const SH5_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:5:zxzxz",
-    name: "sh5_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh5/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:5:zxzxz:rgb`.
-pub const SH5_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:5:zxzxz:rgb",
-    name: "sh5_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:5:align`.
-pub const SH5_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:5:align",
-    name: "sh5_rotate_align",
-    wgsl: include_str!("../wgsl/sh5/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_align.glsl"),
-};
-
-/// `rotate:5:align:rgb`.
-pub const SH5_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:5:align:rgb",
-    name: "sh5_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:5:zonal`.
-pub const SH5_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:5:zonal",
-    name: "sh5_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh5/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_zonal.glsl"),
-};
-
-/// `rotate:5:zonal:rgb`.
-pub const SH5_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:5:zonal:rgb",
-    name: "sh5_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:5`.
-pub const SH5_TILT: Shader = Shader {
-    spec: "tilt:5",
-    name: "sh5_tilt",
-    wgsl: include_str!("../wgsl/sh5/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt.glsl"),
-};
-
-/// `tilt:5:rgb`.
-pub const SH5_TILT_RGB: Shader = Shader {
-    spec: "tilt:5:rgb",
-    name: "sh5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh5/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:5`.
-pub const SH5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:5",
-    name: "sh5_rotate_small",
-    wgsl: include_str!("../wgsl/sh5/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_small.glsl"),
-};
-
-/// `rotate_small:5:rgb`.
-pub const SH5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:5:rgb",
-    name: "sh5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:5`.
-pub const SH5_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:5",
-    name: "sh5_eval_monomial",
-    wgsl: include_str!("../wgsl/sh5/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh5/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:5:rgb`.
-pub const SH5_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:5:rgb",
-    name: "sh5_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh5/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:5`.
-pub const SH5_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:5",
-    name: "sh5_to_monomial",
-    wgsl: include_str!("../wgsl/sh5/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh5/to_monomial.glsl"),
-};
-
-/// `to_monomial:5:rgb`.
-pub const SH5_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:5:rgb",
-    name: "sh5_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh5/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:5`.
-pub const SH5_ZHF: Shader = Shader {
-    spec: "zhf:5",
-    name: "sh5_zhf",
-    wgsl: include_str!("../wgsl/sh5/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf.glsl"),
-};
-
-/// `zhf:5:rgb`.
-pub const SH5_ZHF_RGB: Shader = Shader {
-    spec: "zhf:5:rgb",
-    name: "sh5_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh5/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:5`.
-pub const SH5_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:5",
-    name: "sh5_zhf_weights",
-    wgsl: include_str!("../wgsl/sh5/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:5:rgb`.
-pub const SH5_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:5:rgb",
-    name: "sh5_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh5/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:5`.
-pub const SH5_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:5",
-    name: "sh5_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh5/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:5:rgb`.
-pub const SH5_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:5:rgb",
-    name: "sh5_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh5/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:5`.
-pub const SH5_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:5",
-    name: "sh5_taylor1_y",
-    wgsl: include_str!("../wgsl/sh5/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor1_y.glsl"),
-};
-
-/// `taylor1:5:rgb`.
-pub const SH5_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:5:rgb",
-    name: "sh5_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:5:taylor1`.
-pub const SH5_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:5:taylor1",
-    name: "sh5_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh5/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor1_zyz.glsl"),
-};
-
-/// `rotate:5:taylor1:rgb`.
-pub const SH5_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:5:taylor1:rgb",
-    name: "sh5_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:5`.
-pub const SH5_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:5",
-    name: "sh5_taylor15_y",
-    wgsl: include_str!("../wgsl/sh5/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_y.glsl"),
-};
-
-/// `taylor15:5:rgb`.
-pub const SH5_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:5:rgb",
-    name: "sh5_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:5:taylor15`.
-pub const SH5_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:5:taylor15",
-    name: "sh5_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh5/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_zyz.glsl"),
-};
-
-/// `rotate:5:taylor15:rgb`.
-pub const SH5_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:5:taylor15:rgb",
-    name: "sh5_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:5`.
-pub const SH5_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:5",
-    name: "sh5_taylor2_y",
-    wgsl: include_str!("../wgsl/sh5/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor2_y.glsl"),
-};
-
-/// `taylor2:5:rgb`.
-pub const SH5_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:5:rgb",
-    name: "sh5_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:5:taylor2`.
-pub const SH5_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:5:taylor2",
-    name: "sh5_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh5/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor2_zyz.glsl"),
-};
-
-/// `rotate:5:taylor2:rgb`.
-pub const SH5_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:5:taylor2:rgb",
-    name: "sh5_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh5/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:5`.
-pub const SH5_LF3_Y: Shader = Shader {
-    spec: "lf3:5",
-    name: "sh5_lf3_y",
-    wgsl: include_str!("../wgsl/sh5/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf3_y.glsl"),
-};
-
-/// `lf3:5:rgb`.
-pub const SH5_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:5:rgb",
-    name: "sh5_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:5:lf3`.
-pub const SH5_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:5:lf3",
-    name: "sh5_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh5/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf3_zyz.glsl"),
-};
-
-/// `rotate:5:lf3:rgb`.
-pub const SH5_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:5:lf3:rgb",
-    name: "sh5_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:5`.
-pub const SH5_LF5_Y: Shader = Shader {
-    spec: "lf5:5",
-    name: "sh5_lf5_y",
-    wgsl: include_str!("../wgsl/sh5/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_y.glsl"),
-};
-
-/// `lf5:5:rgb`.
-pub const SH5_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:5:rgb",
-    name: "sh5_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:5:lf5`.
-pub const SH5_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:5:lf5",
-    name: "sh5_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh5/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_zyz.glsl"),
-};
-
-/// `rotate:5:lf5:rgb`.
-pub const SH5_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:5:lf5:rgb",
-    name: "sh5_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:5:lifted`.
-pub const SH5_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:5:lifted",
-    name: "sh5_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh5/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_lifted.glsl"),
-};
-
-/// `rotate:5:lifted:rgb`.
-pub const SH5_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:5:lifted:rgb",
-    name: "sh5_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:5`.
-pub const SH5_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:5",
-    name: "sh5_tilt_scale",
-    wgsl: include_str!("../wgsl/sh5/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:5:rgb`.
-pub const SH5_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:5:rgb",
-    name: "sh5_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh5/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:5`.
-pub const SH5_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:5",
-    name: "sh5_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh5/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:5:rgb`.
-pub const SH5_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:5:rgb",
-    name: "sh5_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh5/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:5`.
-pub const SH5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:5",
-    name: "sh5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh5/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:5:rgb`.
-pub const SH5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:5:rgb",
-    name: "sh5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh5/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:5:lf5`.
-pub const SH5_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:5:lf5",
-    name: "sh5_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:5:lf5:rgb`.
-pub const SH5_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:5:lf5:rgb",
-    name: "sh5_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:5:lf5`.
-pub const SH5_LF5_TILT: Shader = Shader {
-    spec: "tilt:5:lf5",
-    name: "sh5_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh5/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_tilt.glsl"),
-};
-
-/// `tilt:5:lf5:rgb`.
-pub const SH5_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:5:lf5:rgb",
-    name: "sh5_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:5:lf5`.
-pub const SH5_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:5:lf5",
-    name: "sh5_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:5:lf5:rgb`.
-pub const SH5_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:5:lf5:rgb",
-    name: "sh5_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh5/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:5`.
-pub const SH5_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:5",
-    name: "sh5_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh5/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:5:rgb`.
-pub const SH5_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:5:rgb",
-    name: "sh5_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh5/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_adaptive_rgb.glsl"),
-};
-
-/// `eval:5:bands=0+1+2+4`.
-pub const SH5_BANDS_0_1_2_4_EVAL: Shader = Shader {
-    spec: "eval:5:bands=0+1+2+4",
-    name: "sh5_bands_0_1_2_4_eval",
-    wgsl: include_str!("../wgsl/sh5/bands_0_1_2_4_eval.wgsl"),
-    glsl: include_str!("../glsl/sh5/bands_0_1_2_4_eval.glsl"),
-};
-
-/// `eval:5:bands=0+1+2+4:rgb`.
-pub const SH5_BANDS_0_1_2_4_EVAL_RGB: Shader = Shader {
-    spec: "eval:5:bands=0+1+2+4:rgb",
-    name: "sh5_bands_0_1_2_4_eval_rgb",
-    wgsl: include_str!("../wgsl/sh5/bands_0_1_2_4_eval_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh5/bands_0_1_2_4_eval_rgb.glsl"),
-};
-
-/// `mix:5:taylor15+taylor15+taylor15+taylor1`.
-pub const SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y: Shader = Shader {
-    spec: "mix:5:taylor15+taylor15+taylor15+taylor1",
-    name: "sh5_taylor15_taylor15_taylor15_taylor1_y",
-    wgsl: include_str!("../wgsl/sh5/taylor15_taylor15_taylor15_taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_taylor15_taylor15_taylor1_y.glsl"),
-};
-
-/// `basis:5:loop`.
-pub const SH5_BASIS_LOOP: Shader = Shader {
-    spec: "basis:5:loop",
-    name: "sh5_basis_loop",
-    wgsl: include_str!("../wgsl/sh5/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh5/basis_loop.glsl"),
-};
-
-/// `rotate:5:loop`.
-pub const SH5_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:5:loop",
-    name: "sh5_rotate_loop",
-    wgsl: include_str!("../wgsl/sh5/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_loop.glsl"),
-};
-
-/// `rotate:5:rgb:loop`.
-pub const SH5_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:5:rgb:loop",
-    name: "sh5_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh5/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh5/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:5:loop`.
-pub const SH5_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:5:loop",
-    name: "sh5_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh5/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:5:rgb:loop`.
-pub const SH5_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:5:rgb:loop",
-    name: "sh5_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh5/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh5/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:6`.
 pub const SH6_BASIS: Shader = Shader {
     spec: "basis:6",
@@ -2487,20 +2487,12 @@ pub const SH6_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh6/basis.glsl"),
 };
 
-/// `angles:6`.
-pub const SH6_ANGLES: Shader = Shader {
-    spec: "angles:6",
-    name: "sh6_angles",
-    wgsl: include_str!("../wgsl/sh6/angles.wgsl"),
-    glsl: include_str!("../glsl/sh6/angles.glsl"),
-};
-
-/// `lifted:6`.
-pub const SH6_LIFTED: Shader = Shader {
-    spec: "lifted:6",
-    name: "sh6_lifted",
-    wgsl: include_str!("../wgsl/sh6/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh6/lifted.glsl"),
+/// `basis:6:loop`.
+pub const SH6_BASIS_LOOP: Shader = Shader {
+    spec: "basis:6:loop",
+    name: "sh6_basis_loop",
+    wgsl: include_str!("../wgsl/sh6/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh6/basis_loop.glsl"),
 };
 
 /// `eval:6`.
@@ -2517,6 +2509,550 @@ pub const SH6_EVAL_RGB: Shader = Shader {
     name: "sh6_eval_rgb",
     wgsl: include_str!("../wgsl/sh6/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh6/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:6`.
+pub const SH6_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:6",
+    name: "sh6_eval_monomial",
+    wgsl: include_str!("../wgsl/sh6/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh6/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:6:rgb`.
+pub const SH6_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:6:rgb",
+    name: "sh6_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh6/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:6`.
+pub const SH6_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:6",
+    name: "sh6_to_monomial",
+    wgsl: include_str!("../wgsl/sh6/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh6/to_monomial.glsl"),
+};
+
+/// `to_monomial:6:rgb`.
+pub const SH6_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:6:rgb",
+    name: "sh6_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh6/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:6`.
+pub const SH6_ROTATE: Shader = Shader {
+    spec: "rotate:6",
+    name: "sh6_rotate",
+    wgsl: include_str!("../wgsl/sh6/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate.glsl"),
+};
+
+/// `rotate:6:rgb`.
+pub const SH6_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:6:rgb",
+    name: "sh6_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_rgb.glsl"),
+};
+
+/// `rotate:6:loop`.
+pub const SH6_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:6:loop",
+    name: "sh6_rotate_loop",
+    wgsl: include_str!("../wgsl/sh6/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_loop.glsl"),
+};
+
+/// `rotate:6:rgb:loop`.
+pub const SH6_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:6:rgb:loop",
+    name: "sh6_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh6/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:6:euler`.
+pub const SH6_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:6:euler",
+    name: "sh6_rotate_euler",
+    wgsl: include_str!("../wgsl/sh6/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_euler.glsl"),
+};
+
+/// `rotate:6:euler:rgb`.
+pub const SH6_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:6:euler:rgb",
+    name: "sh6_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:6`.
+pub const SH6_ANGLES: Shader = Shader {
+    spec: "angles:6",
+    name: "sh6_angles",
+    wgsl: include_str!("../wgsl/sh6/angles.wgsl"),
+    glsl: include_str!("../glsl/sh6/angles.glsl"),
+};
+
+/// `rotate:6:angles`.
+pub const SH6_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:6:angles",
+    name: "sh6_rotate_angles",
+    wgsl: include_str!("../wgsl/sh6/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_angles.glsl"),
+};
+
+/// `rotate:6:angles:rgb`.
+pub const SH6_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:6:angles:rgb",
+    name: "sh6_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:6`.
+pub const SH6_LIFTED: Shader = Shader {
+    spec: "lifted:6",
+    name: "sh6_lifted",
+    wgsl: include_str!("../wgsl/sh6/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/lifted.glsl"),
+};
+
+/// `rotate:6:lifted`.
+pub const SH6_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:6:lifted",
+    name: "sh6_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
+};
+
+/// `rotate:6:lifted:rgb`.
+pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:6:lifted:rgb",
+    name: "sh6_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:6:zxzxz`.
+pub const SH6_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:6:zxzxz",
+    name: "sh6_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh6/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:6:zxzxz:rgb`.
+pub const SH6_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:6:zxzxz:rgb",
+    name: "sh6_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:6:align`.
+pub const SH6_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:6:align",
+    name: "sh6_rotate_align",
+    wgsl: include_str!("../wgsl/sh6/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_align.glsl"),
+};
+
+/// `rotate:6:align:rgb`.
+pub const SH6_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:6:align:rgb",
+    name: "sh6_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:6:zonal`.
+pub const SH6_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:6:zonal",
+    name: "sh6_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh6/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_zonal.glsl"),
+};
+
+/// `rotate:6:zonal:rgb`.
+pub const SH6_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:6:zonal:rgb",
+    name: "sh6_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:6`.
+pub const SH6_TILT: Shader = Shader {
+    spec: "tilt:6",
+    name: "sh6_tilt",
+    wgsl: include_str!("../wgsl/sh6/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt.glsl"),
+};
+
+/// `tilt:6:rgb`.
+pub const SH6_TILT_RGB: Shader = Shader {
+    spec: "tilt:6:rgb",
+    name: "sh6_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_rgb.glsl"),
+};
+
+/// `tilt:6:lf5`.
+pub const SH6_LF5_TILT: Shader = Shader {
+    spec: "tilt:6:lf5",
+    name: "sh6_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt.glsl"),
+};
+
+/// `tilt:6:lf5:rgb`.
+pub const SH6_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:6:lf5:rgb",
+    name: "sh6_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:6`.
+pub const SH6_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:6",
+    name: "sh6_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh6/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:6:rgb`.
+pub const SH6_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:6:rgb",
+    name: "sh6_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:6:lf5`.
+pub const SH6_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:6:lf5",
+    name: "sh6_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:6:lf5:rgb`.
+pub const SH6_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:6:lf5:rgb",
+    name: "sh6_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:6`.
+pub const SH6_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:6",
+    name: "sh6_tilt_scale",
+    wgsl: include_str!("../wgsl/sh6/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:6:rgb`.
+pub const SH6_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:6:rgb",
+    name: "sh6_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:6`.
+pub const SH6_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:6",
+    name: "sh6_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh6/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:6:rgb`.
+pub const SH6_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:6:rgb",
+    name: "sh6_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh6/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:6`.
+pub const SH6_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:6",
+    name: "sh6_taylor1_y",
+    wgsl: include_str!("../wgsl/sh6/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor1_y.glsl"),
+};
+
+/// `taylor1:6:rgb`.
+pub const SH6_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:6:rgb",
+    name: "sh6_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:6`.
+pub const SH6_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:6",
+    name: "sh6_taylor15_y",
+    wgsl: include_str!("../wgsl/sh6/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_y.glsl"),
+};
+
+/// `taylor15:6:rgb`.
+pub const SH6_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:6:rgb",
+    name: "sh6_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:6`.
+pub const SH6_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:6",
+    name: "sh6_taylor2_y",
+    wgsl: include_str!("../wgsl/sh6/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor2_y.glsl"),
+};
+
+/// `taylor2:6:rgb`.
+pub const SH6_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:6:rgb",
+    name: "sh6_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:6`.
+pub const SH6_LF3_Y: Shader = Shader {
+    spec: "lf3:6",
+    name: "sh6_lf3_y",
+    wgsl: include_str!("../wgsl/sh6/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf3_y.glsl"),
+};
+
+/// `lf3:6:rgb`.
+pub const SH6_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:6:rgb",
+    name: "sh6_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:6`.
+pub const SH6_LF5_Y: Shader = Shader {
+    spec: "lf5:6",
+    name: "sh6_lf5_y",
+    wgsl: include_str!("../wgsl/sh6/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_y.glsl"),
+};
+
+/// `lf5:6:rgb`.
+pub const SH6_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:6:rgb",
+    name: "sh6_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:6:loop`.
+pub const SH6_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:6:loop",
+    name: "sh6_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh6/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:6:rgb:loop`.
+pub const SH6_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:6:rgb:loop",
+    name: "sh6_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh6/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:6:taylor1`.
+pub const SH6_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:6:taylor1",
+    name: "sh6_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh6/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor1_zyz.glsl"),
+};
+
+/// `rotate:6:taylor1:rgb`.
+pub const SH6_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:taylor1:rgb",
+    name: "sh6_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:6:taylor15`.
+pub const SH6_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:6:taylor15",
+    name: "sh6_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh6/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_zyz.glsl"),
+};
+
+/// `rotate:6:taylor15:rgb`.
+pub const SH6_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:taylor15:rgb",
+    name: "sh6_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:6:taylor2`.
+pub const SH6_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:6:taylor2",
+    name: "sh6_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh6/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor2_zyz.glsl"),
+};
+
+/// `rotate:6:taylor2:rgb`.
+pub const SH6_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:taylor2:rgb",
+    name: "sh6_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:6:lf3`.
+pub const SH6_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:6:lf3",
+    name: "sh6_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh6/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf3_zyz.glsl"),
+};
+
+/// `rotate:6:lf3:rgb`.
+pub const SH6_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:lf3:rgb",
+    name: "sh6_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:6:lf5`.
+pub const SH6_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:6:lf5",
+    name: "sh6_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh6/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_zyz.glsl"),
+};
+
+/// `rotate:6:lf5:rgb`.
+pub const SH6_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:6:lf5:rgb",
+    name: "sh6_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:6`.
+pub const SH6_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:6",
+    name: "sh6_rotate_small",
+    wgsl: include_str!("../wgsl/sh6/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_small.glsl"),
+};
+
+/// `rotate_small:6:rgb`.
+pub const SH6_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:6:rgb",
+    name: "sh6_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:6:lf5`.
+pub const SH6_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:6:lf5",
+    name: "sh6_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:6:lf5:rgb`.
+pub const SH6_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:6:lf5:rgb",
+    name: "sh6_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:6`.
+pub const SH6_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:6",
+    name: "sh6_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh6/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:6:rgb`.
+pub const SH6_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:6:rgb",
+    name: "sh6_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh6/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:6`.
+pub const SH6_ZHF: Shader = Shader {
+    spec: "zhf:6",
+    name: "sh6_zhf",
+    wgsl: include_str!("../wgsl/sh6/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf.glsl"),
+};
+
+/// `zhf:6:rgb`.
+pub const SH6_ZHF_RGB: Shader = Shader {
+    spec: "zhf:6:rgb",
+    name: "sh6_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh6/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:6`.
+pub const SH6_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:6",
+    name: "sh6_zhf_weights",
+    wgsl: include_str!("../wgsl/sh6/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:6:rgb`.
+pub const SH6_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:6:rgb",
+    name: "sh6_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh6/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:6`.
+pub const SH6_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:6",
+    name: "sh6_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh6/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:6:rgb`.
+pub const SH6_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:6:rgb",
+    name: "sh6_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh6/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh6/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:6`.
@@ -2599,542 +3135,6 @@ pub const SH6_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh6/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:6`.
-pub const SH6_ROTATE: Shader = Shader {
-    spec: "rotate:6",
-    name: "sh6_rotate",
-    wgsl: include_str!("../wgsl/sh6/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate.glsl"),
-};
-
-/// `rotate:6:rgb`.
-pub const SH6_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:6:rgb",
-    name: "sh6_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_rgb.glsl"),
-};
-
-/// `rotate:6:euler`.
-pub const SH6_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:6:euler",
-    name: "sh6_rotate_euler",
-    wgsl: include_str!("../wgsl/sh6/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_euler.glsl"),
-};
-
-/// `rotate:6:euler:rgb`.
-pub const SH6_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:6:euler:rgb",
-    name: "sh6_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:6:angles`.
-pub const SH6_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:6:angles",
-    name: "sh6_rotate_angles",
-    wgsl: include_str!("../wgsl/sh6/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_angles.glsl"),
-};
-
-/// `rotate:6:angles:rgb`.
-pub const SH6_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:6:angles:rgb",
-    name: "sh6_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:6:zxzxz`.
-pub const SH6_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:6:zxzxz",
-    name: "sh6_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh6/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:6:zxzxz:rgb`.
-pub const SH6_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:6:zxzxz:rgb",
-    name: "sh6_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:6:align`.
-pub const SH6_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:6:align",
-    name: "sh6_rotate_align",
-    wgsl: include_str!("../wgsl/sh6/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_align.glsl"),
-};
-
-/// `rotate:6:align:rgb`.
-pub const SH6_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:6:align:rgb",
-    name: "sh6_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:6:zonal`.
-pub const SH6_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:6:zonal",
-    name: "sh6_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh6/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_zonal.glsl"),
-};
-
-/// `rotate:6:zonal:rgb`.
-pub const SH6_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:6:zonal:rgb",
-    name: "sh6_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:6`.
-pub const SH6_TILT: Shader = Shader {
-    spec: "tilt:6",
-    name: "sh6_tilt",
-    wgsl: include_str!("../wgsl/sh6/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt.glsl"),
-};
-
-/// `tilt:6:rgb`.
-pub const SH6_TILT_RGB: Shader = Shader {
-    spec: "tilt:6:rgb",
-    name: "sh6_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh6/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:6`.
-pub const SH6_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:6",
-    name: "sh6_rotate_small",
-    wgsl: include_str!("../wgsl/sh6/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_small.glsl"),
-};
-
-/// `rotate_small:6:rgb`.
-pub const SH6_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:6:rgb",
-    name: "sh6_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:6`.
-pub const SH6_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:6",
-    name: "sh6_eval_monomial",
-    wgsl: include_str!("../wgsl/sh6/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh6/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:6:rgb`.
-pub const SH6_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:6:rgb",
-    name: "sh6_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh6/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:6`.
-pub const SH6_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:6",
-    name: "sh6_to_monomial",
-    wgsl: include_str!("../wgsl/sh6/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh6/to_monomial.glsl"),
-};
-
-/// `to_monomial:6:rgb`.
-pub const SH6_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:6:rgb",
-    name: "sh6_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh6/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:6`.
-pub const SH6_ZHF: Shader = Shader {
-    spec: "zhf:6",
-    name: "sh6_zhf",
-    wgsl: include_str!("../wgsl/sh6/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf.glsl"),
-};
-
-/// `zhf:6:rgb`.
-pub const SH6_ZHF_RGB: Shader = Shader {
-    spec: "zhf:6:rgb",
-    name: "sh6_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh6/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:6`.
-pub const SH6_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:6",
-    name: "sh6_zhf_weights",
-    wgsl: include_str!("../wgsl/sh6/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:6:rgb`.
-pub const SH6_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:6:rgb",
-    name: "sh6_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh6/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:6`.
-pub const SH6_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:6",
-    name: "sh6_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh6/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:6:rgb`.
-pub const SH6_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:6:rgb",
-    name: "sh6_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh6/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:6`.
-pub const SH6_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:6",
-    name: "sh6_taylor1_y",
-    wgsl: include_str!("../wgsl/sh6/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor1_y.glsl"),
-};
-
-/// `taylor1:6:rgb`.
-pub const SH6_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:6:rgb",
-    name: "sh6_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:6:taylor1`.
-pub const SH6_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:6:taylor1",
-    name: "sh6_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh6/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor1_zyz.glsl"),
-};
-
-/// `rotate:6:taylor1:rgb`.
-pub const SH6_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:6:taylor1:rgb",
-    name: "sh6_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:6`.
-pub const SH6_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:6",
-    name: "sh6_taylor15_y",
-    wgsl: include_str!("../wgsl/sh6/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_y.glsl"),
-};
-
-/// `taylor15:6:rgb`.
-pub const SH6_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:6:rgb",
-    name: "sh6_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:6:taylor15`.
-pub const SH6_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:6:taylor15",
-    name: "sh6_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh6/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_zyz.glsl"),
-};
-
-/// `rotate:6:taylor15:rgb`.
-pub const SH6_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:6:taylor15:rgb",
-    name: "sh6_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:6`.
-pub const SH6_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:6",
-    name: "sh6_taylor2_y",
-    wgsl: include_str!("../wgsl/sh6/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor2_y.glsl"),
-};
-
-/// `taylor2:6:rgb`.
-pub const SH6_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:6:rgb",
-    name: "sh6_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:6:taylor2`.
-pub const SH6_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:6:taylor2",
-    name: "sh6_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh6/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor2_zyz.glsl"),
-};
-
-/// `rotate:6:taylor2:rgb`.
-pub const SH6_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:6:taylor2:rgb",
-    name: "sh6_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh6/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:6`.
-pub const SH6_LF3_Y: Shader = Shader {
-    spec: "lf3:6",
-    name: "sh6_lf3_y",
-    wgsl: include_str!("../wgsl/sh6/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf3_y.glsl"),
-};
-
-/// `lf3:6:rgb`.
-pub const SH6_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:6:rgb",
-    name: "sh6_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:6:lf3`.
-pub const SH6_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:6:lf3",
-    name: "sh6_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh6/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf3_zyz.glsl"),
-};
-
-/// `rotate:6:lf3:rgb`.
-pub const SH6_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:6:lf3:rgb",
-    name: "sh6_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:6`.
-pub const SH6_LF5_Y: Shader = Shader {
-    spec: "lf5:6",
-    name: "sh6_lf5_y",
-    wgsl: include_str!("../wgsl/sh6/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_y.glsl"),
-};
-
-/// `lf5:6:rgb`.
-pub const SH6_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:6:rgb",
-    name: "sh6_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:6:lf5`.
-pub const SH6_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:6:lf5",
-    name: "sh6_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh6/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_zyz.glsl"),
-};
-
-/// `rotate:6:lf5:rgb`.
-pub const SH6_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:6:lf5:rgb",
-    name: "sh6_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:6:lifted`.
-pub const SH6_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:6:lifted",
-    name: "sh6_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh6/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_lifted.glsl"),
-};
-
-/// `rotate:6:lifted:rgb`.
-pub const SH6_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:6:lifted:rgb",
-    name: "sh6_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:6`.
-pub const SH6_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:6",
-    name: "sh6_tilt_scale",
-    wgsl: include_str!("../wgsl/sh6/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:6:rgb`.
-pub const SH6_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:6:rgb",
-    name: "sh6_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh6/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:6`.
-pub const SH6_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:6",
-    name: "sh6_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh6/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:6:rgb`.
-pub const SH6_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:6:rgb",
-    name: "sh6_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh6/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:6`.
-pub const SH6_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:6",
-    name: "sh6_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh6/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:6:rgb`.
-pub const SH6_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:6:rgb",
-    name: "sh6_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh6/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:6:lf5`.
-pub const SH6_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:6:lf5",
-    name: "sh6_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:6:lf5:rgb`.
-pub const SH6_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:6:lf5:rgb",
-    name: "sh6_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:6:lf5`.
-pub const SH6_LF5_TILT: Shader = Shader {
-    spec: "tilt:6:lf5",
-    name: "sh6_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh6/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_tilt.glsl"),
-};
-
-/// `tilt:6:lf5:rgb`.
-pub const SH6_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:6:lf5:rgb",
-    name: "sh6_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:6:lf5`.
-pub const SH6_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:6:lf5",
-    name: "sh6_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:6:lf5:rgb`.
-pub const SH6_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:6:lf5:rgb",
-    name: "sh6_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh6/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:6`.
-pub const SH6_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:6",
-    name: "sh6_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh6/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:6:rgb`.
-pub const SH6_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:6:rgb",
-    name: "sh6_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh6/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:6:loop`.
-pub const SH6_BASIS_LOOP: Shader = Shader {
-    spec: "basis:6:loop",
-    name: "sh6_basis_loop",
-    wgsl: include_str!("../wgsl/sh6/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh6/basis_loop.glsl"),
-};
-
-/// `rotate:6:loop`.
-pub const SH6_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:6:loop",
-    name: "sh6_rotate_loop",
-    wgsl: include_str!("../wgsl/sh6/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_loop.glsl"),
-};
-
-/// `rotate:6:rgb:loop`.
-pub const SH6_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:6:rgb:loop",
-    name: "sh6_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh6/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh6/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:6:loop`.
-pub const SH6_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:6:loop",
-    name: "sh6_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh6/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:6:rgb:loop`.
-pub const SH6_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:6:rgb:loop",
-    name: "sh6_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh6/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh6/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:7`.
 pub const SH7_BASIS: Shader = Shader {
     spec: "basis:7",
@@ -3143,20 +3143,12 @@ pub const SH7_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh7/basis.glsl"),
 };
 
-/// `angles:7`.
-pub const SH7_ANGLES: Shader = Shader {
-    spec: "angles:7",
-    name: "sh7_angles",
-    wgsl: include_str!("../wgsl/sh7/angles.wgsl"),
-    glsl: include_str!("../glsl/sh7/angles.glsl"),
-};
-
-/// `lifted:7`.
-pub const SH7_LIFTED: Shader = Shader {
-    spec: "lifted:7",
-    name: "sh7_lifted",
-    wgsl: include_str!("../wgsl/sh7/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh7/lifted.glsl"),
+/// `basis:7:loop`.
+pub const SH7_BASIS_LOOP: Shader = Shader {
+    spec: "basis:7:loop",
+    name: "sh7_basis_loop",
+    wgsl: include_str!("../wgsl/sh7/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh7/basis_loop.glsl"),
 };
 
 /// `eval:7`.
@@ -3173,6 +3165,550 @@ pub const SH7_EVAL_RGB: Shader = Shader {
     name: "sh7_eval_rgb",
     wgsl: include_str!("../wgsl/sh7/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh7/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:7`.
+pub const SH7_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:7",
+    name: "sh7_eval_monomial",
+    wgsl: include_str!("../wgsl/sh7/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh7/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:7:rgb`.
+pub const SH7_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:7:rgb",
+    name: "sh7_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh7/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:7`.
+pub const SH7_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:7",
+    name: "sh7_to_monomial",
+    wgsl: include_str!("../wgsl/sh7/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh7/to_monomial.glsl"),
+};
+
+/// `to_monomial:7:rgb`.
+pub const SH7_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:7:rgb",
+    name: "sh7_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh7/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:7`.
+pub const SH7_ROTATE: Shader = Shader {
+    spec: "rotate:7",
+    name: "sh7_rotate",
+    wgsl: include_str!("../wgsl/sh7/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate.glsl"),
+};
+
+/// `rotate:7:rgb`.
+pub const SH7_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:7:rgb",
+    name: "sh7_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_rgb.glsl"),
+};
+
+/// `rotate:7:loop`.
+pub const SH7_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:7:loop",
+    name: "sh7_rotate_loop",
+    wgsl: include_str!("../wgsl/sh7/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_loop.glsl"),
+};
+
+/// `rotate:7:rgb:loop`.
+pub const SH7_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:7:rgb:loop",
+    name: "sh7_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh7/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:7:euler`.
+pub const SH7_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:7:euler",
+    name: "sh7_rotate_euler",
+    wgsl: include_str!("../wgsl/sh7/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_euler.glsl"),
+};
+
+/// `rotate:7:euler:rgb`.
+pub const SH7_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:7:euler:rgb",
+    name: "sh7_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:7`.
+pub const SH7_ANGLES: Shader = Shader {
+    spec: "angles:7",
+    name: "sh7_angles",
+    wgsl: include_str!("../wgsl/sh7/angles.wgsl"),
+    glsl: include_str!("../glsl/sh7/angles.glsl"),
+};
+
+/// `rotate:7:angles`.
+pub const SH7_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:7:angles",
+    name: "sh7_rotate_angles",
+    wgsl: include_str!("../wgsl/sh7/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_angles.glsl"),
+};
+
+/// `rotate:7:angles:rgb`.
+pub const SH7_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:7:angles:rgb",
+    name: "sh7_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:7`.
+pub const SH7_LIFTED: Shader = Shader {
+    spec: "lifted:7",
+    name: "sh7_lifted",
+    wgsl: include_str!("../wgsl/sh7/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/lifted.glsl"),
+};
+
+/// `rotate:7:lifted`.
+pub const SH7_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:7:lifted",
+    name: "sh7_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
+};
+
+/// `rotate:7:lifted:rgb`.
+pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:7:lifted:rgb",
+    name: "sh7_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:7:zxzxz`.
+pub const SH7_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:7:zxzxz",
+    name: "sh7_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh7/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:7:zxzxz:rgb`.
+pub const SH7_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:7:zxzxz:rgb",
+    name: "sh7_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:7:align`.
+pub const SH7_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:7:align",
+    name: "sh7_rotate_align",
+    wgsl: include_str!("../wgsl/sh7/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_align.glsl"),
+};
+
+/// `rotate:7:align:rgb`.
+pub const SH7_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:7:align:rgb",
+    name: "sh7_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:7:zonal`.
+pub const SH7_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:7:zonal",
+    name: "sh7_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh7/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_zonal.glsl"),
+};
+
+/// `rotate:7:zonal:rgb`.
+pub const SH7_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:7:zonal:rgb",
+    name: "sh7_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:7`.
+pub const SH7_TILT: Shader = Shader {
+    spec: "tilt:7",
+    name: "sh7_tilt",
+    wgsl: include_str!("../wgsl/sh7/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt.glsl"),
+};
+
+/// `tilt:7:rgb`.
+pub const SH7_TILT_RGB: Shader = Shader {
+    spec: "tilt:7:rgb",
+    name: "sh7_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_rgb.glsl"),
+};
+
+/// `tilt:7:lf5`.
+pub const SH7_LF5_TILT: Shader = Shader {
+    spec: "tilt:7:lf5",
+    name: "sh7_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt.glsl"),
+};
+
+/// `tilt:7:lf5:rgb`.
+pub const SH7_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:7:lf5:rgb",
+    name: "sh7_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:7`.
+pub const SH7_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:7",
+    name: "sh7_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh7/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:7:rgb`.
+pub const SH7_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:7:rgb",
+    name: "sh7_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:7:lf5`.
+pub const SH7_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:7:lf5",
+    name: "sh7_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:7:lf5:rgb`.
+pub const SH7_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:7:lf5:rgb",
+    name: "sh7_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:7`.
+pub const SH7_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:7",
+    name: "sh7_tilt_scale",
+    wgsl: include_str!("../wgsl/sh7/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:7:rgb`.
+pub const SH7_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:7:rgb",
+    name: "sh7_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:7`.
+pub const SH7_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:7",
+    name: "sh7_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh7/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:7:rgb`.
+pub const SH7_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:7:rgb",
+    name: "sh7_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh7/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:7`.
+pub const SH7_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:7",
+    name: "sh7_taylor1_y",
+    wgsl: include_str!("../wgsl/sh7/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor1_y.glsl"),
+};
+
+/// `taylor1:7:rgb`.
+pub const SH7_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:7:rgb",
+    name: "sh7_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:7`.
+pub const SH7_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:7",
+    name: "sh7_taylor15_y",
+    wgsl: include_str!("../wgsl/sh7/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_y.glsl"),
+};
+
+/// `taylor15:7:rgb`.
+pub const SH7_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:7:rgb",
+    name: "sh7_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:7`.
+pub const SH7_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:7",
+    name: "sh7_taylor2_y",
+    wgsl: include_str!("../wgsl/sh7/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor2_y.glsl"),
+};
+
+/// `taylor2:7:rgb`.
+pub const SH7_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:7:rgb",
+    name: "sh7_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:7`.
+pub const SH7_LF3_Y: Shader = Shader {
+    spec: "lf3:7",
+    name: "sh7_lf3_y",
+    wgsl: include_str!("../wgsl/sh7/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf3_y.glsl"),
+};
+
+/// `lf3:7:rgb`.
+pub const SH7_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:7:rgb",
+    name: "sh7_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:7`.
+pub const SH7_LF5_Y: Shader = Shader {
+    spec: "lf5:7",
+    name: "sh7_lf5_y",
+    wgsl: include_str!("../wgsl/sh7/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_y.glsl"),
+};
+
+/// `lf5:7:rgb`.
+pub const SH7_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:7:rgb",
+    name: "sh7_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:7:loop`.
+pub const SH7_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:7:loop",
+    name: "sh7_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh7/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:7:rgb:loop`.
+pub const SH7_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:7:rgb:loop",
+    name: "sh7_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh7/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:7:taylor1`.
+pub const SH7_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:7:taylor1",
+    name: "sh7_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh7/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor1_zyz.glsl"),
+};
+
+/// `rotate:7:taylor1:rgb`.
+pub const SH7_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:taylor1:rgb",
+    name: "sh7_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:7:taylor15`.
+pub const SH7_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:7:taylor15",
+    name: "sh7_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh7/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_zyz.glsl"),
+};
+
+/// `rotate:7:taylor15:rgb`.
+pub const SH7_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:taylor15:rgb",
+    name: "sh7_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:7:taylor2`.
+pub const SH7_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:7:taylor2",
+    name: "sh7_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh7/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor2_zyz.glsl"),
+};
+
+/// `rotate:7:taylor2:rgb`.
+pub const SH7_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:taylor2:rgb",
+    name: "sh7_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:7:lf3`.
+pub const SH7_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:7:lf3",
+    name: "sh7_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh7/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf3_zyz.glsl"),
+};
+
+/// `rotate:7:lf3:rgb`.
+pub const SH7_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:lf3:rgb",
+    name: "sh7_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:7:lf5`.
+pub const SH7_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:7:lf5",
+    name: "sh7_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh7/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_zyz.glsl"),
+};
+
+/// `rotate:7:lf5:rgb`.
+pub const SH7_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:7:lf5:rgb",
+    name: "sh7_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:7`.
+pub const SH7_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:7",
+    name: "sh7_rotate_small",
+    wgsl: include_str!("../wgsl/sh7/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_small.glsl"),
+};
+
+/// `rotate_small:7:rgb`.
+pub const SH7_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:7:rgb",
+    name: "sh7_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:7:lf5`.
+pub const SH7_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:7:lf5",
+    name: "sh7_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:7:lf5:rgb`.
+pub const SH7_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:7:lf5:rgb",
+    name: "sh7_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:7`.
+pub const SH7_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:7",
+    name: "sh7_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh7/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:7:rgb`.
+pub const SH7_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:7:rgb",
+    name: "sh7_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh7/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:7`.
+pub const SH7_ZHF: Shader = Shader {
+    spec: "zhf:7",
+    name: "sh7_zhf",
+    wgsl: include_str!("../wgsl/sh7/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf.glsl"),
+};
+
+/// `zhf:7:rgb`.
+pub const SH7_ZHF_RGB: Shader = Shader {
+    spec: "zhf:7:rgb",
+    name: "sh7_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh7/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:7`.
+pub const SH7_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:7",
+    name: "sh7_zhf_weights",
+    wgsl: include_str!("../wgsl/sh7/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:7:rgb`.
+pub const SH7_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:7:rgb",
+    name: "sh7_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh7/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:7`.
+pub const SH7_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:7",
+    name: "sh7_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh7/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:7:rgb`.
+pub const SH7_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:7:rgb",
+    name: "sh7_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh7/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh7/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:7`.
@@ -3255,542 +3791,6 @@ pub const SH7_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh7/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:7`.
-pub const SH7_ROTATE: Shader = Shader {
-    spec: "rotate:7",
-    name: "sh7_rotate",
-    wgsl: include_str!("../wgsl/sh7/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate.glsl"),
-};
-
-/// `rotate:7:rgb`.
-pub const SH7_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:7:rgb",
-    name: "sh7_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_rgb.glsl"),
-};
-
-/// `rotate:7:euler`.
-pub const SH7_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:7:euler",
-    name: "sh7_rotate_euler",
-    wgsl: include_str!("../wgsl/sh7/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_euler.glsl"),
-};
-
-/// `rotate:7:euler:rgb`.
-pub const SH7_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:7:euler:rgb",
-    name: "sh7_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:7:angles`.
-pub const SH7_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:7:angles",
-    name: "sh7_rotate_angles",
-    wgsl: include_str!("../wgsl/sh7/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_angles.glsl"),
-};
-
-/// `rotate:7:angles:rgb`.
-pub const SH7_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:7:angles:rgb",
-    name: "sh7_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:7:zxzxz`.
-pub const SH7_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:7:zxzxz",
-    name: "sh7_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh7/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:7:zxzxz:rgb`.
-pub const SH7_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:7:zxzxz:rgb",
-    name: "sh7_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:7:align`.
-pub const SH7_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:7:align",
-    name: "sh7_rotate_align",
-    wgsl: include_str!("../wgsl/sh7/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_align.glsl"),
-};
-
-/// `rotate:7:align:rgb`.
-pub const SH7_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:7:align:rgb",
-    name: "sh7_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:7:zonal`.
-pub const SH7_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:7:zonal",
-    name: "sh7_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh7/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_zonal.glsl"),
-};
-
-/// `rotate:7:zonal:rgb`.
-pub const SH7_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:7:zonal:rgb",
-    name: "sh7_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:7`.
-pub const SH7_TILT: Shader = Shader {
-    spec: "tilt:7",
-    name: "sh7_tilt",
-    wgsl: include_str!("../wgsl/sh7/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt.glsl"),
-};
-
-/// `tilt:7:rgb`.
-pub const SH7_TILT_RGB: Shader = Shader {
-    spec: "tilt:7:rgb",
-    name: "sh7_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh7/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:7`.
-pub const SH7_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:7",
-    name: "sh7_rotate_small",
-    wgsl: include_str!("../wgsl/sh7/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_small.glsl"),
-};
-
-/// `rotate_small:7:rgb`.
-pub const SH7_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:7:rgb",
-    name: "sh7_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:7`.
-pub const SH7_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:7",
-    name: "sh7_eval_monomial",
-    wgsl: include_str!("../wgsl/sh7/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh7/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:7:rgb`.
-pub const SH7_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:7:rgb",
-    name: "sh7_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh7/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:7`.
-pub const SH7_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:7",
-    name: "sh7_to_monomial",
-    wgsl: include_str!("../wgsl/sh7/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh7/to_monomial.glsl"),
-};
-
-/// `to_monomial:7:rgb`.
-pub const SH7_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:7:rgb",
-    name: "sh7_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh7/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:7`.
-pub const SH7_ZHF: Shader = Shader {
-    spec: "zhf:7",
-    name: "sh7_zhf",
-    wgsl: include_str!("../wgsl/sh7/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf.glsl"),
-};
-
-/// `zhf:7:rgb`.
-pub const SH7_ZHF_RGB: Shader = Shader {
-    spec: "zhf:7:rgb",
-    name: "sh7_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh7/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:7`.
-pub const SH7_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:7",
-    name: "sh7_zhf_weights",
-    wgsl: include_str!("../wgsl/sh7/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:7:rgb`.
-pub const SH7_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:7:rgb",
-    name: "sh7_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh7/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:7`.
-pub const SH7_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:7",
-    name: "sh7_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh7/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:7:rgb`.
-pub const SH7_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:7:rgb",
-    name: "sh7_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh7/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:7`.
-pub const SH7_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:7",
-    name: "sh7_taylor1_y",
-    wgsl: include_str!("../wgsl/sh7/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor1_y.glsl"),
-};
-
-/// `taylor1:7:rgb`.
-pub const SH7_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:7:rgb",
-    name: "sh7_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:7:taylor1`.
-pub const SH7_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:7:taylor1",
-    name: "sh7_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh7/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor1_zyz.glsl"),
-};
-
-/// `rotate:7:taylor1:rgb`.
-pub const SH7_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:7:taylor1:rgb",
-    name: "sh7_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:7`.
-pub const SH7_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:7",
-    name: "sh7_taylor15_y",
-    wgsl: include_str!("../wgsl/sh7/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_y.glsl"),
-};
-
-/// `taylor15:7:rgb`.
-pub const SH7_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:7:rgb",
-    name: "sh7_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:7:taylor15`.
-pub const SH7_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:7:taylor15",
-    name: "sh7_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh7/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_zyz.glsl"),
-};
-
-/// `rotate:7:taylor15:rgb`.
-pub const SH7_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:7:taylor15:rgb",
-    name: "sh7_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:7`.
-pub const SH7_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:7",
-    name: "sh7_taylor2_y",
-    wgsl: include_str!("../wgsl/sh7/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor2_y.glsl"),
-};
-
-/// `taylor2:7:rgb`.
-pub const SH7_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:7:rgb",
-    name: "sh7_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:7:taylor2`.
-pub const SH7_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:7:taylor2",
-    name: "sh7_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh7/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor2_zyz.glsl"),
-};
-
-/// `rotate:7:taylor2:rgb`.
-pub const SH7_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:7:taylor2:rgb",
-    name: "sh7_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh7/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:7`.
-pub const SH7_LF3_Y: Shader = Shader {
-    spec: "lf3:7",
-    name: "sh7_lf3_y",
-    wgsl: include_str!("../wgsl/sh7/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf3_y.glsl"),
-};
-
-/// `lf3:7:rgb`.
-pub const SH7_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:7:rgb",
-    name: "sh7_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:7:lf3`.
-pub const SH7_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:7:lf3",
-    name: "sh7_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh7/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf3_zyz.glsl"),
-};
-
-/// `rotate:7:lf3:rgb`.
-pub const SH7_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:7:lf3:rgb",
-    name: "sh7_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:7`.
-pub const SH7_LF5_Y: Shader = Shader {
-    spec: "lf5:7",
-    name: "sh7_lf5_y",
-    wgsl: include_str!("../wgsl/sh7/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_y.glsl"),
-};
-
-/// `lf5:7:rgb`.
-pub const SH7_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:7:rgb",
-    name: "sh7_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:7:lf5`.
-pub const SH7_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:7:lf5",
-    name: "sh7_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh7/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_zyz.glsl"),
-};
-
-/// `rotate:7:lf5:rgb`.
-pub const SH7_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:7:lf5:rgb",
-    name: "sh7_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:7:lifted`.
-pub const SH7_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:7:lifted",
-    name: "sh7_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh7/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_lifted.glsl"),
-};
-
-/// `rotate:7:lifted:rgb`.
-pub const SH7_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:7:lifted:rgb",
-    name: "sh7_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:7`.
-pub const SH7_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:7",
-    name: "sh7_tilt_scale",
-    wgsl: include_str!("../wgsl/sh7/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:7:rgb`.
-pub const SH7_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:7:rgb",
-    name: "sh7_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh7/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:7`.
-pub const SH7_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:7",
-    name: "sh7_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh7/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:7:rgb`.
-pub const SH7_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:7:rgb",
-    name: "sh7_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh7/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:7`.
-pub const SH7_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:7",
-    name: "sh7_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh7/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:7:rgb`.
-pub const SH7_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:7:rgb",
-    name: "sh7_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh7/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:7:lf5`.
-pub const SH7_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:7:lf5",
-    name: "sh7_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:7:lf5:rgb`.
-pub const SH7_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:7:lf5:rgb",
-    name: "sh7_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:7:lf5`.
-pub const SH7_LF5_TILT: Shader = Shader {
-    spec: "tilt:7:lf5",
-    name: "sh7_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh7/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_tilt.glsl"),
-};
-
-/// `tilt:7:lf5:rgb`.
-pub const SH7_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:7:lf5:rgb",
-    name: "sh7_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:7:lf5`.
-pub const SH7_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:7:lf5",
-    name: "sh7_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:7:lf5:rgb`.
-pub const SH7_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:7:lf5:rgb",
-    name: "sh7_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh7/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:7`.
-pub const SH7_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:7",
-    name: "sh7_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh7/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:7:rgb`.
-pub const SH7_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:7:rgb",
-    name: "sh7_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh7/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:7:loop`.
-pub const SH7_BASIS_LOOP: Shader = Shader {
-    spec: "basis:7:loop",
-    name: "sh7_basis_loop",
-    wgsl: include_str!("../wgsl/sh7/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh7/basis_loop.glsl"),
-};
-
-/// `rotate:7:loop`.
-pub const SH7_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:7:loop",
-    name: "sh7_rotate_loop",
-    wgsl: include_str!("../wgsl/sh7/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_loop.glsl"),
-};
-
-/// `rotate:7:rgb:loop`.
-pub const SH7_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:7:rgb:loop",
-    name: "sh7_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh7/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh7/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:7:loop`.
-pub const SH7_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:7:loop",
-    name: "sh7_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh7/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:7:rgb:loop`.
-pub const SH7_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:7:rgb:loop",
-    name: "sh7_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh7/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh7/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:8`.
 pub const SH8_BASIS: Shader = Shader {
     spec: "basis:8",
@@ -3799,20 +3799,12 @@ pub const SH8_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh8/basis.glsl"),
 };
 
-/// `angles:8`.
-pub const SH8_ANGLES: Shader = Shader {
-    spec: "angles:8",
-    name: "sh8_angles",
-    wgsl: include_str!("../wgsl/sh8/angles.wgsl"),
-    glsl: include_str!("../glsl/sh8/angles.glsl"),
-};
-
-/// `lifted:8`.
-pub const SH8_LIFTED: Shader = Shader {
-    spec: "lifted:8",
-    name: "sh8_lifted",
-    wgsl: include_str!("../wgsl/sh8/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh8/lifted.glsl"),
+/// `basis:8:loop`.
+pub const SH8_BASIS_LOOP: Shader = Shader {
+    spec: "basis:8:loop",
+    name: "sh8_basis_loop",
+    wgsl: include_str!("../wgsl/sh8/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh8/basis_loop.glsl"),
 };
 
 /// `eval:8`.
@@ -3829,6 +3821,550 @@ pub const SH8_EVAL_RGB: Shader = Shader {
     name: "sh8_eval_rgb",
     wgsl: include_str!("../wgsl/sh8/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh8/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:8`.
+pub const SH8_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:8",
+    name: "sh8_eval_monomial",
+    wgsl: include_str!("../wgsl/sh8/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh8/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:8:rgb`.
+pub const SH8_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:8:rgb",
+    name: "sh8_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh8/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:8`.
+pub const SH8_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:8",
+    name: "sh8_to_monomial",
+    wgsl: include_str!("../wgsl/sh8/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh8/to_monomial.glsl"),
+};
+
+/// `to_monomial:8:rgb`.
+pub const SH8_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:8:rgb",
+    name: "sh8_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh8/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:8`.
+pub const SH8_ROTATE: Shader = Shader {
+    spec: "rotate:8",
+    name: "sh8_rotate",
+    wgsl: include_str!("../wgsl/sh8/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate.glsl"),
+};
+
+/// `rotate:8:rgb`.
+pub const SH8_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:8:rgb",
+    name: "sh8_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_rgb.glsl"),
+};
+
+/// `rotate:8:loop`.
+pub const SH8_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:8:loop",
+    name: "sh8_rotate_loop",
+    wgsl: include_str!("../wgsl/sh8/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_loop.glsl"),
+};
+
+/// `rotate:8:rgb:loop`.
+pub const SH8_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:8:rgb:loop",
+    name: "sh8_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh8/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:8:euler`.
+pub const SH8_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:8:euler",
+    name: "sh8_rotate_euler",
+    wgsl: include_str!("../wgsl/sh8/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_euler.glsl"),
+};
+
+/// `rotate:8:euler:rgb`.
+pub const SH8_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:8:euler:rgb",
+    name: "sh8_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:8`.
+pub const SH8_ANGLES: Shader = Shader {
+    spec: "angles:8",
+    name: "sh8_angles",
+    wgsl: include_str!("../wgsl/sh8/angles.wgsl"),
+    glsl: include_str!("../glsl/sh8/angles.glsl"),
+};
+
+/// `rotate:8:angles`.
+pub const SH8_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:8:angles",
+    name: "sh8_rotate_angles",
+    wgsl: include_str!("../wgsl/sh8/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_angles.glsl"),
+};
+
+/// `rotate:8:angles:rgb`.
+pub const SH8_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:8:angles:rgb",
+    name: "sh8_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:8`.
+pub const SH8_LIFTED: Shader = Shader {
+    spec: "lifted:8",
+    name: "sh8_lifted",
+    wgsl: include_str!("../wgsl/sh8/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/lifted.glsl"),
+};
+
+/// `rotate:8:lifted`.
+pub const SH8_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:8:lifted",
+    name: "sh8_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
+};
+
+/// `rotate:8:lifted:rgb`.
+pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:8:lifted:rgb",
+    name: "sh8_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:8:zxzxz`.
+pub const SH8_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:8:zxzxz",
+    name: "sh8_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh8/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:8:zxzxz:rgb`.
+pub const SH8_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:8:zxzxz:rgb",
+    name: "sh8_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:8:align`.
+pub const SH8_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:8:align",
+    name: "sh8_rotate_align",
+    wgsl: include_str!("../wgsl/sh8/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_align.glsl"),
+};
+
+/// `rotate:8:align:rgb`.
+pub const SH8_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:8:align:rgb",
+    name: "sh8_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:8:zonal`.
+pub const SH8_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:8:zonal",
+    name: "sh8_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh8/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_zonal.glsl"),
+};
+
+/// `rotate:8:zonal:rgb`.
+pub const SH8_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:8:zonal:rgb",
+    name: "sh8_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:8`.
+pub const SH8_TILT: Shader = Shader {
+    spec: "tilt:8",
+    name: "sh8_tilt",
+    wgsl: include_str!("../wgsl/sh8/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt.glsl"),
+};
+
+/// `tilt:8:rgb`.
+pub const SH8_TILT_RGB: Shader = Shader {
+    spec: "tilt:8:rgb",
+    name: "sh8_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_rgb.glsl"),
+};
+
+/// `tilt:8:lf5`.
+pub const SH8_LF5_TILT: Shader = Shader {
+    spec: "tilt:8:lf5",
+    name: "sh8_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt.glsl"),
+};
+
+/// `tilt:8:lf5:rgb`.
+pub const SH8_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:8:lf5:rgb",
+    name: "sh8_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:8`.
+pub const SH8_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:8",
+    name: "sh8_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh8/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:8:rgb`.
+pub const SH8_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:8:rgb",
+    name: "sh8_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:8:lf5`.
+pub const SH8_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:8:lf5",
+    name: "sh8_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:8:lf5:rgb`.
+pub const SH8_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:8:lf5:rgb",
+    name: "sh8_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:8`.
+pub const SH8_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:8",
+    name: "sh8_tilt_scale",
+    wgsl: include_str!("../wgsl/sh8/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:8:rgb`.
+pub const SH8_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:8:rgb",
+    name: "sh8_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:8`.
+pub const SH8_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:8",
+    name: "sh8_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh8/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:8:rgb`.
+pub const SH8_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:8:rgb",
+    name: "sh8_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh8/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:8`.
+pub const SH8_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:8",
+    name: "sh8_taylor1_y",
+    wgsl: include_str!("../wgsl/sh8/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor1_y.glsl"),
+};
+
+/// `taylor1:8:rgb`.
+pub const SH8_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:8:rgb",
+    name: "sh8_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:8`.
+pub const SH8_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:8",
+    name: "sh8_taylor15_y",
+    wgsl: include_str!("../wgsl/sh8/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_y.glsl"),
+};
+
+/// `taylor15:8:rgb`.
+pub const SH8_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:8:rgb",
+    name: "sh8_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:8`.
+pub const SH8_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:8",
+    name: "sh8_taylor2_y",
+    wgsl: include_str!("../wgsl/sh8/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor2_y.glsl"),
+};
+
+/// `taylor2:8:rgb`.
+pub const SH8_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:8:rgb",
+    name: "sh8_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:8`.
+pub const SH8_LF3_Y: Shader = Shader {
+    spec: "lf3:8",
+    name: "sh8_lf3_y",
+    wgsl: include_str!("../wgsl/sh8/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf3_y.glsl"),
+};
+
+/// `lf3:8:rgb`.
+pub const SH8_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:8:rgb",
+    name: "sh8_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:8`.
+pub const SH8_LF5_Y: Shader = Shader {
+    spec: "lf5:8",
+    name: "sh8_lf5_y",
+    wgsl: include_str!("../wgsl/sh8/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_y.glsl"),
+};
+
+/// `lf5:8:rgb`.
+pub const SH8_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:8:rgb",
+    name: "sh8_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:8:loop`.
+pub const SH8_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:8:loop",
+    name: "sh8_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh8/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:8:rgb:loop`.
+pub const SH8_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:8:rgb:loop",
+    name: "sh8_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh8/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:8:taylor1`.
+pub const SH8_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:8:taylor1",
+    name: "sh8_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh8/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor1_zyz.glsl"),
+};
+
+/// `rotate:8:taylor1:rgb`.
+pub const SH8_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:taylor1:rgb",
+    name: "sh8_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:8:taylor15`.
+pub const SH8_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:8:taylor15",
+    name: "sh8_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh8/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_zyz.glsl"),
+};
+
+/// `rotate:8:taylor15:rgb`.
+pub const SH8_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:taylor15:rgb",
+    name: "sh8_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:8:taylor2`.
+pub const SH8_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:8:taylor2",
+    name: "sh8_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh8/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor2_zyz.glsl"),
+};
+
+/// `rotate:8:taylor2:rgb`.
+pub const SH8_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:taylor2:rgb",
+    name: "sh8_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:8:lf3`.
+pub const SH8_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:8:lf3",
+    name: "sh8_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh8/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf3_zyz.glsl"),
+};
+
+/// `rotate:8:lf3:rgb`.
+pub const SH8_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:lf3:rgb",
+    name: "sh8_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:8:lf5`.
+pub const SH8_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:8:lf5",
+    name: "sh8_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh8/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_zyz.glsl"),
+};
+
+/// `rotate:8:lf5:rgb`.
+pub const SH8_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:8:lf5:rgb",
+    name: "sh8_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:8`.
+pub const SH8_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:8",
+    name: "sh8_rotate_small",
+    wgsl: include_str!("../wgsl/sh8/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_small.glsl"),
+};
+
+/// `rotate_small:8:rgb`.
+pub const SH8_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:8:rgb",
+    name: "sh8_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:8:lf5`.
+pub const SH8_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:8:lf5",
+    name: "sh8_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:8:lf5:rgb`.
+pub const SH8_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:8:lf5:rgb",
+    name: "sh8_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:8`.
+pub const SH8_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:8",
+    name: "sh8_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh8/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:8:rgb`.
+pub const SH8_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:8:rgb",
+    name: "sh8_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh8/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:8`.
+pub const SH8_ZHF: Shader = Shader {
+    spec: "zhf:8",
+    name: "sh8_zhf",
+    wgsl: include_str!("../wgsl/sh8/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf.glsl"),
+};
+
+/// `zhf:8:rgb`.
+pub const SH8_ZHF_RGB: Shader = Shader {
+    spec: "zhf:8:rgb",
+    name: "sh8_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh8/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:8`.
+pub const SH8_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:8",
+    name: "sh8_zhf_weights",
+    wgsl: include_str!("../wgsl/sh8/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:8:rgb`.
+pub const SH8_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:8:rgb",
+    name: "sh8_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh8/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:8`.
+pub const SH8_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:8",
+    name: "sh8_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh8/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:8:rgb`.
+pub const SH8_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:8:rgb",
+    name: "sh8_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh8/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh8/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:8`.
@@ -3911,542 +4447,6 @@ pub const SH8_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh8/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:8`.
-pub const SH8_ROTATE: Shader = Shader {
-    spec: "rotate:8",
-    name: "sh8_rotate",
-    wgsl: include_str!("../wgsl/sh8/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate.glsl"),
-};
-
-/// `rotate:8:rgb`.
-pub const SH8_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:8:rgb",
-    name: "sh8_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_rgb.glsl"),
-};
-
-/// `rotate:8:euler`.
-pub const SH8_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:8:euler",
-    name: "sh8_rotate_euler",
-    wgsl: include_str!("../wgsl/sh8/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_euler.glsl"),
-};
-
-/// `rotate:8:euler:rgb`.
-pub const SH8_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:8:euler:rgb",
-    name: "sh8_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:8:angles`.
-pub const SH8_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:8:angles",
-    name: "sh8_rotate_angles",
-    wgsl: include_str!("../wgsl/sh8/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_angles.glsl"),
-};
-
-/// `rotate:8:angles:rgb`.
-pub const SH8_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:8:angles:rgb",
-    name: "sh8_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:8:zxzxz`.
-pub const SH8_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:8:zxzxz",
-    name: "sh8_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh8/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:8:zxzxz:rgb`.
-pub const SH8_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:8:zxzxz:rgb",
-    name: "sh8_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:8:align`.
-pub const SH8_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:8:align",
-    name: "sh8_rotate_align",
-    wgsl: include_str!("../wgsl/sh8/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_align.glsl"),
-};
-
-/// `rotate:8:align:rgb`.
-pub const SH8_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:8:align:rgb",
-    name: "sh8_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:8:zonal`.
-pub const SH8_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:8:zonal",
-    name: "sh8_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh8/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_zonal.glsl"),
-};
-
-/// `rotate:8:zonal:rgb`.
-pub const SH8_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:8:zonal:rgb",
-    name: "sh8_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:8`.
-pub const SH8_TILT: Shader = Shader {
-    spec: "tilt:8",
-    name: "sh8_tilt",
-    wgsl: include_str!("../wgsl/sh8/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt.glsl"),
-};
-
-/// `tilt:8:rgb`.
-pub const SH8_TILT_RGB: Shader = Shader {
-    spec: "tilt:8:rgb",
-    name: "sh8_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh8/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:8`.
-pub const SH8_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:8",
-    name: "sh8_rotate_small",
-    wgsl: include_str!("../wgsl/sh8/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_small.glsl"),
-};
-
-/// `rotate_small:8:rgb`.
-pub const SH8_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:8:rgb",
-    name: "sh8_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:8`.
-pub const SH8_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:8",
-    name: "sh8_eval_monomial",
-    wgsl: include_str!("../wgsl/sh8/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh8/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:8:rgb`.
-pub const SH8_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:8:rgb",
-    name: "sh8_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh8/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:8`.
-pub const SH8_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:8",
-    name: "sh8_to_monomial",
-    wgsl: include_str!("../wgsl/sh8/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh8/to_monomial.glsl"),
-};
-
-/// `to_monomial:8:rgb`.
-pub const SH8_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:8:rgb",
-    name: "sh8_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh8/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:8`.
-pub const SH8_ZHF: Shader = Shader {
-    spec: "zhf:8",
-    name: "sh8_zhf",
-    wgsl: include_str!("../wgsl/sh8/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf.glsl"),
-};
-
-/// `zhf:8:rgb`.
-pub const SH8_ZHF_RGB: Shader = Shader {
-    spec: "zhf:8:rgb",
-    name: "sh8_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh8/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:8`.
-pub const SH8_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:8",
-    name: "sh8_zhf_weights",
-    wgsl: include_str!("../wgsl/sh8/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:8:rgb`.
-pub const SH8_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:8:rgb",
-    name: "sh8_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh8/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:8`.
-pub const SH8_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:8",
-    name: "sh8_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh8/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:8:rgb`.
-pub const SH8_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:8:rgb",
-    name: "sh8_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh8/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:8`.
-pub const SH8_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:8",
-    name: "sh8_taylor1_y",
-    wgsl: include_str!("../wgsl/sh8/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor1_y.glsl"),
-};
-
-/// `taylor1:8:rgb`.
-pub const SH8_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:8:rgb",
-    name: "sh8_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:8:taylor1`.
-pub const SH8_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:8:taylor1",
-    name: "sh8_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh8/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor1_zyz.glsl"),
-};
-
-/// `rotate:8:taylor1:rgb`.
-pub const SH8_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:8:taylor1:rgb",
-    name: "sh8_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:8`.
-pub const SH8_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:8",
-    name: "sh8_taylor15_y",
-    wgsl: include_str!("../wgsl/sh8/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_y.glsl"),
-};
-
-/// `taylor15:8:rgb`.
-pub const SH8_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:8:rgb",
-    name: "sh8_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:8:taylor15`.
-pub const SH8_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:8:taylor15",
-    name: "sh8_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh8/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_zyz.glsl"),
-};
-
-/// `rotate:8:taylor15:rgb`.
-pub const SH8_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:8:taylor15:rgb",
-    name: "sh8_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:8`.
-pub const SH8_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:8",
-    name: "sh8_taylor2_y",
-    wgsl: include_str!("../wgsl/sh8/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor2_y.glsl"),
-};
-
-/// `taylor2:8:rgb`.
-pub const SH8_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:8:rgb",
-    name: "sh8_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:8:taylor2`.
-pub const SH8_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:8:taylor2",
-    name: "sh8_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh8/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor2_zyz.glsl"),
-};
-
-/// `rotate:8:taylor2:rgb`.
-pub const SH8_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:8:taylor2:rgb",
-    name: "sh8_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh8/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:8`.
-pub const SH8_LF3_Y: Shader = Shader {
-    spec: "lf3:8",
-    name: "sh8_lf3_y",
-    wgsl: include_str!("../wgsl/sh8/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf3_y.glsl"),
-};
-
-/// `lf3:8:rgb`.
-pub const SH8_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:8:rgb",
-    name: "sh8_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:8:lf3`.
-pub const SH8_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:8:lf3",
-    name: "sh8_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh8/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf3_zyz.glsl"),
-};
-
-/// `rotate:8:lf3:rgb`.
-pub const SH8_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:8:lf3:rgb",
-    name: "sh8_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:8`.
-pub const SH8_LF5_Y: Shader = Shader {
-    spec: "lf5:8",
-    name: "sh8_lf5_y",
-    wgsl: include_str!("../wgsl/sh8/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_y.glsl"),
-};
-
-/// `lf5:8:rgb`.
-pub const SH8_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:8:rgb",
-    name: "sh8_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:8:lf5`.
-pub const SH8_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:8:lf5",
-    name: "sh8_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh8/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_zyz.glsl"),
-};
-
-/// `rotate:8:lf5:rgb`.
-pub const SH8_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:8:lf5:rgb",
-    name: "sh8_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:8:lifted`.
-pub const SH8_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:8:lifted",
-    name: "sh8_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh8/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_lifted.glsl"),
-};
-
-/// `rotate:8:lifted:rgb`.
-pub const SH8_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:8:lifted:rgb",
-    name: "sh8_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:8`.
-pub const SH8_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:8",
-    name: "sh8_tilt_scale",
-    wgsl: include_str!("../wgsl/sh8/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:8:rgb`.
-pub const SH8_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:8:rgb",
-    name: "sh8_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh8/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:8`.
-pub const SH8_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:8",
-    name: "sh8_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh8/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:8:rgb`.
-pub const SH8_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:8:rgb",
-    name: "sh8_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh8/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:8`.
-pub const SH8_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:8",
-    name: "sh8_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh8/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:8:rgb`.
-pub const SH8_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:8:rgb",
-    name: "sh8_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh8/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:8:lf5`.
-pub const SH8_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:8:lf5",
-    name: "sh8_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:8:lf5:rgb`.
-pub const SH8_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:8:lf5:rgb",
-    name: "sh8_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:8:lf5`.
-pub const SH8_LF5_TILT: Shader = Shader {
-    spec: "tilt:8:lf5",
-    name: "sh8_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh8/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_tilt.glsl"),
-};
-
-/// `tilt:8:lf5:rgb`.
-pub const SH8_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:8:lf5:rgb",
-    name: "sh8_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:8:lf5`.
-pub const SH8_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:8:lf5",
-    name: "sh8_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:8:lf5:rgb`.
-pub const SH8_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:8:lf5:rgb",
-    name: "sh8_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh8/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:8`.
-pub const SH8_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:8",
-    name: "sh8_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh8/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:8:rgb`.
-pub const SH8_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:8:rgb",
-    name: "sh8_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh8/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:8:loop`.
-pub const SH8_BASIS_LOOP: Shader = Shader {
-    spec: "basis:8:loop",
-    name: "sh8_basis_loop",
-    wgsl: include_str!("../wgsl/sh8/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh8/basis_loop.glsl"),
-};
-
-/// `rotate:8:loop`.
-pub const SH8_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:8:loop",
-    name: "sh8_rotate_loop",
-    wgsl: include_str!("../wgsl/sh8/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_loop.glsl"),
-};
-
-/// `rotate:8:rgb:loop`.
-pub const SH8_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:8:rgb:loop",
-    name: "sh8_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh8/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh8/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:8:loop`.
-pub const SH8_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:8:loop",
-    name: "sh8_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh8/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:8:rgb:loop`.
-pub const SH8_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:8:rgb:loop",
-    name: "sh8_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh8/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh8/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:9`.
 pub const SH9_BASIS: Shader = Shader {
     spec: "basis:9",
@@ -4455,20 +4455,12 @@ pub const SH9_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh9/basis.glsl"),
 };
 
-/// `angles:9`.
-pub const SH9_ANGLES: Shader = Shader {
-    spec: "angles:9",
-    name: "sh9_angles",
-    wgsl: include_str!("../wgsl/sh9/angles.wgsl"),
-    glsl: include_str!("../glsl/sh9/angles.glsl"),
-};
-
-/// `lifted:9`.
-pub const SH9_LIFTED: Shader = Shader {
-    spec: "lifted:9",
-    name: "sh9_lifted",
-    wgsl: include_str!("../wgsl/sh9/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh9/lifted.glsl"),
+/// `basis:9:loop`.
+pub const SH9_BASIS_LOOP: Shader = Shader {
+    spec: "basis:9:loop",
+    name: "sh9_basis_loop",
+    wgsl: include_str!("../wgsl/sh9/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh9/basis_loop.glsl"),
 };
 
 /// `eval:9`.
@@ -4485,6 +4477,550 @@ pub const SH9_EVAL_RGB: Shader = Shader {
     name: "sh9_eval_rgb",
     wgsl: include_str!("../wgsl/sh9/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh9/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:9`.
+pub const SH9_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:9",
+    name: "sh9_eval_monomial",
+    wgsl: include_str!("../wgsl/sh9/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh9/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:9:rgb`.
+pub const SH9_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:9:rgb",
+    name: "sh9_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh9/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:9`.
+pub const SH9_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:9",
+    name: "sh9_to_monomial",
+    wgsl: include_str!("../wgsl/sh9/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh9/to_monomial.glsl"),
+};
+
+/// `to_monomial:9:rgb`.
+pub const SH9_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:9:rgb",
+    name: "sh9_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh9/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:9`.
+pub const SH9_ROTATE: Shader = Shader {
+    spec: "rotate:9",
+    name: "sh9_rotate",
+    wgsl: include_str!("../wgsl/sh9/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate.glsl"),
+};
+
+/// `rotate:9:rgb`.
+pub const SH9_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:9:rgb",
+    name: "sh9_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_rgb.glsl"),
+};
+
+/// `rotate:9:loop`.
+pub const SH9_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:9:loop",
+    name: "sh9_rotate_loop",
+    wgsl: include_str!("../wgsl/sh9/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_loop.glsl"),
+};
+
+/// `rotate:9:rgb:loop`.
+pub const SH9_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:9:rgb:loop",
+    name: "sh9_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh9/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:9:euler`.
+pub const SH9_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:9:euler",
+    name: "sh9_rotate_euler",
+    wgsl: include_str!("../wgsl/sh9/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_euler.glsl"),
+};
+
+/// `rotate:9:euler:rgb`.
+pub const SH9_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:9:euler:rgb",
+    name: "sh9_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:9`.
+pub const SH9_ANGLES: Shader = Shader {
+    spec: "angles:9",
+    name: "sh9_angles",
+    wgsl: include_str!("../wgsl/sh9/angles.wgsl"),
+    glsl: include_str!("../glsl/sh9/angles.glsl"),
+};
+
+/// `rotate:9:angles`.
+pub const SH9_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:9:angles",
+    name: "sh9_rotate_angles",
+    wgsl: include_str!("../wgsl/sh9/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_angles.glsl"),
+};
+
+/// `rotate:9:angles:rgb`.
+pub const SH9_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:9:angles:rgb",
+    name: "sh9_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:9`.
+pub const SH9_LIFTED: Shader = Shader {
+    spec: "lifted:9",
+    name: "sh9_lifted",
+    wgsl: include_str!("../wgsl/sh9/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/lifted.glsl"),
+};
+
+/// `rotate:9:lifted`.
+pub const SH9_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:9:lifted",
+    name: "sh9_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
+};
+
+/// `rotate:9:lifted:rgb`.
+pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:9:lifted:rgb",
+    name: "sh9_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:9:zxzxz`.
+pub const SH9_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:9:zxzxz",
+    name: "sh9_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh9/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:9:zxzxz:rgb`.
+pub const SH9_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:9:zxzxz:rgb",
+    name: "sh9_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:9:align`.
+pub const SH9_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:9:align",
+    name: "sh9_rotate_align",
+    wgsl: include_str!("../wgsl/sh9/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_align.glsl"),
+};
+
+/// `rotate:9:align:rgb`.
+pub const SH9_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:9:align:rgb",
+    name: "sh9_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:9:zonal`.
+pub const SH9_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:9:zonal",
+    name: "sh9_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh9/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_zonal.glsl"),
+};
+
+/// `rotate:9:zonal:rgb`.
+pub const SH9_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:9:zonal:rgb",
+    name: "sh9_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:9`.
+pub const SH9_TILT: Shader = Shader {
+    spec: "tilt:9",
+    name: "sh9_tilt",
+    wgsl: include_str!("../wgsl/sh9/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt.glsl"),
+};
+
+/// `tilt:9:rgb`.
+pub const SH9_TILT_RGB: Shader = Shader {
+    spec: "tilt:9:rgb",
+    name: "sh9_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_rgb.glsl"),
+};
+
+/// `tilt:9:lf5`.
+pub const SH9_LF5_TILT: Shader = Shader {
+    spec: "tilt:9:lf5",
+    name: "sh9_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt.glsl"),
+};
+
+/// `tilt:9:lf5:rgb`.
+pub const SH9_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:9:lf5:rgb",
+    name: "sh9_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:9`.
+pub const SH9_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:9",
+    name: "sh9_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh9/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:9:rgb`.
+pub const SH9_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:9:rgb",
+    name: "sh9_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:9:lf5`.
+pub const SH9_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:9:lf5",
+    name: "sh9_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:9:lf5:rgb`.
+pub const SH9_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:9:lf5:rgb",
+    name: "sh9_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:9`.
+pub const SH9_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:9",
+    name: "sh9_tilt_scale",
+    wgsl: include_str!("../wgsl/sh9/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:9:rgb`.
+pub const SH9_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:9:rgb",
+    name: "sh9_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:9`.
+pub const SH9_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:9",
+    name: "sh9_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh9/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:9:rgb`.
+pub const SH9_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:9:rgb",
+    name: "sh9_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh9/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:9`.
+pub const SH9_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:9",
+    name: "sh9_taylor1_y",
+    wgsl: include_str!("../wgsl/sh9/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor1_y.glsl"),
+};
+
+/// `taylor1:9:rgb`.
+pub const SH9_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:9:rgb",
+    name: "sh9_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:9`.
+pub const SH9_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:9",
+    name: "sh9_taylor15_y",
+    wgsl: include_str!("../wgsl/sh9/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_y.glsl"),
+};
+
+/// `taylor15:9:rgb`.
+pub const SH9_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:9:rgb",
+    name: "sh9_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:9`.
+pub const SH9_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:9",
+    name: "sh9_taylor2_y",
+    wgsl: include_str!("../wgsl/sh9/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor2_y.glsl"),
+};
+
+/// `taylor2:9:rgb`.
+pub const SH9_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:9:rgb",
+    name: "sh9_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:9`.
+pub const SH9_LF3_Y: Shader = Shader {
+    spec: "lf3:9",
+    name: "sh9_lf3_y",
+    wgsl: include_str!("../wgsl/sh9/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf3_y.glsl"),
+};
+
+/// `lf3:9:rgb`.
+pub const SH9_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:9:rgb",
+    name: "sh9_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:9`.
+pub const SH9_LF5_Y: Shader = Shader {
+    spec: "lf5:9",
+    name: "sh9_lf5_y",
+    wgsl: include_str!("../wgsl/sh9/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_y.glsl"),
+};
+
+/// `lf5:9:rgb`.
+pub const SH9_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:9:rgb",
+    name: "sh9_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:9:loop`.
+pub const SH9_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:9:loop",
+    name: "sh9_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh9/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:9:rgb:loop`.
+pub const SH9_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:9:rgb:loop",
+    name: "sh9_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh9/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:9:taylor1`.
+pub const SH9_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:9:taylor1",
+    name: "sh9_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh9/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor1_zyz.glsl"),
+};
+
+/// `rotate:9:taylor1:rgb`.
+pub const SH9_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:taylor1:rgb",
+    name: "sh9_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:9:taylor15`.
+pub const SH9_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:9:taylor15",
+    name: "sh9_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh9/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_zyz.glsl"),
+};
+
+/// `rotate:9:taylor15:rgb`.
+pub const SH9_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:taylor15:rgb",
+    name: "sh9_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:9:taylor2`.
+pub const SH9_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:9:taylor2",
+    name: "sh9_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh9/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor2_zyz.glsl"),
+};
+
+/// `rotate:9:taylor2:rgb`.
+pub const SH9_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:taylor2:rgb",
+    name: "sh9_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:9:lf3`.
+pub const SH9_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:9:lf3",
+    name: "sh9_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh9/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf3_zyz.glsl"),
+};
+
+/// `rotate:9:lf3:rgb`.
+pub const SH9_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:lf3:rgb",
+    name: "sh9_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:9:lf5`.
+pub const SH9_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:9:lf5",
+    name: "sh9_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh9/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_zyz.glsl"),
+};
+
+/// `rotate:9:lf5:rgb`.
+pub const SH9_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:9:lf5:rgb",
+    name: "sh9_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:9`.
+pub const SH9_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:9",
+    name: "sh9_rotate_small",
+    wgsl: include_str!("../wgsl/sh9/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_small.glsl"),
+};
+
+/// `rotate_small:9:rgb`.
+pub const SH9_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:9:rgb",
+    name: "sh9_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:9:lf5`.
+pub const SH9_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:9:lf5",
+    name: "sh9_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:9:lf5:rgb`.
+pub const SH9_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:9:lf5:rgb",
+    name: "sh9_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:9`.
+pub const SH9_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:9",
+    name: "sh9_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh9/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:9:rgb`.
+pub const SH9_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:9:rgb",
+    name: "sh9_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh9/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:9`.
+pub const SH9_ZHF: Shader = Shader {
+    spec: "zhf:9",
+    name: "sh9_zhf",
+    wgsl: include_str!("../wgsl/sh9/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf.glsl"),
+};
+
+/// `zhf:9:rgb`.
+pub const SH9_ZHF_RGB: Shader = Shader {
+    spec: "zhf:9:rgb",
+    name: "sh9_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh9/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:9`.
+pub const SH9_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:9",
+    name: "sh9_zhf_weights",
+    wgsl: include_str!("../wgsl/sh9/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:9:rgb`.
+pub const SH9_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:9:rgb",
+    name: "sh9_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh9/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:9`.
+pub const SH9_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:9",
+    name: "sh9_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh9/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:9:rgb`.
+pub const SH9_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:9:rgb",
+    name: "sh9_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh9/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh9/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:9`.
@@ -4567,542 +5103,6 @@ pub const SH9_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh9/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:9`.
-pub const SH9_ROTATE: Shader = Shader {
-    spec: "rotate:9",
-    name: "sh9_rotate",
-    wgsl: include_str!("../wgsl/sh9/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate.glsl"),
-};
-
-/// `rotate:9:rgb`.
-pub const SH9_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:9:rgb",
-    name: "sh9_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_rgb.glsl"),
-};
-
-/// `rotate:9:euler`.
-pub const SH9_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:9:euler",
-    name: "sh9_rotate_euler",
-    wgsl: include_str!("../wgsl/sh9/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_euler.glsl"),
-};
-
-/// `rotate:9:euler:rgb`.
-pub const SH9_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:9:euler:rgb",
-    name: "sh9_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:9:angles`.
-pub const SH9_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:9:angles",
-    name: "sh9_rotate_angles",
-    wgsl: include_str!("../wgsl/sh9/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_angles.glsl"),
-};
-
-/// `rotate:9:angles:rgb`.
-pub const SH9_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:9:angles:rgb",
-    name: "sh9_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:9:zxzxz`.
-pub const SH9_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:9:zxzxz",
-    name: "sh9_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh9/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:9:zxzxz:rgb`.
-pub const SH9_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:9:zxzxz:rgb",
-    name: "sh9_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:9:align`.
-pub const SH9_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:9:align",
-    name: "sh9_rotate_align",
-    wgsl: include_str!("../wgsl/sh9/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_align.glsl"),
-};
-
-/// `rotate:9:align:rgb`.
-pub const SH9_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:9:align:rgb",
-    name: "sh9_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:9:zonal`.
-pub const SH9_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:9:zonal",
-    name: "sh9_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh9/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_zonal.glsl"),
-};
-
-/// `rotate:9:zonal:rgb`.
-pub const SH9_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:9:zonal:rgb",
-    name: "sh9_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:9`.
-pub const SH9_TILT: Shader = Shader {
-    spec: "tilt:9",
-    name: "sh9_tilt",
-    wgsl: include_str!("../wgsl/sh9/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt.glsl"),
-};
-
-/// `tilt:9:rgb`.
-pub const SH9_TILT_RGB: Shader = Shader {
-    spec: "tilt:9:rgb",
-    name: "sh9_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh9/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:9`.
-pub const SH9_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:9",
-    name: "sh9_rotate_small",
-    wgsl: include_str!("../wgsl/sh9/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_small.glsl"),
-};
-
-/// `rotate_small:9:rgb`.
-pub const SH9_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:9:rgb",
-    name: "sh9_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:9`.
-pub const SH9_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:9",
-    name: "sh9_eval_monomial",
-    wgsl: include_str!("../wgsl/sh9/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh9/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:9:rgb`.
-pub const SH9_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:9:rgb",
-    name: "sh9_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh9/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:9`.
-pub const SH9_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:9",
-    name: "sh9_to_monomial",
-    wgsl: include_str!("../wgsl/sh9/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh9/to_monomial.glsl"),
-};
-
-/// `to_monomial:9:rgb`.
-pub const SH9_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:9:rgb",
-    name: "sh9_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh9/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:9`.
-pub const SH9_ZHF: Shader = Shader {
-    spec: "zhf:9",
-    name: "sh9_zhf",
-    wgsl: include_str!("../wgsl/sh9/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf.glsl"),
-};
-
-/// `zhf:9:rgb`.
-pub const SH9_ZHF_RGB: Shader = Shader {
-    spec: "zhf:9:rgb",
-    name: "sh9_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh9/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:9`.
-pub const SH9_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:9",
-    name: "sh9_zhf_weights",
-    wgsl: include_str!("../wgsl/sh9/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:9:rgb`.
-pub const SH9_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:9:rgb",
-    name: "sh9_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh9/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:9`.
-pub const SH9_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:9",
-    name: "sh9_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh9/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:9:rgb`.
-pub const SH9_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:9:rgb",
-    name: "sh9_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh9/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:9`.
-pub const SH9_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:9",
-    name: "sh9_taylor1_y",
-    wgsl: include_str!("../wgsl/sh9/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor1_y.glsl"),
-};
-
-/// `taylor1:9:rgb`.
-pub const SH9_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:9:rgb",
-    name: "sh9_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:9:taylor1`.
-pub const SH9_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:9:taylor1",
-    name: "sh9_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh9/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor1_zyz.glsl"),
-};
-
-/// `rotate:9:taylor1:rgb`.
-pub const SH9_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:9:taylor1:rgb",
-    name: "sh9_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:9`.
-pub const SH9_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:9",
-    name: "sh9_taylor15_y",
-    wgsl: include_str!("../wgsl/sh9/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_y.glsl"),
-};
-
-/// `taylor15:9:rgb`.
-pub const SH9_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:9:rgb",
-    name: "sh9_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:9:taylor15`.
-pub const SH9_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:9:taylor15",
-    name: "sh9_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh9/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_zyz.glsl"),
-};
-
-/// `rotate:9:taylor15:rgb`.
-pub const SH9_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:9:taylor15:rgb",
-    name: "sh9_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:9`.
-pub const SH9_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:9",
-    name: "sh9_taylor2_y",
-    wgsl: include_str!("../wgsl/sh9/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor2_y.glsl"),
-};
-
-/// `taylor2:9:rgb`.
-pub const SH9_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:9:rgb",
-    name: "sh9_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:9:taylor2`.
-pub const SH9_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:9:taylor2",
-    name: "sh9_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh9/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor2_zyz.glsl"),
-};
-
-/// `rotate:9:taylor2:rgb`.
-pub const SH9_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:9:taylor2:rgb",
-    name: "sh9_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh9/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:9`.
-pub const SH9_LF3_Y: Shader = Shader {
-    spec: "lf3:9",
-    name: "sh9_lf3_y",
-    wgsl: include_str!("../wgsl/sh9/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf3_y.glsl"),
-};
-
-/// `lf3:9:rgb`.
-pub const SH9_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:9:rgb",
-    name: "sh9_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:9:lf3`.
-pub const SH9_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:9:lf3",
-    name: "sh9_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh9/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf3_zyz.glsl"),
-};
-
-/// `rotate:9:lf3:rgb`.
-pub const SH9_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:9:lf3:rgb",
-    name: "sh9_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:9`.
-pub const SH9_LF5_Y: Shader = Shader {
-    spec: "lf5:9",
-    name: "sh9_lf5_y",
-    wgsl: include_str!("../wgsl/sh9/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_y.glsl"),
-};
-
-/// `lf5:9:rgb`.
-pub const SH9_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:9:rgb",
-    name: "sh9_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:9:lf5`.
-pub const SH9_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:9:lf5",
-    name: "sh9_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh9/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_zyz.glsl"),
-};
-
-/// `rotate:9:lf5:rgb`.
-pub const SH9_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:9:lf5:rgb",
-    name: "sh9_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:9:lifted`.
-pub const SH9_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:9:lifted",
-    name: "sh9_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh9/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_lifted.glsl"),
-};
-
-/// `rotate:9:lifted:rgb`.
-pub const SH9_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:9:lifted:rgb",
-    name: "sh9_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:9`.
-pub const SH9_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:9",
-    name: "sh9_tilt_scale",
-    wgsl: include_str!("../wgsl/sh9/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:9:rgb`.
-pub const SH9_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:9:rgb",
-    name: "sh9_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh9/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:9`.
-pub const SH9_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:9",
-    name: "sh9_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh9/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:9:rgb`.
-pub const SH9_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:9:rgb",
-    name: "sh9_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh9/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:9`.
-pub const SH9_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:9",
-    name: "sh9_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh9/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:9:rgb`.
-pub const SH9_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:9:rgb",
-    name: "sh9_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh9/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:9:lf5`.
-pub const SH9_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:9:lf5",
-    name: "sh9_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:9:lf5:rgb`.
-pub const SH9_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:9:lf5:rgb",
-    name: "sh9_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:9:lf5`.
-pub const SH9_LF5_TILT: Shader = Shader {
-    spec: "tilt:9:lf5",
-    name: "sh9_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh9/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_tilt.glsl"),
-};
-
-/// `tilt:9:lf5:rgb`.
-pub const SH9_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:9:lf5:rgb",
-    name: "sh9_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:9:lf5`.
-pub const SH9_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:9:lf5",
-    name: "sh9_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:9:lf5:rgb`.
-pub const SH9_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:9:lf5:rgb",
-    name: "sh9_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh9/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:9`.
-pub const SH9_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:9",
-    name: "sh9_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh9/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:9:rgb`.
-pub const SH9_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:9:rgb",
-    name: "sh9_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh9/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:9:loop`.
-pub const SH9_BASIS_LOOP: Shader = Shader {
-    spec: "basis:9:loop",
-    name: "sh9_basis_loop",
-    wgsl: include_str!("../wgsl/sh9/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh9/basis_loop.glsl"),
-};
-
-/// `rotate:9:loop`.
-pub const SH9_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:9:loop",
-    name: "sh9_rotate_loop",
-    wgsl: include_str!("../wgsl/sh9/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_loop.glsl"),
-};
-
-/// `rotate:9:rgb:loop`.
-pub const SH9_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:9:rgb:loop",
-    name: "sh9_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh9/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh9/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:9:loop`.
-pub const SH9_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:9:loop",
-    name: "sh9_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh9/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:9:rgb:loop`.
-pub const SH9_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:9:rgb:loop",
-    name: "sh9_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh9/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh9/taylor15_y_rgb_loop.glsl"),
-};
-
 /// `basis:10`.
 pub const SH10_BASIS: Shader = Shader {
     spec: "basis:10",
@@ -5111,20 +5111,12 @@ pub const SH10_BASIS: Shader = Shader {
     glsl: include_str!("../glsl/sh10/basis.glsl"),
 };
 
-/// `angles:10`.
-pub const SH10_ANGLES: Shader = Shader {
-    spec: "angles:10",
-    name: "sh10_angles",
-    wgsl: include_str!("../wgsl/sh10/angles.wgsl"),
-    glsl: include_str!("../glsl/sh10/angles.glsl"),
-};
-
-/// `lifted:10`.
-pub const SH10_LIFTED: Shader = Shader {
-    spec: "lifted:10",
-    name: "sh10_lifted",
-    wgsl: include_str!("../wgsl/sh10/lifted.wgsl"),
-    glsl: include_str!("../glsl/sh10/lifted.glsl"),
+/// `basis:10:loop`.
+pub const SH10_BASIS_LOOP: Shader = Shader {
+    spec: "basis:10:loop",
+    name: "sh10_basis_loop",
+    wgsl: include_str!("../wgsl/sh10/basis_loop.wgsl"),
+    glsl: include_str!("../glsl/sh10/basis_loop.glsl"),
 };
 
 /// `eval:10`.
@@ -5141,6 +5133,550 @@ pub const SH10_EVAL_RGB: Shader = Shader {
     name: "sh10_eval_rgb",
     wgsl: include_str!("../wgsl/sh10/eval_rgb.wgsl"),
     glsl: include_str!("../glsl/sh10/eval_rgb.glsl"),
+};
+
+/// `eval_monomial:10`.
+pub const SH10_EVAL_MONOMIAL: Shader = Shader {
+    spec: "eval_monomial:10",
+    name: "sh10_eval_monomial",
+    wgsl: include_str!("../wgsl/sh10/eval_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh10/eval_monomial.glsl"),
+};
+
+/// `eval_monomial:10:rgb`.
+pub const SH10_EVAL_MONOMIAL_RGB: Shader = Shader {
+    spec: "eval_monomial:10:rgb",
+    name: "sh10_eval_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh10/eval_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/eval_monomial_rgb.glsl"),
+};
+
+/// `to_monomial:10`.
+pub const SH10_TO_MONOMIAL: Shader = Shader {
+    spec: "to_monomial:10",
+    name: "sh10_to_monomial",
+    wgsl: include_str!("../wgsl/sh10/to_monomial.wgsl"),
+    glsl: include_str!("../glsl/sh10/to_monomial.glsl"),
+};
+
+/// `to_monomial:10:rgb`.
+pub const SH10_TO_MONOMIAL_RGB: Shader = Shader {
+    spec: "to_monomial:10:rgb",
+    name: "sh10_to_monomial_rgb",
+    wgsl: include_str!("../wgsl/sh10/to_monomial_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/to_monomial_rgb.glsl"),
+};
+
+/// `rotate:10`.
+pub const SH10_ROTATE: Shader = Shader {
+    spec: "rotate:10",
+    name: "sh10_rotate",
+    wgsl: include_str!("../wgsl/sh10/rotate.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate.glsl"),
+};
+
+/// `rotate:10:rgb`.
+pub const SH10_ROTATE_RGB: Shader = Shader {
+    spec: "rotate:10:rgb",
+    name: "sh10_rotate_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_rgb.glsl"),
+};
+
+/// `rotate:10:loop`.
+pub const SH10_ROTATE_LOOP: Shader = Shader {
+    spec: "rotate:10:loop",
+    name: "sh10_rotate_loop",
+    wgsl: include_str!("../wgsl/sh10/rotate_loop.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_loop.glsl"),
+};
+
+/// `rotate:10:rgb:loop`.
+pub const SH10_ROTATE_RGB_LOOP: Shader = Shader {
+    spec: "rotate:10:rgb:loop",
+    name: "sh10_rotate_rgb_loop",
+    wgsl: include_str!("../wgsl/sh10/rotate_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_rgb_loop.glsl"),
+};
+
+/// `rotate:10:euler`.
+pub const SH10_ROTATE_EULER: Shader = Shader {
+    spec: "rotate:10:euler",
+    name: "sh10_rotate_euler",
+    wgsl: include_str!("../wgsl/sh10/rotate_euler.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_euler.glsl"),
+};
+
+/// `rotate:10:euler:rgb`.
+pub const SH10_ROTATE_EULER_RGB: Shader = Shader {
+    spec: "rotate:10:euler:rgb",
+    name: "sh10_rotate_euler_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_euler_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_euler_rgb.glsl"),
+};
+
+/// `angles:10`.
+pub const SH10_ANGLES: Shader = Shader {
+    spec: "angles:10",
+    name: "sh10_angles",
+    wgsl: include_str!("../wgsl/sh10/angles.wgsl"),
+    glsl: include_str!("../glsl/sh10/angles.glsl"),
+};
+
+/// `rotate:10:angles`.
+pub const SH10_ROTATE_ANGLES: Shader = Shader {
+    spec: "rotate:10:angles",
+    name: "sh10_rotate_angles",
+    wgsl: include_str!("../wgsl/sh10/rotate_angles.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_angles.glsl"),
+};
+
+/// `rotate:10:angles:rgb`.
+pub const SH10_ROTATE_ANGLES_RGB: Shader = Shader {
+    spec: "rotate:10:angles:rgb",
+    name: "sh10_rotate_angles_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_angles_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_angles_rgb.glsl"),
+};
+
+/// `lifted:10`.
+pub const SH10_LIFTED: Shader = Shader {
+    spec: "lifted:10",
+    name: "sh10_lifted",
+    wgsl: include_str!("../wgsl/sh10/lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/lifted.glsl"),
+};
+
+/// `rotate:10:lifted`.
+pub const SH10_ROTATE_LIFTED: Shader = Shader {
+    spec: "rotate:10:lifted",
+    name: "sh10_rotate_lifted",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
+};
+
+/// `rotate:10:lifted:rgb`.
+pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
+    spec: "rotate:10:lifted:rgb",
+    name: "sh10_rotate_lifted_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
+};
+
+/// `rotate:10:zxzxz`.
+pub const SH10_ROTATE_ZXZXZ: Shader = Shader {
+    spec: "rotate:10:zxzxz",
+    name: "sh10_rotate_zxzxz",
+    wgsl: include_str!("../wgsl/sh10/rotate_zxzxz.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_zxzxz.glsl"),
+};
+
+/// `rotate:10:zxzxz:rgb`.
+pub const SH10_ROTATE_ZXZXZ_RGB: Shader = Shader {
+    spec: "rotate:10:zxzxz:rgb",
+    name: "sh10_rotate_zxzxz_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_zxzxz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_zxzxz_rgb.glsl"),
+};
+
+/// `rotate:10:align`.
+pub const SH10_ROTATE_ALIGN: Shader = Shader {
+    spec: "rotate:10:align",
+    name: "sh10_rotate_align",
+    wgsl: include_str!("../wgsl/sh10/rotate_align.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_align.glsl"),
+};
+
+/// `rotate:10:align:rgb`.
+pub const SH10_ROTATE_ALIGN_RGB: Shader = Shader {
+    spec: "rotate:10:align:rgb",
+    name: "sh10_rotate_align_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_align_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_align_rgb.glsl"),
+};
+
+/// `rotate:10:zonal`.
+pub const SH10_ROTATE_ZONAL: Shader = Shader {
+    spec: "rotate:10:zonal",
+    name: "sh10_rotate_zonal",
+    wgsl: include_str!("../wgsl/sh10/rotate_zonal.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_zonal.glsl"),
+};
+
+/// `rotate:10:zonal:rgb`.
+pub const SH10_ROTATE_ZONAL_RGB: Shader = Shader {
+    spec: "rotate:10:zonal:rgb",
+    name: "sh10_rotate_zonal_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_zonal_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_zonal_rgb.glsl"),
+};
+
+/// `tilt:10`.
+pub const SH10_TILT: Shader = Shader {
+    spec: "tilt:10",
+    name: "sh10_tilt",
+    wgsl: include_str!("../wgsl/sh10/tilt.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt.glsl"),
+};
+
+/// `tilt:10:rgb`.
+pub const SH10_TILT_RGB: Shader = Shader {
+    spec: "tilt:10:rgb",
+    name: "sh10_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_rgb.glsl"),
+};
+
+/// `tilt:10:lf5`.
+pub const SH10_LF5_TILT: Shader = Shader {
+    spec: "tilt:10:lf5",
+    name: "sh10_lf5_tilt",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt.glsl"),
+};
+
+/// `tilt:10:lf5:rgb`.
+pub const SH10_LF5_TILT_RGB: Shader = Shader {
+    spec: "tilt:10:lf5:rgb",
+    name: "sh10_lf5_tilt_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_rgb.glsl"),
+};
+
+/// `tilt_prescaled:10`.
+pub const SH10_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:10",
+    name: "sh10_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh10/tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:10:rgb`.
+pub const SH10_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:10:rgb",
+    name: "sh10_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_prescaled:10:lf5`.
+pub const SH10_LF5_TILT_PRESCALED: Shader = Shader {
+    spec: "tilt_prescaled:10:lf5",
+    name: "sh10_lf5_tilt_prescaled",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled.glsl"),
+};
+
+/// `tilt_prescaled:10:lf5:rgb`.
+pub const SH10_LF5_TILT_PRESCALED_RGB: Shader = Shader {
+    spec: "tilt_prescaled:10:lf5:rgb",
+    name: "sh10_lf5_tilt_prescaled_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled_rgb.glsl"),
+};
+
+/// `tilt_scale:10`.
+pub const SH10_TILT_SCALE: Shader = Shader {
+    spec: "tilt_scale:10",
+    name: "sh10_tilt_scale",
+    wgsl: include_str!("../wgsl/sh10/tilt_scale.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_scale.glsl"),
+};
+
+/// `tilt_scale:10:rgb`.
+pub const SH10_TILT_SCALE_RGB: Shader = Shader {
+    spec: "tilt_scale:10:rgb",
+    name: "sh10_tilt_scale_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_scale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_scale_rgb.glsl"),
+};
+
+/// `tilt_unscale:10`.
+pub const SH10_TILT_UNSCALE: Shader = Shader {
+    spec: "tilt_unscale:10",
+    name: "sh10_tilt_unscale",
+    wgsl: include_str!("../wgsl/sh10/tilt_unscale.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_unscale.glsl"),
+};
+
+/// `tilt_unscale:10:rgb`.
+pub const SH10_TILT_UNSCALE_RGB: Shader = Shader {
+    spec: "tilt_unscale:10:rgb",
+    name: "sh10_tilt_unscale_rgb",
+    wgsl: include_str!("../wgsl/sh10/tilt_unscale_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/tilt_unscale_rgb.glsl"),
+};
+
+/// `taylor1:10`.
+pub const SH10_TAYLOR1_Y: Shader = Shader {
+    spec: "taylor1:10",
+    name: "sh10_taylor1_y",
+    wgsl: include_str!("../wgsl/sh10/taylor1_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor1_y.glsl"),
+};
+
+/// `taylor1:10:rgb`.
+pub const SH10_TAYLOR1_Y_RGB: Shader = Shader {
+    spec: "taylor1:10:rgb",
+    name: "sh10_taylor1_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor1_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor1_y_rgb.glsl"),
+};
+
+/// `taylor15:10`.
+pub const SH10_TAYLOR15_Y: Shader = Shader {
+    spec: "taylor15:10",
+    name: "sh10_taylor15_y",
+    wgsl: include_str!("../wgsl/sh10/taylor15_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_y.glsl"),
+};
+
+/// `taylor15:10:rgb`.
+pub const SH10_TAYLOR15_Y_RGB: Shader = Shader {
+    spec: "taylor15:10:rgb",
+    name: "sh10_taylor15_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor15_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_y_rgb.glsl"),
+};
+
+/// `taylor2:10`.
+pub const SH10_TAYLOR2_Y: Shader = Shader {
+    spec: "taylor2:10",
+    name: "sh10_taylor2_y",
+    wgsl: include_str!("../wgsl/sh10/taylor2_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor2_y.glsl"),
+};
+
+/// `taylor2:10:rgb`.
+pub const SH10_TAYLOR2_Y_RGB: Shader = Shader {
+    spec: "taylor2:10:rgb",
+    name: "sh10_taylor2_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor2_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor2_y_rgb.glsl"),
+};
+
+/// `lf3:10`.
+pub const SH10_LF3_Y: Shader = Shader {
+    spec: "lf3:10",
+    name: "sh10_lf3_y",
+    wgsl: include_str!("../wgsl/sh10/lf3_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf3_y.glsl"),
+};
+
+/// `lf3:10:rgb`.
+pub const SH10_LF3_Y_RGB: Shader = Shader {
+    spec: "lf3:10:rgb",
+    name: "sh10_lf3_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf3_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf3_y_rgb.glsl"),
+};
+
+/// `lf5:10`.
+pub const SH10_LF5_Y: Shader = Shader {
+    spec: "lf5:10",
+    name: "sh10_lf5_y",
+    wgsl: include_str!("../wgsl/sh10/lf5_y.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_y.glsl"),
+};
+
+/// `lf5:10:rgb`.
+pub const SH10_LF5_Y_RGB: Shader = Shader {
+    spec: "lf5:10:rgb",
+    name: "sh10_lf5_y_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_y_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_y_rgb.glsl"),
+};
+
+/// `taylor15:10:loop`.
+pub const SH10_TAYLOR15_Y_LOOP: Shader = Shader {
+    spec: "taylor15:10:loop",
+    name: "sh10_taylor15_y_loop",
+    wgsl: include_str!("../wgsl/sh10/taylor15_y_loop.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_y_loop.glsl"),
+};
+
+/// `taylor15:10:rgb:loop`.
+pub const SH10_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
+    spec: "taylor15:10:rgb:loop",
+    name: "sh10_taylor15_y_rgb_loop",
+    wgsl: include_str!("../wgsl/sh10/taylor15_y_rgb_loop.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_y_rgb_loop.glsl"),
+};
+
+/// `rotate:10:taylor1`.
+pub const SH10_TAYLOR1_ZYZ: Shader = Shader {
+    spec: "rotate:10:taylor1",
+    name: "sh10_taylor1_zyz",
+    wgsl: include_str!("../wgsl/sh10/taylor1_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor1_zyz.glsl"),
+};
+
+/// `rotate:10:taylor1:rgb`.
+pub const SH10_TAYLOR1_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:taylor1:rgb",
+    name: "sh10_taylor1_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor1_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor1_zyz_rgb.glsl"),
+};
+
+/// `rotate:10:taylor15`.
+pub const SH10_TAYLOR15_ZYZ: Shader = Shader {
+    spec: "rotate:10:taylor15",
+    name: "sh10_taylor15_zyz",
+    wgsl: include_str!("../wgsl/sh10/taylor15_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_zyz.glsl"),
+};
+
+/// `rotate:10:taylor15:rgb`.
+pub const SH10_TAYLOR15_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:taylor15:rgb",
+    name: "sh10_taylor15_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor15_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor15_zyz_rgb.glsl"),
+};
+
+/// `rotate:10:taylor2`.
+pub const SH10_TAYLOR2_ZYZ: Shader = Shader {
+    spec: "rotate:10:taylor2",
+    name: "sh10_taylor2_zyz",
+    wgsl: include_str!("../wgsl/sh10/taylor2_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor2_zyz.glsl"),
+};
+
+/// `rotate:10:taylor2:rgb`.
+pub const SH10_TAYLOR2_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:taylor2:rgb",
+    name: "sh10_taylor2_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/taylor2_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/taylor2_zyz_rgb.glsl"),
+};
+
+/// `rotate:10:lf3`.
+pub const SH10_LF3_ZYZ: Shader = Shader {
+    spec: "rotate:10:lf3",
+    name: "sh10_lf3_zyz",
+    wgsl: include_str!("../wgsl/sh10/lf3_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf3_zyz.glsl"),
+};
+
+/// `rotate:10:lf3:rgb`.
+pub const SH10_LF3_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:lf3:rgb",
+    name: "sh10_lf3_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf3_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf3_zyz_rgb.glsl"),
+};
+
+/// `rotate:10:lf5`.
+pub const SH10_LF5_ZYZ: Shader = Shader {
+    spec: "rotate:10:lf5",
+    name: "sh10_lf5_zyz",
+    wgsl: include_str!("../wgsl/sh10/lf5_zyz.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_zyz.glsl"),
+};
+
+/// `rotate:10:lf5:rgb`.
+pub const SH10_LF5_ZYZ_RGB: Shader = Shader {
+    spec: "rotate:10:lf5:rgb",
+    name: "sh10_lf5_zyz_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_zyz_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_zyz_rgb.glsl"),
+};
+
+/// `rotate_small:10`.
+pub const SH10_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:10",
+    name: "sh10_rotate_small",
+    wgsl: include_str!("../wgsl/sh10/rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_small.glsl"),
+};
+
+/// `rotate_small:10:rgb`.
+pub const SH10_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:10:rgb",
+    name: "sh10_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_small_rgb.glsl"),
+};
+
+/// `rotate_small:10:lf5`.
+pub const SH10_LF5_ROTATE_SMALL: Shader = Shader {
+    spec: "rotate_small:10:lf5",
+    name: "sh10_lf5_rotate_small",
+    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_rotate_small.glsl"),
+};
+
+/// `rotate_small:10:lf5:rgb`.
+pub const SH10_LF5_ROTATE_SMALL_RGB: Shader = Shader {
+    spec: "rotate_small:10:lf5:rgb",
+    name: "sh10_lf5_rotate_small_rgb",
+    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/lf5_rotate_small_rgb.glsl"),
+};
+
+/// `rotate_adaptive:10`.
+pub const SH10_ROTATE_ADAPTIVE: Shader = Shader {
+    spec: "rotate_adaptive:10",
+    name: "sh10_rotate_adaptive",
+    wgsl: include_str!("../wgsl/sh10/rotate_adaptive.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_adaptive.glsl"),
+};
+
+/// `rotate_adaptive:10:rgb`.
+pub const SH10_ROTATE_ADAPTIVE_RGB: Shader = Shader {
+    spec: "rotate_adaptive:10:rgb",
+    name: "sh10_rotate_adaptive_rgb",
+    wgsl: include_str!("../wgsl/sh10/rotate_adaptive_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/rotate_adaptive_rgb.glsl"),
+};
+
+/// `zhf:10`.
+pub const SH10_ZHF: Shader = Shader {
+    spec: "zhf:10",
+    name: "sh10_zhf",
+    wgsl: include_str!("../wgsl/sh10/zhf.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf.glsl"),
+};
+
+/// `zhf:10:rgb`.
+pub const SH10_ZHF_RGB: Shader = Shader {
+    spec: "zhf:10:rgb",
+    name: "sh10_zhf_rgb",
+    wgsl: include_str!("../wgsl/sh10/zhf_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf_rgb.glsl"),
+};
+
+/// `zhf_weights:10`.
+pub const SH10_ZHF_WEIGHTS: Shader = Shader {
+    spec: "zhf_weights:10",
+    name: "sh10_zhf_weights",
+    wgsl: include_str!("../wgsl/sh10/zhf_weights.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf_weights.glsl"),
+};
+
+/// `zhf_weights:10:rgb`.
+pub const SH10_ZHF_WEIGHTS_RGB: Shader = Shader {
+    spec: "zhf_weights:10:rgb",
+    name: "sh10_zhf_weights_rgb",
+    wgsl: include_str!("../wgsl/sh10/zhf_weights_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf_weights_rgb.glsl"),
+};
+
+/// `zhf_tailored:10`.
+pub const SH10_ZHF_TAILORED: Shader = Shader {
+    spec: "zhf_tailored:10",
+    name: "sh10_zhf_tailored",
+    wgsl: include_str!("../wgsl/sh10/zhf_tailored.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf_tailored.glsl"),
+};
+
+/// `zhf_tailored:10:rgb`.
+pub const SH10_ZHF_TAILORED_RGB: Shader = Shader {
+    spec: "zhf_tailored:10:rgb",
+    name: "sh10_zhf_tailored_rgb",
+    wgsl: include_str!("../wgsl/sh10/zhf_tailored_rgb.wgsl"),
+    glsl: include_str!("../glsl/sh10/zhf_tailored_rgb.glsl"),
 };
 
 /// `rotate_z:10`.
@@ -5223,562 +5759,27 @@ pub const SH10_ROTATE_X_MINUS_90DEG_RGB: Shader = Shader {
     glsl: include_str!("../glsl/sh10/rotate_x_minus_90deg_rgb.glsl"),
 };
 
-/// `rotate:10`.
-pub const SH10_ROTATE: Shader = Shader {
-    spec: "rotate:10",
-    name: "sh10_rotate",
-    wgsl: include_str!("../wgsl/sh10/rotate.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate.glsl"),
-};
-
-/// `rotate:10:rgb`.
-pub const SH10_ROTATE_RGB: Shader = Shader {
-    spec: "rotate:10:rgb",
-    name: "sh10_rotate_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_rgb.glsl"),
-};
-
-/// `rotate:10:euler`.
-pub const SH10_ROTATE_EULER: Shader = Shader {
-    spec: "rotate:10:euler",
-    name: "sh10_rotate_euler",
-    wgsl: include_str!("../wgsl/sh10/rotate_euler.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_euler.glsl"),
-};
-
-/// `rotate:10:euler:rgb`.
-pub const SH10_ROTATE_EULER_RGB: Shader = Shader {
-    spec: "rotate:10:euler:rgb",
-    name: "sh10_rotate_euler_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_euler_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_euler_rgb.glsl"),
-};
-
-/// `rotate:10:angles`.
-pub const SH10_ROTATE_ANGLES: Shader = Shader {
-    spec: "rotate:10:angles",
-    name: "sh10_rotate_angles",
-    wgsl: include_str!("../wgsl/sh10/rotate_angles.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_angles.glsl"),
-};
-
-/// `rotate:10:angles:rgb`.
-pub const SH10_ROTATE_ANGLES_RGB: Shader = Shader {
-    spec: "rotate:10:angles:rgb",
-    name: "sh10_rotate_angles_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_angles_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_angles_rgb.glsl"),
-};
-
-/// `rotate:10:zxzxz`.
-pub const SH10_ROTATE_ZXZXZ: Shader = Shader {
-    spec: "rotate:10:zxzxz",
-    name: "sh10_rotate_zxzxz",
-    wgsl: include_str!("../wgsl/sh10/rotate_zxzxz.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_zxzxz.glsl"),
-};
-
-/// `rotate:10:zxzxz:rgb`.
-pub const SH10_ROTATE_ZXZXZ_RGB: Shader = Shader {
-    spec: "rotate:10:zxzxz:rgb",
-    name: "sh10_rotate_zxzxz_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_zxzxz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_zxzxz_rgb.glsl"),
-};
-
-/// `rotate:10:align`.
-pub const SH10_ROTATE_ALIGN: Shader = Shader {
-    spec: "rotate:10:align",
-    name: "sh10_rotate_align",
-    wgsl: include_str!("../wgsl/sh10/rotate_align.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_align.glsl"),
-};
-
-/// `rotate:10:align:rgb`.
-pub const SH10_ROTATE_ALIGN_RGB: Shader = Shader {
-    spec: "rotate:10:align:rgb",
-    name: "sh10_rotate_align_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_align_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_align_rgb.glsl"),
-};
-
-/// `rotate:10:zonal`.
-pub const SH10_ROTATE_ZONAL: Shader = Shader {
-    spec: "rotate:10:zonal",
-    name: "sh10_rotate_zonal",
-    wgsl: include_str!("../wgsl/sh10/rotate_zonal.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_zonal.glsl"),
-};
-
-/// `rotate:10:zonal:rgb`.
-pub const SH10_ROTATE_ZONAL_RGB: Shader = Shader {
-    spec: "rotate:10:zonal:rgb",
-    name: "sh10_rotate_zonal_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_zonal_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_zonal_rgb.glsl"),
-};
-
-/// `tilt:10`.
-pub const SH10_TILT: Shader = Shader {
-    spec: "tilt:10",
-    name: "sh10_tilt",
-    wgsl: include_str!("../wgsl/sh10/tilt.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt.glsl"),
-};
-
-/// `tilt:10:rgb`.
-pub const SH10_TILT_RGB: Shader = Shader {
-    spec: "tilt:10:rgb",
-    name: "sh10_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh10/tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_rgb.glsl"),
-};
-
-/// `rotate_small:10`.
-pub const SH10_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:10",
-    name: "sh10_rotate_small",
-    wgsl: include_str!("../wgsl/sh10/rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_small.glsl"),
-};
-
-/// `rotate_small:10:rgb`.
-pub const SH10_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:10:rgb",
-    name: "sh10_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_small_rgb.glsl"),
-};
-
-/// `eval_monomial:10`.
-pub const SH10_EVAL_MONOMIAL: Shader = Shader {
-    spec: "eval_monomial:10",
-    name: "sh10_eval_monomial",
-    wgsl: include_str!("../wgsl/sh10/eval_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh10/eval_monomial.glsl"),
-};
-
-/// `eval_monomial:10:rgb`.
-pub const SH10_EVAL_MONOMIAL_RGB: Shader = Shader {
-    spec: "eval_monomial:10:rgb",
-    name: "sh10_eval_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh10/eval_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/eval_monomial_rgb.glsl"),
-};
-
-/// `to_monomial:10`.
-pub const SH10_TO_MONOMIAL: Shader = Shader {
-    spec: "to_monomial:10",
-    name: "sh10_to_monomial",
-    wgsl: include_str!("../wgsl/sh10/to_monomial.wgsl"),
-    glsl: include_str!("../glsl/sh10/to_monomial.glsl"),
-};
-
-/// `to_monomial:10:rgb`.
-pub const SH10_TO_MONOMIAL_RGB: Shader = Shader {
-    spec: "to_monomial:10:rgb",
-    name: "sh10_to_monomial_rgb",
-    wgsl: include_str!("../wgsl/sh10/to_monomial_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/to_monomial_rgb.glsl"),
-};
-
-/// `zhf:10`.
-pub const SH10_ZHF: Shader = Shader {
-    spec: "zhf:10",
-    name: "sh10_zhf",
-    wgsl: include_str!("../wgsl/sh10/zhf.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf.glsl"),
-};
-
-/// `zhf:10:rgb`.
-pub const SH10_ZHF_RGB: Shader = Shader {
-    spec: "zhf:10:rgb",
-    name: "sh10_zhf_rgb",
-    wgsl: include_str!("../wgsl/sh10/zhf_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf_rgb.glsl"),
-};
-
-/// `zhf_weights:10`.
-pub const SH10_ZHF_WEIGHTS: Shader = Shader {
-    spec: "zhf_weights:10",
-    name: "sh10_zhf_weights",
-    wgsl: include_str!("../wgsl/sh10/zhf_weights.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf_weights.glsl"),
-};
-
-/// `zhf_weights:10:rgb`.
-pub const SH10_ZHF_WEIGHTS_RGB: Shader = Shader {
-    spec: "zhf_weights:10:rgb",
-    name: "sh10_zhf_weights_rgb",
-    wgsl: include_str!("../wgsl/sh10/zhf_weights_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf_weights_rgb.glsl"),
-};
-
-/// `zhf_tailored:10`.
-pub const SH10_ZHF_TAILORED: Shader = Shader {
-    spec: "zhf_tailored:10",
-    name: "sh10_zhf_tailored",
-    wgsl: include_str!("../wgsl/sh10/zhf_tailored.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf_tailored.glsl"),
-};
-
-/// `zhf_tailored:10:rgb`.
-pub const SH10_ZHF_TAILORED_RGB: Shader = Shader {
-    spec: "zhf_tailored:10:rgb",
-    name: "sh10_zhf_tailored_rgb",
-    wgsl: include_str!("../wgsl/sh10/zhf_tailored_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/zhf_tailored_rgb.glsl"),
-};
-
-/// `taylor1:10`.
-pub const SH10_TAYLOR1_Y: Shader = Shader {
-    spec: "taylor1:10",
-    name: "sh10_taylor1_y",
-    wgsl: include_str!("../wgsl/sh10/taylor1_y.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor1_y.glsl"),
-};
-
-/// `taylor1:10:rgb`.
-pub const SH10_TAYLOR1_Y_RGB: Shader = Shader {
-    spec: "taylor1:10:rgb",
-    name: "sh10_taylor1_y_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor1_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor1_y_rgb.glsl"),
-};
-
-/// `rotate:10:taylor1`.
-pub const SH10_TAYLOR1_ZYZ: Shader = Shader {
-    spec: "rotate:10:taylor1",
-    name: "sh10_taylor1_zyz",
-    wgsl: include_str!("../wgsl/sh10/taylor1_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor1_zyz.glsl"),
-};
-
-/// `rotate:10:taylor1:rgb`.
-pub const SH10_TAYLOR1_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:10:taylor1:rgb",
-    name: "sh10_taylor1_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor1_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor1_zyz_rgb.glsl"),
-};
-
-/// `taylor15:10`.
-pub const SH10_TAYLOR15_Y: Shader = Shader {
-    spec: "taylor15:10",
-    name: "sh10_taylor15_y",
-    wgsl: include_str!("../wgsl/sh10/taylor15_y.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_y.glsl"),
-};
-
-/// `taylor15:10:rgb`.
-pub const SH10_TAYLOR15_Y_RGB: Shader = Shader {
-    spec: "taylor15:10:rgb",
-    name: "sh10_taylor15_y_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor15_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_y_rgb.glsl"),
-};
-
-/// `rotate:10:taylor15`.
-pub const SH10_TAYLOR15_ZYZ: Shader = Shader {
-    spec: "rotate:10:taylor15",
-    name: "sh10_taylor15_zyz",
-    wgsl: include_str!("../wgsl/sh10/taylor15_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_zyz.glsl"),
-};
-
-/// `rotate:10:taylor15:rgb`.
-pub const SH10_TAYLOR15_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:10:taylor15:rgb",
-    name: "sh10_taylor15_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor15_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_zyz_rgb.glsl"),
-};
-
-/// `taylor2:10`.
-pub const SH10_TAYLOR2_Y: Shader = Shader {
-    spec: "taylor2:10",
-    name: "sh10_taylor2_y",
-    wgsl: include_str!("../wgsl/sh10/taylor2_y.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor2_y.glsl"),
-};
-
-/// `taylor2:10:rgb`.
-pub const SH10_TAYLOR2_Y_RGB: Shader = Shader {
-    spec: "taylor2:10:rgb",
-    name: "sh10_taylor2_y_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor2_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor2_y_rgb.glsl"),
-};
-
-/// `rotate:10:taylor2`.
-pub const SH10_TAYLOR2_ZYZ: Shader = Shader {
-    spec: "rotate:10:taylor2",
-    name: "sh10_taylor2_zyz",
-    wgsl: include_str!("../wgsl/sh10/taylor2_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor2_zyz.glsl"),
-};
-
-/// `rotate:10:taylor2:rgb`.
-pub const SH10_TAYLOR2_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:10:taylor2:rgb",
-    name: "sh10_taylor2_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh10/taylor2_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor2_zyz_rgb.glsl"),
-};
-
-/// `lf3:10`.
-pub const SH10_LF3_Y: Shader = Shader {
-    spec: "lf3:10",
-    name: "sh10_lf3_y",
-    wgsl: include_str!("../wgsl/sh10/lf3_y.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf3_y.glsl"),
-};
-
-/// `lf3:10:rgb`.
-pub const SH10_LF3_Y_RGB: Shader = Shader {
-    spec: "lf3:10:rgb",
-    name: "sh10_lf3_y_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf3_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf3_y_rgb.glsl"),
-};
-
-/// `rotate:10:lf3`.
-pub const SH10_LF3_ZYZ: Shader = Shader {
-    spec: "rotate:10:lf3",
-    name: "sh10_lf3_zyz",
-    wgsl: include_str!("../wgsl/sh10/lf3_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf3_zyz.glsl"),
-};
-
-/// `rotate:10:lf3:rgb`.
-pub const SH10_LF3_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:10:lf3:rgb",
-    name: "sh10_lf3_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf3_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf3_zyz_rgb.glsl"),
-};
-
-/// `lf5:10`.
-pub const SH10_LF5_Y: Shader = Shader {
-    spec: "lf5:10",
-    name: "sh10_lf5_y",
-    wgsl: include_str!("../wgsl/sh10/lf5_y.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_y.glsl"),
-};
-
-/// `lf5:10:rgb`.
-pub const SH10_LF5_Y_RGB: Shader = Shader {
-    spec: "lf5:10:rgb",
-    name: "sh10_lf5_y_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf5_y_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_y_rgb.glsl"),
-};
-
-/// `rotate:10:lf5`.
-pub const SH10_LF5_ZYZ: Shader = Shader {
-    spec: "rotate:10:lf5",
-    name: "sh10_lf5_zyz",
-    wgsl: include_str!("../wgsl/sh10/lf5_zyz.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_zyz.glsl"),
-};
-
-/// `rotate:10:lf5:rgb`.
-pub const SH10_LF5_ZYZ_RGB: Shader = Shader {
-    spec: "rotate:10:lf5:rgb",
-    name: "sh10_lf5_zyz_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf5_zyz_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_zyz_rgb.glsl"),
-};
-
-/// `rotate:10:lifted`.
-pub const SH10_ROTATE_LIFTED: Shader = Shader {
-    spec: "rotate:10:lifted",
-    name: "sh10_rotate_lifted",
-    wgsl: include_str!("../wgsl/sh10/rotate_lifted.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_lifted.glsl"),
-};
-
-/// `rotate:10:lifted:rgb`.
-pub const SH10_ROTATE_LIFTED_RGB: Shader = Shader {
-    spec: "rotate:10:lifted:rgb",
-    name: "sh10_rotate_lifted_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_lifted_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_lifted_rgb.glsl"),
-};
-
-/// `tilt_scale:10`.
-pub const SH10_TILT_SCALE: Shader = Shader {
-    spec: "tilt_scale:10",
-    name: "sh10_tilt_scale",
-    wgsl: include_str!("../wgsl/sh10/tilt_scale.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_scale.glsl"),
-};
-
-/// `tilt_scale:10:rgb`.
-pub const SH10_TILT_SCALE_RGB: Shader = Shader {
-    spec: "tilt_scale:10:rgb",
-    name: "sh10_tilt_scale_rgb",
-    wgsl: include_str!("../wgsl/sh10/tilt_scale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_scale_rgb.glsl"),
-};
-
-/// `tilt_unscale:10`.
-pub const SH10_TILT_UNSCALE: Shader = Shader {
-    spec: "tilt_unscale:10",
-    name: "sh10_tilt_unscale",
-    wgsl: include_str!("../wgsl/sh10/tilt_unscale.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_unscale.glsl"),
-};
-
-/// `tilt_unscale:10:rgb`.
-pub const SH10_TILT_UNSCALE_RGB: Shader = Shader {
-    spec: "tilt_unscale:10:rgb",
-    name: "sh10_tilt_unscale_rgb",
-    wgsl: include_str!("../wgsl/sh10/tilt_unscale_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_unscale_rgb.glsl"),
-};
-
-/// `tilt_prescaled:10`.
-pub const SH10_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:10",
-    name: "sh10_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh10/tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:10:rgb`.
-pub const SH10_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:10:rgb",
-    name: "sh10_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh10/tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt_prescaled:10:lf5`.
-pub const SH10_LF5_TILT_PRESCALED: Shader = Shader {
-    spec: "tilt_prescaled:10:lf5",
-    name: "sh10_lf5_tilt_prescaled",
-    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled.glsl"),
-};
-
-/// `tilt_prescaled:10:lf5:rgb`.
-pub const SH10_LF5_TILT_PRESCALED_RGB: Shader = Shader {
-    spec: "tilt_prescaled:10:lf5:rgb",
-    name: "sh10_lf5_tilt_prescaled_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf5_tilt_prescaled_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_tilt_prescaled_rgb.glsl"),
-};
-
-/// `tilt:10:lf5`.
-pub const SH10_LF5_TILT: Shader = Shader {
-    spec: "tilt:10:lf5",
-    name: "sh10_lf5_tilt",
-    wgsl: include_str!("../wgsl/sh10/lf5_tilt.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_tilt.glsl"),
-};
-
-/// `tilt:10:lf5:rgb`.
-pub const SH10_LF5_TILT_RGB: Shader = Shader {
-    spec: "tilt:10:lf5:rgb",
-    name: "sh10_lf5_tilt_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf5_tilt_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_tilt_rgb.glsl"),
-};
-
-/// `rotate_small:10:lf5`.
-pub const SH10_LF5_ROTATE_SMALL: Shader = Shader {
-    spec: "rotate_small:10:lf5",
-    name: "sh10_lf5_rotate_small",
-    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_rotate_small.glsl"),
-};
-
-/// `rotate_small:10:lf5:rgb`.
-pub const SH10_LF5_ROTATE_SMALL_RGB: Shader = Shader {
-    spec: "rotate_small:10:lf5:rgb",
-    name: "sh10_lf5_rotate_small_rgb",
-    wgsl: include_str!("../wgsl/sh10/lf5_rotate_small_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/lf5_rotate_small_rgb.glsl"),
-};
-
-/// `rotate_adaptive:10`.
-pub const SH10_ROTATE_ADAPTIVE: Shader = Shader {
-    spec: "rotate_adaptive:10",
-    name: "sh10_rotate_adaptive",
-    wgsl: include_str!("../wgsl/sh10/rotate_adaptive.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_adaptive.glsl"),
-};
-
-/// `rotate_adaptive:10:rgb`.
-pub const SH10_ROTATE_ADAPTIVE_RGB: Shader = Shader {
-    spec: "rotate_adaptive:10:rgb",
-    name: "sh10_rotate_adaptive_rgb",
-    wgsl: include_str!("../wgsl/sh10/rotate_adaptive_rgb.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_adaptive_rgb.glsl"),
-};
-
-/// `basis:10:loop`.
-pub const SH10_BASIS_LOOP: Shader = Shader {
-    spec: "basis:10:loop",
-    name: "sh10_basis_loop",
-    wgsl: include_str!("../wgsl/sh10/basis_loop.wgsl"),
-    glsl: include_str!("../glsl/sh10/basis_loop.glsl"),
-};
-
-/// `rotate:10:loop`.
-pub const SH10_ROTATE_LOOP: Shader = Shader {
-    spec: "rotate:10:loop",
-    name: "sh10_rotate_loop",
-    wgsl: include_str!("../wgsl/sh10/rotate_loop.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_loop.glsl"),
-};
-
-/// `rotate:10:rgb:loop`.
-pub const SH10_ROTATE_RGB_LOOP: Shader = Shader {
-    spec: "rotate:10:rgb:loop",
-    name: "sh10_rotate_rgb_loop",
-    wgsl: include_str!("../wgsl/sh10/rotate_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh10/rotate_rgb_loop.glsl"),
-};
-
-/// `taylor15:10:loop`.
-pub const SH10_TAYLOR15_Y_LOOP: Shader = Shader {
-    spec: "taylor15:10:loop",
-    name: "sh10_taylor15_y_loop",
-    wgsl: include_str!("../wgsl/sh10/taylor15_y_loop.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_y_loop.glsl"),
-};
-
-/// `taylor15:10:rgb:loop`.
-pub const SH10_TAYLOR15_Y_RGB_LOOP: Shader = Shader {
-    spec: "taylor15:10:rgb:loop",
-    name: "sh10_taylor15_y_rgb_loop",
-    wgsl: include_str!("../wgsl/sh10/taylor15_y_rgb_loop.wgsl"),
-    glsl: include_str!("../glsl/sh10/taylor15_y_rgb_loop.glsl"),
-};
-
 /// All of them, by order.
 pub const ALL: &[Shader] = &[
     SH2_BASIS,
-    SH2_ANGLES,
+    SH2_BASIS_LOOP,
     SH2_EVAL,
     SH2_EVAL_RGB,
-    SH2_ROTATE_Z,
-    SH2_ROTATE_Z_RGB,
-    SH2_ROTATE_Y,
-    SH2_ROTATE_Y_RGB,
-    SH2_SWAP_YZ,
-    SH2_SWAP_YZ_RGB,
-    SH2_ROTATE_X_PLUS_90DEG,
-    SH2_ROTATE_X_PLUS_90DEG_RGB,
-    SH2_ROTATE_X_MINUS_90DEG,
-    SH2_ROTATE_X_MINUS_90DEG_RGB,
+    SH2_EVAL_MONOMIAL,
+    SH2_EVAL_MONOMIAL_RGB,
+    SH2_TO_MONOMIAL,
+    SH2_TO_MONOMIAL_RGB,
     SH2_ROTATE_ZYZ,
     SH2_ROTATE_ZYZ_RGB,
+    SH2_ROTATE_ZYZ_LOOP,
+    SH2_ROTATE_ZYZ_RGB_LOOP,
+    SH2_ROTATE,
+    SH2_ROTATE_RGB,
+    SH2_ROTATE_MATRIX,
+    SH2_ROTATE_MATRIX_RGB,
     SH2_ROTATE_EULER,
     SH2_ROTATE_EULER_RGB,
+    SH2_ANGLES,
     SH2_ROTATE_ANGLES,
     SH2_ROTATE_ANGLES_RGB,
     SH2_ROTATE_ZXZXZ,
@@ -5789,52 +5790,108 @@ pub const ALL: &[Shader] = &[
     SH2_ROTATE_ZONAL_RGB,
     SH2_TILT,
     SH2_TILT_RGB,
+    SH2_TAYLOR1_Y,
+    SH2_TAYLOR1_Y_RGB,
+    SH2_TAYLOR15_Y,
+    SH2_TAYLOR15_Y_RGB,
+    SH2_TAYLOR2_Y,
+    SH2_TAYLOR2_Y_RGB,
+    SH2_LF3_Y,
+    SH2_LF3_Y_RGB,
+    SH2_LF5_Y,
+    SH2_LF5_Y_RGB,
+    SH2_TAYLOR15_Y_LOOP,
+    SH2_TAYLOR15_Y_RGB_LOOP,
+    SH2_TAYLOR1_ZYZ,
+    SH2_TAYLOR1_ZYZ_RGB,
+    SH2_TAYLOR15_ZYZ,
+    SH2_TAYLOR15_ZYZ_RGB,
+    SH2_TAYLOR2_ZYZ,
+    SH2_TAYLOR2_ZYZ_RGB,
+    SH2_LF3_ZYZ,
+    SH2_LF3_ZYZ_RGB,
+    SH2_LF5_ZYZ,
+    SH2_LF5_ZYZ_RGB,
     SH2_ROTATE_SMALL,
     SH2_ROTATE_SMALL_RGB,
-    SH2_EVAL_MONOMIAL,
-    SH2_EVAL_MONOMIAL_RGB,
-    SH2_TO_MONOMIAL,
-    SH2_TO_MONOMIAL_RGB,
     SH2_ZHF,
     SH2_ZHF_RGB,
     SH2_ZHF_WEIGHTS,
     SH2_ZHF_WEIGHTS_RGB,
     SH2_ZHF_TAILORED,
     SH2_ZHF_TAILORED_RGB,
-    SH2_TAYLOR1_Y,
-    SH2_TAYLOR1_Y_RGB,
-    SH2_TAYLOR1_ZYZ,
-    SH2_TAYLOR1_ZYZ_RGB,
-    SH2_TAYLOR15_Y,
-    SH2_TAYLOR15_Y_RGB,
-    SH2_TAYLOR15_ZYZ,
-    SH2_TAYLOR15_ZYZ_RGB,
-    SH2_TAYLOR2_Y,
-    SH2_TAYLOR2_Y_RGB,
-    SH2_TAYLOR2_ZYZ,
-    SH2_TAYLOR2_ZYZ_RGB,
-    SH2_LF3_Y,
-    SH2_LF3_Y_RGB,
-    SH2_LF3_ZYZ,
-    SH2_LF3_ZYZ_RGB,
-    SH2_LF5_Y,
-    SH2_LF5_Y_RGB,
-    SH2_LF5_ZYZ,
-    SH2_LF5_ZYZ_RGB,
-    SH2_ROTATE,
-    SH2_ROTATE_RGB,
-    SH2_ROTATE_MATRIX,
-    SH2_ROTATE_MATRIX_RGB,
-    SH2_BASIS_LOOP,
-    SH2_ROTATE_ZYZ_LOOP,
-    SH2_ROTATE_ZYZ_RGB_LOOP,
-    SH2_TAYLOR15_Y_LOOP,
-    SH2_TAYLOR15_Y_RGB_LOOP,
+    SH2_ROTATE_Z,
+    SH2_ROTATE_Z_RGB,
+    SH2_ROTATE_Y,
+    SH2_ROTATE_Y_RGB,
+    SH2_SWAP_YZ,
+    SH2_SWAP_YZ_RGB,
+    SH2_ROTATE_X_PLUS_90DEG,
+    SH2_ROTATE_X_PLUS_90DEG_RGB,
+    SH2_ROTATE_X_MINUS_90DEG,
+    SH2_ROTATE_X_MINUS_90DEG_RGB,
     SH3_BASIS,
-    SH3_ANGLES,
-    SH3_LIFTED,
+    SH3_BASIS_LOOP,
     SH3_EVAL,
     SH3_EVAL_RGB,
+    SH3_EVAL_MONOMIAL,
+    SH3_EVAL_MONOMIAL_RGB,
+    SH3_TO_MONOMIAL,
+    SH3_TO_MONOMIAL_RGB,
+    SH3_ROTATE_ZYZ,
+    SH3_ROTATE_RGB,
+    SH3_ROTATE_ZYZ_LOOP,
+    SH3_ROTATE_RGB_LOOP,
+    SH3_ROTATE,
+    SH3_ROTATE_TENSOR_RGB,
+    SH3_ROTATE_MATRIX,
+    SH3_ROTATE_MATRIX_RGB,
+    SH3_ROTATE_EULER,
+    SH3_ROTATE_EULER_RGB,
+    SH3_ANGLES,
+    SH3_ROTATE_ANGLES,
+    SH3_ROTATE_ANGLES_RGB,
+    SH3_LIFTED,
+    SH3_ROTATE_LIFTED,
+    SH3_ROTATE_LIFTED_RGB,
+    SH3_ROTATE_ZXZXZ,
+    SH3_ROTATE_ZXZXZ_RGB,
+    SH3_ROTATE_ALIGN,
+    SH3_ROTATE_ALIGN_RGB,
+    SH3_ROTATE_ZONAL,
+    SH3_ROTATE_ZONAL_RGB,
+    SH3_TILT,
+    SH3_TILT_RGB,
+    SH3_TAYLOR1_Y,
+    SH3_TAYLOR1_Y_RGB,
+    SH3_TAYLOR15_Y,
+    SH3_TAYLOR15_Y_RGB,
+    SH3_TAYLOR2_Y,
+    SH3_TAYLOR2_Y_RGB,
+    SH3_LF3_Y,
+    SH3_LF3_Y_RGB,
+    SH3_LF5_Y,
+    SH3_LF5_Y_RGB,
+    SH3_TAYLOR15_Y_LOOP,
+    SH3_TAYLOR15_Y_RGB_LOOP,
+    SH3_TAYLOR1_ZYZ,
+    SH3_TAYLOR1_ZYZ_RGB,
+    SH3_TAYLOR15_ZYZ,
+    SH3_TAYLOR15_ZYZ_RGB,
+    SH3_TAYLOR2_ZYZ,
+    SH3_TAYLOR2_ZYZ_RGB,
+    SH3_LF3_ZYZ,
+    SH3_LF3_ZYZ_RGB,
+    SH3_LF5_ZYZ,
+    SH3_LF5_ZYZ_RGB,
+    SH3_ROTATE_SMALL,
+    SH3_ROTATE_SMALL_RGB,
+    SH3_ZHF,
+    SH3_ZHF_RGB,
+    SH3_ZHF_WEIGHTS,
+    SH3_ZHF_WEIGHTS_RGB,
+    SH3_ZHF_TAILORED,
+    SH3_ZHF_TAILORED_RGB,
     SH3_ROTATE_Z,
     SH3_ROTATE_Z_RGB,
     SH3_ROTATE_Y,
@@ -5845,68 +5902,78 @@ pub const ALL: &[Shader] = &[
     SH3_ROTATE_X_PLUS_90DEG_RGB,
     SH3_ROTATE_X_MINUS_90DEG,
     SH3_ROTATE_X_MINUS_90DEG_RGB,
-    SH3_ROTATE_ZYZ,
-    SH3_ROTATE_RGB,
-    SH3_ROTATE_EULER,
-    SH3_ROTATE_EULER_RGB,
-    SH3_ROTATE_ANGLES,
-    SH3_ROTATE_ANGLES_RGB,
-    SH3_ROTATE_ZXZXZ,
-    SH3_ROTATE_ZXZXZ_RGB,
-    SH3_ROTATE_ALIGN,
-    SH3_ROTATE_ALIGN_RGB,
-    SH3_ROTATE_ZONAL,
-    SH3_ROTATE_ZONAL_RGB,
-    SH3_TILT,
-    SH3_TILT_RGB,
-    SH3_ROTATE_SMALL,
-    SH3_ROTATE_SMALL_RGB,
-    SH3_EVAL_MONOMIAL,
-    SH3_EVAL_MONOMIAL_RGB,
-    SH3_TO_MONOMIAL,
-    SH3_TO_MONOMIAL_RGB,
-    SH3_ZHF,
-    SH3_ZHF_RGB,
-    SH3_ZHF_WEIGHTS,
-    SH3_ZHF_WEIGHTS_RGB,
-    SH3_ZHF_TAILORED,
-    SH3_ZHF_TAILORED_RGB,
-    SH3_TAYLOR1_Y,
-    SH3_TAYLOR1_Y_RGB,
-    SH3_TAYLOR1_ZYZ,
-    SH3_TAYLOR1_ZYZ_RGB,
-    SH3_TAYLOR15_Y,
-    SH3_TAYLOR15_Y_RGB,
-    SH3_TAYLOR15_ZYZ,
-    SH3_TAYLOR15_ZYZ_RGB,
-    SH3_TAYLOR2_Y,
-    SH3_TAYLOR2_Y_RGB,
-    SH3_TAYLOR2_ZYZ,
-    SH3_TAYLOR2_ZYZ_RGB,
-    SH3_LF3_Y,
-    SH3_LF3_Y_RGB,
-    SH3_LF3_ZYZ,
-    SH3_LF3_ZYZ_RGB,
-    SH3_LF5_Y,
-    SH3_LF5_Y_RGB,
-    SH3_LF5_ZYZ,
-    SH3_LF5_ZYZ_RGB,
-    SH3_ROTATE,
-    SH3_ROTATE_TENSOR_RGB,
-    SH3_ROTATE_MATRIX,
-    SH3_ROTATE_MATRIX_RGB,
-    SH3_ROTATE_LIFTED,
-    SH3_ROTATE_LIFTED_RGB,
-    SH3_BASIS_LOOP,
-    SH3_ROTATE_ZYZ_LOOP,
-    SH3_ROTATE_RGB_LOOP,
-    SH3_TAYLOR15_Y_LOOP,
-    SH3_TAYLOR15_Y_RGB_LOOP,
     SH4_BASIS,
-    SH4_ANGLES,
-    SH4_LIFTED,
+    SH4_BASIS_LOOP,
     SH4_EVAL,
     SH4_EVAL_RGB,
+    SH4_EVAL_MONOMIAL,
+    SH4_EVAL_MONOMIAL_RGB,
+    SH4_TO_MONOMIAL,
+    SH4_TO_MONOMIAL_RGB,
+    SH4_ROTATE,
+    SH4_ROTATE_RGB,
+    SH4_ROTATE_LOOP,
+    SH4_ROTATE_RGB_LOOP,
+    SH4_ROTATE_EULER,
+    SH4_ROTATE_EULER_RGB,
+    SH4_ANGLES,
+    SH4_ROTATE_ANGLES,
+    SH4_ROTATE_ANGLES_RGB,
+    SH4_LIFTED,
+    SH4_ROTATE_LIFTED,
+    SH4_ROTATE_LIFTED_RGB,
+    SH4_ROTATE_ZXZXZ,
+    SH4_ROTATE_ZXZXZ_RGB,
+    SH4_ROTATE_ALIGN,
+    SH4_ROTATE_ALIGN_RGB,
+    SH4_ROTATE_ZONAL,
+    SH4_ROTATE_ZONAL_RGB,
+    SH4_TILT,
+    SH4_TILT_RGB,
+    SH4_LF5_TILT,
+    SH4_LF5_TILT_RGB,
+    SH4_TILT_PRESCALED,
+    SH4_TILT_PRESCALED_RGB,
+    SH4_LF5_TILT_PRESCALED,
+    SH4_LF5_TILT_PRESCALED_RGB,
+    SH4_TILT_SCALE,
+    SH4_TILT_SCALE_RGB,
+    SH4_TILT_UNSCALE,
+    SH4_TILT_UNSCALE_RGB,
+    SH4_TAYLOR1_Y,
+    SH4_TAYLOR1_Y_RGB,
+    SH4_TAYLOR15_Y,
+    SH4_TAYLOR15_Y_RGB,
+    SH4_TAYLOR2_Y,
+    SH4_TAYLOR2_Y_RGB,
+    SH4_LF3_Y,
+    SH4_LF3_Y_RGB,
+    SH4_LF5_Y,
+    SH4_LF5_Y_RGB,
+    SH4_TAYLOR15_Y_LOOP,
+    SH4_TAYLOR15_Y_RGB_LOOP,
+    SH4_TAYLOR1_ZYZ,
+    SH4_TAYLOR1_ZYZ_RGB,
+    SH4_TAYLOR15_ZYZ,
+    SH4_TAYLOR15_ZYZ_RGB,
+    SH4_TAYLOR2_ZYZ,
+    SH4_TAYLOR2_ZYZ_RGB,
+    SH4_LF3_ZYZ,
+    SH4_LF3_ZYZ_RGB,
+    SH4_LF5_ZYZ,
+    SH4_LF5_ZYZ_RGB,
+    SH4_ROTATE_SMALL,
+    SH4_ROTATE_SMALL_RGB,
+    SH4_LF5_ROTATE_SMALL,
+    SH4_LF5_ROTATE_SMALL_RGB,
+    SH4_ROTATE_ADAPTIVE,
+    SH4_ROTATE_ADAPTIVE_RGB,
+    SH4_ZHF,
+    SH4_ZHF_RGB,
+    SH4_ZHF_WEIGHTS,
+    SH4_ZHF_WEIGHTS_RGB,
+    SH4_ZHF_TAILORED,
+    SH4_ZHF_TAILORED_RGB,
     SH4_ROTATE_Z,
     SH4_ROTATE_Z_RGB,
     SH4_ROTATE_Y,
@@ -5917,78 +5984,81 @@ pub const ALL: &[Shader] = &[
     SH4_ROTATE_X_PLUS_90DEG_RGB,
     SH4_ROTATE_X_MINUS_90DEG,
     SH4_ROTATE_X_MINUS_90DEG_RGB,
-    SH4_ROTATE,
-    SH4_ROTATE_RGB,
-    SH4_ROTATE_EULER,
-    SH4_ROTATE_EULER_RGB,
-    SH4_ROTATE_ANGLES,
-    SH4_ROTATE_ANGLES_RGB,
-    SH4_ROTATE_ZXZXZ,
-    SH4_ROTATE_ZXZXZ_RGB,
-    SH4_ROTATE_ALIGN,
-    SH4_ROTATE_ALIGN_RGB,
-    SH4_ROTATE_ZONAL,
-    SH4_ROTATE_ZONAL_RGB,
-    SH4_TILT,
-    SH4_TILT_RGB,
-    SH4_ROTATE_SMALL,
-    SH4_ROTATE_SMALL_RGB,
-    SH4_EVAL_MONOMIAL,
-    SH4_EVAL_MONOMIAL_RGB,
-    SH4_TO_MONOMIAL,
-    SH4_TO_MONOMIAL_RGB,
-    SH4_ZHF,
-    SH4_ZHF_RGB,
-    SH4_ZHF_WEIGHTS,
-    SH4_ZHF_WEIGHTS_RGB,
-    SH4_ZHF_TAILORED,
-    SH4_ZHF_TAILORED_RGB,
-    SH4_TAYLOR1_Y,
-    SH4_TAYLOR1_Y_RGB,
-    SH4_TAYLOR1_ZYZ,
-    SH4_TAYLOR1_ZYZ_RGB,
-    SH4_TAYLOR15_Y,
-    SH4_TAYLOR15_Y_RGB,
-    SH4_TAYLOR15_ZYZ,
-    SH4_TAYLOR15_ZYZ_RGB,
-    SH4_TAYLOR2_Y,
-    SH4_TAYLOR2_Y_RGB,
-    SH4_TAYLOR2_ZYZ,
-    SH4_TAYLOR2_ZYZ_RGB,
-    SH4_LF3_Y,
-    SH4_LF3_Y_RGB,
-    SH4_LF3_ZYZ,
-    SH4_LF3_ZYZ_RGB,
-    SH4_LF5_Y,
-    SH4_LF5_Y_RGB,
-    SH4_LF5_ZYZ,
-    SH4_LF5_ZYZ_RGB,
-    SH4_ROTATE_LIFTED,
-    SH4_ROTATE_LIFTED_RGB,
-    SH4_TILT_SCALE,
-    SH4_TILT_SCALE_RGB,
-    SH4_TILT_UNSCALE,
-    SH4_TILT_UNSCALE_RGB,
-    SH4_TILT_PRESCALED,
-    SH4_TILT_PRESCALED_RGB,
-    SH4_LF5_TILT_PRESCALED,
-    SH4_LF5_TILT_PRESCALED_RGB,
-    SH4_LF5_TILT,
-    SH4_LF5_TILT_RGB,
-    SH4_LF5_ROTATE_SMALL,
-    SH4_LF5_ROTATE_SMALL_RGB,
-    SH4_ROTATE_ADAPTIVE,
-    SH4_ROTATE_ADAPTIVE_RGB,
-    SH4_BASIS_LOOP,
-    SH4_ROTATE_LOOP,
-    SH4_ROTATE_RGB_LOOP,
-    SH4_TAYLOR15_Y_LOOP,
-    SH4_TAYLOR15_Y_RGB_LOOP,
     SH5_BASIS,
-    SH5_ANGLES,
-    SH5_LIFTED,
+    SH5_BASIS_LOOP,
     SH5_EVAL,
     SH5_EVAL_RGB,
+    SH5_BANDS_0_1_2_4_EVAL,
+    SH5_BANDS_0_1_2_4_EVAL_RGB,
+    SH5_EVAL_MONOMIAL,
+    SH5_EVAL_MONOMIAL_RGB,
+    SH5_TO_MONOMIAL,
+    SH5_TO_MONOMIAL_RGB,
+    SH5_ROTATE,
+    SH5_ROTATE_RGB,
+    SH5_ROTATE_LOOP,
+    SH5_ROTATE_RGB_LOOP,
+    SH5_ROTATE_EULER,
+    SH5_ROTATE_EULER_RGB,
+    SH5_ANGLES,
+    SH5_ROTATE_ANGLES,
+    SH5_ROTATE_ANGLES_RGB,
+    SH5_LIFTED,
+    SH5_ROTATE_LIFTED,
+    SH5_ROTATE_LIFTED_RGB,
+    SH5_ROTATE_ZXZXZ,
+    SH5_ROTATE_ZXZXZ_RGB,
+    SH5_ROTATE_ALIGN,
+    SH5_ROTATE_ALIGN_RGB,
+    SH5_ROTATE_ZONAL,
+    SH5_ROTATE_ZONAL_RGB,
+    SH5_TILT,
+    SH5_TILT_RGB,
+    SH5_LF5_TILT,
+    SH5_LF5_TILT_RGB,
+    SH5_TILT_PRESCALED,
+    SH5_TILT_PRESCALED_RGB,
+    SH5_LF5_TILT_PRESCALED,
+    SH5_LF5_TILT_PRESCALED_RGB,
+    SH5_TILT_SCALE,
+    SH5_TILT_SCALE_RGB,
+    SH5_TILT_UNSCALE,
+    SH5_TILT_UNSCALE_RGB,
+    SH5_TAYLOR1_Y,
+    SH5_TAYLOR1_Y_RGB,
+    SH5_TAYLOR15_Y,
+    SH5_TAYLOR15_Y_RGB,
+    SH5_TAYLOR2_Y,
+    SH5_TAYLOR2_Y_RGB,
+    SH5_LF3_Y,
+    SH5_LF3_Y_RGB,
+    SH5_LF5_Y,
+    SH5_LF5_Y_RGB,
+    SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y,
+    SH5_TAYLOR15_Y_LOOP,
+    SH5_TAYLOR15_Y_RGB_LOOP,
+    SH5_TAYLOR1_ZYZ,
+    SH5_TAYLOR1_ZYZ_RGB,
+    SH5_TAYLOR15_ZYZ,
+    SH5_TAYLOR15_ZYZ_RGB,
+    SH5_TAYLOR2_ZYZ,
+    SH5_TAYLOR2_ZYZ_RGB,
+    SH5_LF3_ZYZ,
+    SH5_LF3_ZYZ_RGB,
+    SH5_LF5_ZYZ,
+    SH5_LF5_ZYZ_RGB,
+    SH5_ROTATE_SMALL,
+    SH5_ROTATE_SMALL_RGB,
+    SH5_LF5_ROTATE_SMALL,
+    SH5_LF5_ROTATE_SMALL_RGB,
+    SH5_ROTATE_ADAPTIVE,
+    SH5_ROTATE_ADAPTIVE_RGB,
+    SH5_ZHF,
+    SH5_ZHF_RGB,
+    SH5_ZHF_WEIGHTS,
+    SH5_ZHF_WEIGHTS_RGB,
+    SH5_ZHF_TAILORED,
+    SH5_ZHF_TAILORED_RGB,
     SH5_ROTATE_Z,
     SH5_ROTATE_Z_RGB,
     SH5_ROTATE_Y,
@@ -5999,81 +6069,78 @@ pub const ALL: &[Shader] = &[
     SH5_ROTATE_X_PLUS_90DEG_RGB,
     SH5_ROTATE_X_MINUS_90DEG,
     SH5_ROTATE_X_MINUS_90DEG_RGB,
-    SH5_ROTATE,
-    SH5_ROTATE_RGB,
-    SH5_ROTATE_EULER,
-    SH5_ROTATE_EULER_RGB,
-    SH5_ROTATE_ANGLES,
-    SH5_ROTATE_ANGLES_RGB,
-    SH5_ROTATE_ZXZXZ,
-    SH5_ROTATE_ZXZXZ_RGB,
-    SH5_ROTATE_ALIGN,
-    SH5_ROTATE_ALIGN_RGB,
-    SH5_ROTATE_ZONAL,
-    SH5_ROTATE_ZONAL_RGB,
-    SH5_TILT,
-    SH5_TILT_RGB,
-    SH5_ROTATE_SMALL,
-    SH5_ROTATE_SMALL_RGB,
-    SH5_EVAL_MONOMIAL,
-    SH5_EVAL_MONOMIAL_RGB,
-    SH5_TO_MONOMIAL,
-    SH5_TO_MONOMIAL_RGB,
-    SH5_ZHF,
-    SH5_ZHF_RGB,
-    SH5_ZHF_WEIGHTS,
-    SH5_ZHF_WEIGHTS_RGB,
-    SH5_ZHF_TAILORED,
-    SH5_ZHF_TAILORED_RGB,
-    SH5_TAYLOR1_Y,
-    SH5_TAYLOR1_Y_RGB,
-    SH5_TAYLOR1_ZYZ,
-    SH5_TAYLOR1_ZYZ_RGB,
-    SH5_TAYLOR15_Y,
-    SH5_TAYLOR15_Y_RGB,
-    SH5_TAYLOR15_ZYZ,
-    SH5_TAYLOR15_ZYZ_RGB,
-    SH5_TAYLOR2_Y,
-    SH5_TAYLOR2_Y_RGB,
-    SH5_TAYLOR2_ZYZ,
-    SH5_TAYLOR2_ZYZ_RGB,
-    SH5_LF3_Y,
-    SH5_LF3_Y_RGB,
-    SH5_LF3_ZYZ,
-    SH5_LF3_ZYZ_RGB,
-    SH5_LF5_Y,
-    SH5_LF5_Y_RGB,
-    SH5_LF5_ZYZ,
-    SH5_LF5_ZYZ_RGB,
-    SH5_ROTATE_LIFTED,
-    SH5_ROTATE_LIFTED_RGB,
-    SH5_TILT_SCALE,
-    SH5_TILT_SCALE_RGB,
-    SH5_TILT_UNSCALE,
-    SH5_TILT_UNSCALE_RGB,
-    SH5_TILT_PRESCALED,
-    SH5_TILT_PRESCALED_RGB,
-    SH5_LF5_TILT_PRESCALED,
-    SH5_LF5_TILT_PRESCALED_RGB,
-    SH5_LF5_TILT,
-    SH5_LF5_TILT_RGB,
-    SH5_LF5_ROTATE_SMALL,
-    SH5_LF5_ROTATE_SMALL_RGB,
-    SH5_ROTATE_ADAPTIVE,
-    SH5_ROTATE_ADAPTIVE_RGB,
-    SH5_BANDS_0_1_2_4_EVAL,
-    SH5_BANDS_0_1_2_4_EVAL_RGB,
-    SH5_TAYLOR15_TAYLOR15_TAYLOR15_TAYLOR1_Y,
-    SH5_BASIS_LOOP,
-    SH5_ROTATE_LOOP,
-    SH5_ROTATE_RGB_LOOP,
-    SH5_TAYLOR15_Y_LOOP,
-    SH5_TAYLOR15_Y_RGB_LOOP,
     SH6_BASIS,
-    SH6_ANGLES,
-    SH6_LIFTED,
+    SH6_BASIS_LOOP,
     SH6_EVAL,
     SH6_EVAL_RGB,
+    SH6_EVAL_MONOMIAL,
+    SH6_EVAL_MONOMIAL_RGB,
+    SH6_TO_MONOMIAL,
+    SH6_TO_MONOMIAL_RGB,
+    SH6_ROTATE,
+    SH6_ROTATE_RGB,
+    SH6_ROTATE_LOOP,
+    SH6_ROTATE_RGB_LOOP,
+    SH6_ROTATE_EULER,
+    SH6_ROTATE_EULER_RGB,
+    SH6_ANGLES,
+    SH6_ROTATE_ANGLES,
+    SH6_ROTATE_ANGLES_RGB,
+    SH6_LIFTED,
+    SH6_ROTATE_LIFTED,
+    SH6_ROTATE_LIFTED_RGB,
+    SH6_ROTATE_ZXZXZ,
+    SH6_ROTATE_ZXZXZ_RGB,
+    SH6_ROTATE_ALIGN,
+    SH6_ROTATE_ALIGN_RGB,
+    SH6_ROTATE_ZONAL,
+    SH6_ROTATE_ZONAL_RGB,
+    SH6_TILT,
+    SH6_TILT_RGB,
+    SH6_LF5_TILT,
+    SH6_LF5_TILT_RGB,
+    SH6_TILT_PRESCALED,
+    SH6_TILT_PRESCALED_RGB,
+    SH6_LF5_TILT_PRESCALED,
+    SH6_LF5_TILT_PRESCALED_RGB,
+    SH6_TILT_SCALE,
+    SH6_TILT_SCALE_RGB,
+    SH6_TILT_UNSCALE,
+    SH6_TILT_UNSCALE_RGB,
+    SH6_TAYLOR1_Y,
+    SH6_TAYLOR1_Y_RGB,
+    SH6_TAYLOR15_Y,
+    SH6_TAYLOR15_Y_RGB,
+    SH6_TAYLOR2_Y,
+    SH6_TAYLOR2_Y_RGB,
+    SH6_LF3_Y,
+    SH6_LF3_Y_RGB,
+    SH6_LF5_Y,
+    SH6_LF5_Y_RGB,
+    SH6_TAYLOR15_Y_LOOP,
+    SH6_TAYLOR15_Y_RGB_LOOP,
+    SH6_TAYLOR1_ZYZ,
+    SH6_TAYLOR1_ZYZ_RGB,
+    SH6_TAYLOR15_ZYZ,
+    SH6_TAYLOR15_ZYZ_RGB,
+    SH6_TAYLOR2_ZYZ,
+    SH6_TAYLOR2_ZYZ_RGB,
+    SH6_LF3_ZYZ,
+    SH6_LF3_ZYZ_RGB,
+    SH6_LF5_ZYZ,
+    SH6_LF5_ZYZ_RGB,
+    SH6_ROTATE_SMALL,
+    SH6_ROTATE_SMALL_RGB,
+    SH6_LF5_ROTATE_SMALL,
+    SH6_LF5_ROTATE_SMALL_RGB,
+    SH6_ROTATE_ADAPTIVE,
+    SH6_ROTATE_ADAPTIVE_RGB,
+    SH6_ZHF,
+    SH6_ZHF_RGB,
+    SH6_ZHF_WEIGHTS,
+    SH6_ZHF_WEIGHTS_RGB,
+    SH6_ZHF_TAILORED,
+    SH6_ZHF_TAILORED_RGB,
     SH6_ROTATE_Z,
     SH6_ROTATE_Z_RGB,
     SH6_ROTATE_Y,
@@ -6084,78 +6151,78 @@ pub const ALL: &[Shader] = &[
     SH6_ROTATE_X_PLUS_90DEG_RGB,
     SH6_ROTATE_X_MINUS_90DEG,
     SH6_ROTATE_X_MINUS_90DEG_RGB,
-    SH6_ROTATE,
-    SH6_ROTATE_RGB,
-    SH6_ROTATE_EULER,
-    SH6_ROTATE_EULER_RGB,
-    SH6_ROTATE_ANGLES,
-    SH6_ROTATE_ANGLES_RGB,
-    SH6_ROTATE_ZXZXZ,
-    SH6_ROTATE_ZXZXZ_RGB,
-    SH6_ROTATE_ALIGN,
-    SH6_ROTATE_ALIGN_RGB,
-    SH6_ROTATE_ZONAL,
-    SH6_ROTATE_ZONAL_RGB,
-    SH6_TILT,
-    SH6_TILT_RGB,
-    SH6_ROTATE_SMALL,
-    SH6_ROTATE_SMALL_RGB,
-    SH6_EVAL_MONOMIAL,
-    SH6_EVAL_MONOMIAL_RGB,
-    SH6_TO_MONOMIAL,
-    SH6_TO_MONOMIAL_RGB,
-    SH6_ZHF,
-    SH6_ZHF_RGB,
-    SH6_ZHF_WEIGHTS,
-    SH6_ZHF_WEIGHTS_RGB,
-    SH6_ZHF_TAILORED,
-    SH6_ZHF_TAILORED_RGB,
-    SH6_TAYLOR1_Y,
-    SH6_TAYLOR1_Y_RGB,
-    SH6_TAYLOR1_ZYZ,
-    SH6_TAYLOR1_ZYZ_RGB,
-    SH6_TAYLOR15_Y,
-    SH6_TAYLOR15_Y_RGB,
-    SH6_TAYLOR15_ZYZ,
-    SH6_TAYLOR15_ZYZ_RGB,
-    SH6_TAYLOR2_Y,
-    SH6_TAYLOR2_Y_RGB,
-    SH6_TAYLOR2_ZYZ,
-    SH6_TAYLOR2_ZYZ_RGB,
-    SH6_LF3_Y,
-    SH6_LF3_Y_RGB,
-    SH6_LF3_ZYZ,
-    SH6_LF3_ZYZ_RGB,
-    SH6_LF5_Y,
-    SH6_LF5_Y_RGB,
-    SH6_LF5_ZYZ,
-    SH6_LF5_ZYZ_RGB,
-    SH6_ROTATE_LIFTED,
-    SH6_ROTATE_LIFTED_RGB,
-    SH6_TILT_SCALE,
-    SH6_TILT_SCALE_RGB,
-    SH6_TILT_UNSCALE,
-    SH6_TILT_UNSCALE_RGB,
-    SH6_TILT_PRESCALED,
-    SH6_TILT_PRESCALED_RGB,
-    SH6_LF5_TILT_PRESCALED,
-    SH6_LF5_TILT_PRESCALED_RGB,
-    SH6_LF5_TILT,
-    SH6_LF5_TILT_RGB,
-    SH6_LF5_ROTATE_SMALL,
-    SH6_LF5_ROTATE_SMALL_RGB,
-    SH6_ROTATE_ADAPTIVE,
-    SH6_ROTATE_ADAPTIVE_RGB,
-    SH6_BASIS_LOOP,
-    SH6_ROTATE_LOOP,
-    SH6_ROTATE_RGB_LOOP,
-    SH6_TAYLOR15_Y_LOOP,
-    SH6_TAYLOR15_Y_RGB_LOOP,
     SH7_BASIS,
-    SH7_ANGLES,
-    SH7_LIFTED,
+    SH7_BASIS_LOOP,
     SH7_EVAL,
     SH7_EVAL_RGB,
+    SH7_EVAL_MONOMIAL,
+    SH7_EVAL_MONOMIAL_RGB,
+    SH7_TO_MONOMIAL,
+    SH7_TO_MONOMIAL_RGB,
+    SH7_ROTATE,
+    SH7_ROTATE_RGB,
+    SH7_ROTATE_LOOP,
+    SH7_ROTATE_RGB_LOOP,
+    SH7_ROTATE_EULER,
+    SH7_ROTATE_EULER_RGB,
+    SH7_ANGLES,
+    SH7_ROTATE_ANGLES,
+    SH7_ROTATE_ANGLES_RGB,
+    SH7_LIFTED,
+    SH7_ROTATE_LIFTED,
+    SH7_ROTATE_LIFTED_RGB,
+    SH7_ROTATE_ZXZXZ,
+    SH7_ROTATE_ZXZXZ_RGB,
+    SH7_ROTATE_ALIGN,
+    SH7_ROTATE_ALIGN_RGB,
+    SH7_ROTATE_ZONAL,
+    SH7_ROTATE_ZONAL_RGB,
+    SH7_TILT,
+    SH7_TILT_RGB,
+    SH7_LF5_TILT,
+    SH7_LF5_TILT_RGB,
+    SH7_TILT_PRESCALED,
+    SH7_TILT_PRESCALED_RGB,
+    SH7_LF5_TILT_PRESCALED,
+    SH7_LF5_TILT_PRESCALED_RGB,
+    SH7_TILT_SCALE,
+    SH7_TILT_SCALE_RGB,
+    SH7_TILT_UNSCALE,
+    SH7_TILT_UNSCALE_RGB,
+    SH7_TAYLOR1_Y,
+    SH7_TAYLOR1_Y_RGB,
+    SH7_TAYLOR15_Y,
+    SH7_TAYLOR15_Y_RGB,
+    SH7_TAYLOR2_Y,
+    SH7_TAYLOR2_Y_RGB,
+    SH7_LF3_Y,
+    SH7_LF3_Y_RGB,
+    SH7_LF5_Y,
+    SH7_LF5_Y_RGB,
+    SH7_TAYLOR15_Y_LOOP,
+    SH7_TAYLOR15_Y_RGB_LOOP,
+    SH7_TAYLOR1_ZYZ,
+    SH7_TAYLOR1_ZYZ_RGB,
+    SH7_TAYLOR15_ZYZ,
+    SH7_TAYLOR15_ZYZ_RGB,
+    SH7_TAYLOR2_ZYZ,
+    SH7_TAYLOR2_ZYZ_RGB,
+    SH7_LF3_ZYZ,
+    SH7_LF3_ZYZ_RGB,
+    SH7_LF5_ZYZ,
+    SH7_LF5_ZYZ_RGB,
+    SH7_ROTATE_SMALL,
+    SH7_ROTATE_SMALL_RGB,
+    SH7_LF5_ROTATE_SMALL,
+    SH7_LF5_ROTATE_SMALL_RGB,
+    SH7_ROTATE_ADAPTIVE,
+    SH7_ROTATE_ADAPTIVE_RGB,
+    SH7_ZHF,
+    SH7_ZHF_RGB,
+    SH7_ZHF_WEIGHTS,
+    SH7_ZHF_WEIGHTS_RGB,
+    SH7_ZHF_TAILORED,
+    SH7_ZHF_TAILORED_RGB,
     SH7_ROTATE_Z,
     SH7_ROTATE_Z_RGB,
     SH7_ROTATE_Y,
@@ -6166,78 +6233,78 @@ pub const ALL: &[Shader] = &[
     SH7_ROTATE_X_PLUS_90DEG_RGB,
     SH7_ROTATE_X_MINUS_90DEG,
     SH7_ROTATE_X_MINUS_90DEG_RGB,
-    SH7_ROTATE,
-    SH7_ROTATE_RGB,
-    SH7_ROTATE_EULER,
-    SH7_ROTATE_EULER_RGB,
-    SH7_ROTATE_ANGLES,
-    SH7_ROTATE_ANGLES_RGB,
-    SH7_ROTATE_ZXZXZ,
-    SH7_ROTATE_ZXZXZ_RGB,
-    SH7_ROTATE_ALIGN,
-    SH7_ROTATE_ALIGN_RGB,
-    SH7_ROTATE_ZONAL,
-    SH7_ROTATE_ZONAL_RGB,
-    SH7_TILT,
-    SH7_TILT_RGB,
-    SH7_ROTATE_SMALL,
-    SH7_ROTATE_SMALL_RGB,
-    SH7_EVAL_MONOMIAL,
-    SH7_EVAL_MONOMIAL_RGB,
-    SH7_TO_MONOMIAL,
-    SH7_TO_MONOMIAL_RGB,
-    SH7_ZHF,
-    SH7_ZHF_RGB,
-    SH7_ZHF_WEIGHTS,
-    SH7_ZHF_WEIGHTS_RGB,
-    SH7_ZHF_TAILORED,
-    SH7_ZHF_TAILORED_RGB,
-    SH7_TAYLOR1_Y,
-    SH7_TAYLOR1_Y_RGB,
-    SH7_TAYLOR1_ZYZ,
-    SH7_TAYLOR1_ZYZ_RGB,
-    SH7_TAYLOR15_Y,
-    SH7_TAYLOR15_Y_RGB,
-    SH7_TAYLOR15_ZYZ,
-    SH7_TAYLOR15_ZYZ_RGB,
-    SH7_TAYLOR2_Y,
-    SH7_TAYLOR2_Y_RGB,
-    SH7_TAYLOR2_ZYZ,
-    SH7_TAYLOR2_ZYZ_RGB,
-    SH7_LF3_Y,
-    SH7_LF3_Y_RGB,
-    SH7_LF3_ZYZ,
-    SH7_LF3_ZYZ_RGB,
-    SH7_LF5_Y,
-    SH7_LF5_Y_RGB,
-    SH7_LF5_ZYZ,
-    SH7_LF5_ZYZ_RGB,
-    SH7_ROTATE_LIFTED,
-    SH7_ROTATE_LIFTED_RGB,
-    SH7_TILT_SCALE,
-    SH7_TILT_SCALE_RGB,
-    SH7_TILT_UNSCALE,
-    SH7_TILT_UNSCALE_RGB,
-    SH7_TILT_PRESCALED,
-    SH7_TILT_PRESCALED_RGB,
-    SH7_LF5_TILT_PRESCALED,
-    SH7_LF5_TILT_PRESCALED_RGB,
-    SH7_LF5_TILT,
-    SH7_LF5_TILT_RGB,
-    SH7_LF5_ROTATE_SMALL,
-    SH7_LF5_ROTATE_SMALL_RGB,
-    SH7_ROTATE_ADAPTIVE,
-    SH7_ROTATE_ADAPTIVE_RGB,
-    SH7_BASIS_LOOP,
-    SH7_ROTATE_LOOP,
-    SH7_ROTATE_RGB_LOOP,
-    SH7_TAYLOR15_Y_LOOP,
-    SH7_TAYLOR15_Y_RGB_LOOP,
     SH8_BASIS,
-    SH8_ANGLES,
-    SH8_LIFTED,
+    SH8_BASIS_LOOP,
     SH8_EVAL,
     SH8_EVAL_RGB,
+    SH8_EVAL_MONOMIAL,
+    SH8_EVAL_MONOMIAL_RGB,
+    SH8_TO_MONOMIAL,
+    SH8_TO_MONOMIAL_RGB,
+    SH8_ROTATE,
+    SH8_ROTATE_RGB,
+    SH8_ROTATE_LOOP,
+    SH8_ROTATE_RGB_LOOP,
+    SH8_ROTATE_EULER,
+    SH8_ROTATE_EULER_RGB,
+    SH8_ANGLES,
+    SH8_ROTATE_ANGLES,
+    SH8_ROTATE_ANGLES_RGB,
+    SH8_LIFTED,
+    SH8_ROTATE_LIFTED,
+    SH8_ROTATE_LIFTED_RGB,
+    SH8_ROTATE_ZXZXZ,
+    SH8_ROTATE_ZXZXZ_RGB,
+    SH8_ROTATE_ALIGN,
+    SH8_ROTATE_ALIGN_RGB,
+    SH8_ROTATE_ZONAL,
+    SH8_ROTATE_ZONAL_RGB,
+    SH8_TILT,
+    SH8_TILT_RGB,
+    SH8_LF5_TILT,
+    SH8_LF5_TILT_RGB,
+    SH8_TILT_PRESCALED,
+    SH8_TILT_PRESCALED_RGB,
+    SH8_LF5_TILT_PRESCALED,
+    SH8_LF5_TILT_PRESCALED_RGB,
+    SH8_TILT_SCALE,
+    SH8_TILT_SCALE_RGB,
+    SH8_TILT_UNSCALE,
+    SH8_TILT_UNSCALE_RGB,
+    SH8_TAYLOR1_Y,
+    SH8_TAYLOR1_Y_RGB,
+    SH8_TAYLOR15_Y,
+    SH8_TAYLOR15_Y_RGB,
+    SH8_TAYLOR2_Y,
+    SH8_TAYLOR2_Y_RGB,
+    SH8_LF3_Y,
+    SH8_LF3_Y_RGB,
+    SH8_LF5_Y,
+    SH8_LF5_Y_RGB,
+    SH8_TAYLOR15_Y_LOOP,
+    SH8_TAYLOR15_Y_RGB_LOOP,
+    SH8_TAYLOR1_ZYZ,
+    SH8_TAYLOR1_ZYZ_RGB,
+    SH8_TAYLOR15_ZYZ,
+    SH8_TAYLOR15_ZYZ_RGB,
+    SH8_TAYLOR2_ZYZ,
+    SH8_TAYLOR2_ZYZ_RGB,
+    SH8_LF3_ZYZ,
+    SH8_LF3_ZYZ_RGB,
+    SH8_LF5_ZYZ,
+    SH8_LF5_ZYZ_RGB,
+    SH8_ROTATE_SMALL,
+    SH8_ROTATE_SMALL_RGB,
+    SH8_LF5_ROTATE_SMALL,
+    SH8_LF5_ROTATE_SMALL_RGB,
+    SH8_ROTATE_ADAPTIVE,
+    SH8_ROTATE_ADAPTIVE_RGB,
+    SH8_ZHF,
+    SH8_ZHF_RGB,
+    SH8_ZHF_WEIGHTS,
+    SH8_ZHF_WEIGHTS_RGB,
+    SH8_ZHF_TAILORED,
+    SH8_ZHF_TAILORED_RGB,
     SH8_ROTATE_Z,
     SH8_ROTATE_Z_RGB,
     SH8_ROTATE_Y,
@@ -6248,78 +6315,78 @@ pub const ALL: &[Shader] = &[
     SH8_ROTATE_X_PLUS_90DEG_RGB,
     SH8_ROTATE_X_MINUS_90DEG,
     SH8_ROTATE_X_MINUS_90DEG_RGB,
-    SH8_ROTATE,
-    SH8_ROTATE_RGB,
-    SH8_ROTATE_EULER,
-    SH8_ROTATE_EULER_RGB,
-    SH8_ROTATE_ANGLES,
-    SH8_ROTATE_ANGLES_RGB,
-    SH8_ROTATE_ZXZXZ,
-    SH8_ROTATE_ZXZXZ_RGB,
-    SH8_ROTATE_ALIGN,
-    SH8_ROTATE_ALIGN_RGB,
-    SH8_ROTATE_ZONAL,
-    SH8_ROTATE_ZONAL_RGB,
-    SH8_TILT,
-    SH8_TILT_RGB,
-    SH8_ROTATE_SMALL,
-    SH8_ROTATE_SMALL_RGB,
-    SH8_EVAL_MONOMIAL,
-    SH8_EVAL_MONOMIAL_RGB,
-    SH8_TO_MONOMIAL,
-    SH8_TO_MONOMIAL_RGB,
-    SH8_ZHF,
-    SH8_ZHF_RGB,
-    SH8_ZHF_WEIGHTS,
-    SH8_ZHF_WEIGHTS_RGB,
-    SH8_ZHF_TAILORED,
-    SH8_ZHF_TAILORED_RGB,
-    SH8_TAYLOR1_Y,
-    SH8_TAYLOR1_Y_RGB,
-    SH8_TAYLOR1_ZYZ,
-    SH8_TAYLOR1_ZYZ_RGB,
-    SH8_TAYLOR15_Y,
-    SH8_TAYLOR15_Y_RGB,
-    SH8_TAYLOR15_ZYZ,
-    SH8_TAYLOR15_ZYZ_RGB,
-    SH8_TAYLOR2_Y,
-    SH8_TAYLOR2_Y_RGB,
-    SH8_TAYLOR2_ZYZ,
-    SH8_TAYLOR2_ZYZ_RGB,
-    SH8_LF3_Y,
-    SH8_LF3_Y_RGB,
-    SH8_LF3_ZYZ,
-    SH8_LF3_ZYZ_RGB,
-    SH8_LF5_Y,
-    SH8_LF5_Y_RGB,
-    SH8_LF5_ZYZ,
-    SH8_LF5_ZYZ_RGB,
-    SH8_ROTATE_LIFTED,
-    SH8_ROTATE_LIFTED_RGB,
-    SH8_TILT_SCALE,
-    SH8_TILT_SCALE_RGB,
-    SH8_TILT_UNSCALE,
-    SH8_TILT_UNSCALE_RGB,
-    SH8_TILT_PRESCALED,
-    SH8_TILT_PRESCALED_RGB,
-    SH8_LF5_TILT_PRESCALED,
-    SH8_LF5_TILT_PRESCALED_RGB,
-    SH8_LF5_TILT,
-    SH8_LF5_TILT_RGB,
-    SH8_LF5_ROTATE_SMALL,
-    SH8_LF5_ROTATE_SMALL_RGB,
-    SH8_ROTATE_ADAPTIVE,
-    SH8_ROTATE_ADAPTIVE_RGB,
-    SH8_BASIS_LOOP,
-    SH8_ROTATE_LOOP,
-    SH8_ROTATE_RGB_LOOP,
-    SH8_TAYLOR15_Y_LOOP,
-    SH8_TAYLOR15_Y_RGB_LOOP,
     SH9_BASIS,
-    SH9_ANGLES,
-    SH9_LIFTED,
+    SH9_BASIS_LOOP,
     SH9_EVAL,
     SH9_EVAL_RGB,
+    SH9_EVAL_MONOMIAL,
+    SH9_EVAL_MONOMIAL_RGB,
+    SH9_TO_MONOMIAL,
+    SH9_TO_MONOMIAL_RGB,
+    SH9_ROTATE,
+    SH9_ROTATE_RGB,
+    SH9_ROTATE_LOOP,
+    SH9_ROTATE_RGB_LOOP,
+    SH9_ROTATE_EULER,
+    SH9_ROTATE_EULER_RGB,
+    SH9_ANGLES,
+    SH9_ROTATE_ANGLES,
+    SH9_ROTATE_ANGLES_RGB,
+    SH9_LIFTED,
+    SH9_ROTATE_LIFTED,
+    SH9_ROTATE_LIFTED_RGB,
+    SH9_ROTATE_ZXZXZ,
+    SH9_ROTATE_ZXZXZ_RGB,
+    SH9_ROTATE_ALIGN,
+    SH9_ROTATE_ALIGN_RGB,
+    SH9_ROTATE_ZONAL,
+    SH9_ROTATE_ZONAL_RGB,
+    SH9_TILT,
+    SH9_TILT_RGB,
+    SH9_LF5_TILT,
+    SH9_LF5_TILT_RGB,
+    SH9_TILT_PRESCALED,
+    SH9_TILT_PRESCALED_RGB,
+    SH9_LF5_TILT_PRESCALED,
+    SH9_LF5_TILT_PRESCALED_RGB,
+    SH9_TILT_SCALE,
+    SH9_TILT_SCALE_RGB,
+    SH9_TILT_UNSCALE,
+    SH9_TILT_UNSCALE_RGB,
+    SH9_TAYLOR1_Y,
+    SH9_TAYLOR1_Y_RGB,
+    SH9_TAYLOR15_Y,
+    SH9_TAYLOR15_Y_RGB,
+    SH9_TAYLOR2_Y,
+    SH9_TAYLOR2_Y_RGB,
+    SH9_LF3_Y,
+    SH9_LF3_Y_RGB,
+    SH9_LF5_Y,
+    SH9_LF5_Y_RGB,
+    SH9_TAYLOR15_Y_LOOP,
+    SH9_TAYLOR15_Y_RGB_LOOP,
+    SH9_TAYLOR1_ZYZ,
+    SH9_TAYLOR1_ZYZ_RGB,
+    SH9_TAYLOR15_ZYZ,
+    SH9_TAYLOR15_ZYZ_RGB,
+    SH9_TAYLOR2_ZYZ,
+    SH9_TAYLOR2_ZYZ_RGB,
+    SH9_LF3_ZYZ,
+    SH9_LF3_ZYZ_RGB,
+    SH9_LF5_ZYZ,
+    SH9_LF5_ZYZ_RGB,
+    SH9_ROTATE_SMALL,
+    SH9_ROTATE_SMALL_RGB,
+    SH9_LF5_ROTATE_SMALL,
+    SH9_LF5_ROTATE_SMALL_RGB,
+    SH9_ROTATE_ADAPTIVE,
+    SH9_ROTATE_ADAPTIVE_RGB,
+    SH9_ZHF,
+    SH9_ZHF_RGB,
+    SH9_ZHF_WEIGHTS,
+    SH9_ZHF_WEIGHTS_RGB,
+    SH9_ZHF_TAILORED,
+    SH9_ZHF_TAILORED_RGB,
     SH9_ROTATE_Z,
     SH9_ROTATE_Z_RGB,
     SH9_ROTATE_Y,
@@ -6330,78 +6397,78 @@ pub const ALL: &[Shader] = &[
     SH9_ROTATE_X_PLUS_90DEG_RGB,
     SH9_ROTATE_X_MINUS_90DEG,
     SH9_ROTATE_X_MINUS_90DEG_RGB,
-    SH9_ROTATE,
-    SH9_ROTATE_RGB,
-    SH9_ROTATE_EULER,
-    SH9_ROTATE_EULER_RGB,
-    SH9_ROTATE_ANGLES,
-    SH9_ROTATE_ANGLES_RGB,
-    SH9_ROTATE_ZXZXZ,
-    SH9_ROTATE_ZXZXZ_RGB,
-    SH9_ROTATE_ALIGN,
-    SH9_ROTATE_ALIGN_RGB,
-    SH9_ROTATE_ZONAL,
-    SH9_ROTATE_ZONAL_RGB,
-    SH9_TILT,
-    SH9_TILT_RGB,
-    SH9_ROTATE_SMALL,
-    SH9_ROTATE_SMALL_RGB,
-    SH9_EVAL_MONOMIAL,
-    SH9_EVAL_MONOMIAL_RGB,
-    SH9_TO_MONOMIAL,
-    SH9_TO_MONOMIAL_RGB,
-    SH9_ZHF,
-    SH9_ZHF_RGB,
-    SH9_ZHF_WEIGHTS,
-    SH9_ZHF_WEIGHTS_RGB,
-    SH9_ZHF_TAILORED,
-    SH9_ZHF_TAILORED_RGB,
-    SH9_TAYLOR1_Y,
-    SH9_TAYLOR1_Y_RGB,
-    SH9_TAYLOR1_ZYZ,
-    SH9_TAYLOR1_ZYZ_RGB,
-    SH9_TAYLOR15_Y,
-    SH9_TAYLOR15_Y_RGB,
-    SH9_TAYLOR15_ZYZ,
-    SH9_TAYLOR15_ZYZ_RGB,
-    SH9_TAYLOR2_Y,
-    SH9_TAYLOR2_Y_RGB,
-    SH9_TAYLOR2_ZYZ,
-    SH9_TAYLOR2_ZYZ_RGB,
-    SH9_LF3_Y,
-    SH9_LF3_Y_RGB,
-    SH9_LF3_ZYZ,
-    SH9_LF3_ZYZ_RGB,
-    SH9_LF5_Y,
-    SH9_LF5_Y_RGB,
-    SH9_LF5_ZYZ,
-    SH9_LF5_ZYZ_RGB,
-    SH9_ROTATE_LIFTED,
-    SH9_ROTATE_LIFTED_RGB,
-    SH9_TILT_SCALE,
-    SH9_TILT_SCALE_RGB,
-    SH9_TILT_UNSCALE,
-    SH9_TILT_UNSCALE_RGB,
-    SH9_TILT_PRESCALED,
-    SH9_TILT_PRESCALED_RGB,
-    SH9_LF5_TILT_PRESCALED,
-    SH9_LF5_TILT_PRESCALED_RGB,
-    SH9_LF5_TILT,
-    SH9_LF5_TILT_RGB,
-    SH9_LF5_ROTATE_SMALL,
-    SH9_LF5_ROTATE_SMALL_RGB,
-    SH9_ROTATE_ADAPTIVE,
-    SH9_ROTATE_ADAPTIVE_RGB,
-    SH9_BASIS_LOOP,
-    SH9_ROTATE_LOOP,
-    SH9_ROTATE_RGB_LOOP,
-    SH9_TAYLOR15_Y_LOOP,
-    SH9_TAYLOR15_Y_RGB_LOOP,
     SH10_BASIS,
-    SH10_ANGLES,
-    SH10_LIFTED,
+    SH10_BASIS_LOOP,
     SH10_EVAL,
     SH10_EVAL_RGB,
+    SH10_EVAL_MONOMIAL,
+    SH10_EVAL_MONOMIAL_RGB,
+    SH10_TO_MONOMIAL,
+    SH10_TO_MONOMIAL_RGB,
+    SH10_ROTATE,
+    SH10_ROTATE_RGB,
+    SH10_ROTATE_LOOP,
+    SH10_ROTATE_RGB_LOOP,
+    SH10_ROTATE_EULER,
+    SH10_ROTATE_EULER_RGB,
+    SH10_ANGLES,
+    SH10_ROTATE_ANGLES,
+    SH10_ROTATE_ANGLES_RGB,
+    SH10_LIFTED,
+    SH10_ROTATE_LIFTED,
+    SH10_ROTATE_LIFTED_RGB,
+    SH10_ROTATE_ZXZXZ,
+    SH10_ROTATE_ZXZXZ_RGB,
+    SH10_ROTATE_ALIGN,
+    SH10_ROTATE_ALIGN_RGB,
+    SH10_ROTATE_ZONAL,
+    SH10_ROTATE_ZONAL_RGB,
+    SH10_TILT,
+    SH10_TILT_RGB,
+    SH10_LF5_TILT,
+    SH10_LF5_TILT_RGB,
+    SH10_TILT_PRESCALED,
+    SH10_TILT_PRESCALED_RGB,
+    SH10_LF5_TILT_PRESCALED,
+    SH10_LF5_TILT_PRESCALED_RGB,
+    SH10_TILT_SCALE,
+    SH10_TILT_SCALE_RGB,
+    SH10_TILT_UNSCALE,
+    SH10_TILT_UNSCALE_RGB,
+    SH10_TAYLOR1_Y,
+    SH10_TAYLOR1_Y_RGB,
+    SH10_TAYLOR15_Y,
+    SH10_TAYLOR15_Y_RGB,
+    SH10_TAYLOR2_Y,
+    SH10_TAYLOR2_Y_RGB,
+    SH10_LF3_Y,
+    SH10_LF3_Y_RGB,
+    SH10_LF5_Y,
+    SH10_LF5_Y_RGB,
+    SH10_TAYLOR15_Y_LOOP,
+    SH10_TAYLOR15_Y_RGB_LOOP,
+    SH10_TAYLOR1_ZYZ,
+    SH10_TAYLOR1_ZYZ_RGB,
+    SH10_TAYLOR15_ZYZ,
+    SH10_TAYLOR15_ZYZ_RGB,
+    SH10_TAYLOR2_ZYZ,
+    SH10_TAYLOR2_ZYZ_RGB,
+    SH10_LF3_ZYZ,
+    SH10_LF3_ZYZ_RGB,
+    SH10_LF5_ZYZ,
+    SH10_LF5_ZYZ_RGB,
+    SH10_ROTATE_SMALL,
+    SH10_ROTATE_SMALL_RGB,
+    SH10_LF5_ROTATE_SMALL,
+    SH10_LF5_ROTATE_SMALL_RGB,
+    SH10_ROTATE_ADAPTIVE,
+    SH10_ROTATE_ADAPTIVE_RGB,
+    SH10_ZHF,
+    SH10_ZHF_RGB,
+    SH10_ZHF_WEIGHTS,
+    SH10_ZHF_WEIGHTS_RGB,
+    SH10_ZHF_TAILORED,
+    SH10_ZHF_TAILORED_RGB,
     SH10_ROTATE_Z,
     SH10_ROTATE_Z_RGB,
     SH10_ROTATE_Y,
@@ -6412,71 +6479,4 @@ pub const ALL: &[Shader] = &[
     SH10_ROTATE_X_PLUS_90DEG_RGB,
     SH10_ROTATE_X_MINUS_90DEG,
     SH10_ROTATE_X_MINUS_90DEG_RGB,
-    SH10_ROTATE,
-    SH10_ROTATE_RGB,
-    SH10_ROTATE_EULER,
-    SH10_ROTATE_EULER_RGB,
-    SH10_ROTATE_ANGLES,
-    SH10_ROTATE_ANGLES_RGB,
-    SH10_ROTATE_ZXZXZ,
-    SH10_ROTATE_ZXZXZ_RGB,
-    SH10_ROTATE_ALIGN,
-    SH10_ROTATE_ALIGN_RGB,
-    SH10_ROTATE_ZONAL,
-    SH10_ROTATE_ZONAL_RGB,
-    SH10_TILT,
-    SH10_TILT_RGB,
-    SH10_ROTATE_SMALL,
-    SH10_ROTATE_SMALL_RGB,
-    SH10_EVAL_MONOMIAL,
-    SH10_EVAL_MONOMIAL_RGB,
-    SH10_TO_MONOMIAL,
-    SH10_TO_MONOMIAL_RGB,
-    SH10_ZHF,
-    SH10_ZHF_RGB,
-    SH10_ZHF_WEIGHTS,
-    SH10_ZHF_WEIGHTS_RGB,
-    SH10_ZHF_TAILORED,
-    SH10_ZHF_TAILORED_RGB,
-    SH10_TAYLOR1_Y,
-    SH10_TAYLOR1_Y_RGB,
-    SH10_TAYLOR1_ZYZ,
-    SH10_TAYLOR1_ZYZ_RGB,
-    SH10_TAYLOR15_Y,
-    SH10_TAYLOR15_Y_RGB,
-    SH10_TAYLOR15_ZYZ,
-    SH10_TAYLOR15_ZYZ_RGB,
-    SH10_TAYLOR2_Y,
-    SH10_TAYLOR2_Y_RGB,
-    SH10_TAYLOR2_ZYZ,
-    SH10_TAYLOR2_ZYZ_RGB,
-    SH10_LF3_Y,
-    SH10_LF3_Y_RGB,
-    SH10_LF3_ZYZ,
-    SH10_LF3_ZYZ_RGB,
-    SH10_LF5_Y,
-    SH10_LF5_Y_RGB,
-    SH10_LF5_ZYZ,
-    SH10_LF5_ZYZ_RGB,
-    SH10_ROTATE_LIFTED,
-    SH10_ROTATE_LIFTED_RGB,
-    SH10_TILT_SCALE,
-    SH10_TILT_SCALE_RGB,
-    SH10_TILT_UNSCALE,
-    SH10_TILT_UNSCALE_RGB,
-    SH10_TILT_PRESCALED,
-    SH10_TILT_PRESCALED_RGB,
-    SH10_LF5_TILT_PRESCALED,
-    SH10_LF5_TILT_PRESCALED_RGB,
-    SH10_LF5_TILT,
-    SH10_LF5_TILT_RGB,
-    SH10_LF5_ROTATE_SMALL,
-    SH10_LF5_ROTATE_SMALL_RGB,
-    SH10_ROTATE_ADAPTIVE,
-    SH10_ROTATE_ADAPTIVE_RGB,
-    SH10_BASIS_LOOP,
-    SH10_ROTATE_LOOP,
-    SH10_ROTATE_RGB_LOOP,
-    SH10_TAYLOR15_Y_LOOP,
-    SH10_TAYLOR15_Y_RGB_LOOP,
 ];

@@ -6,14 +6,14 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 use zonal_codegen::catalog;
-use zonal_codegen::families::spec::{Family, Method, Spec};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::family::Measure;
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
-use zonal_codegen::promise::accuracy::{Meaning, Measure};
+use zonal_codegen::promise::accuracy::Meaning;
 use zonal_codegen::promise::bound::{self, Bound};
-use zonal_codegen::promise::built::code;
 use zonal_codegen::promise::samples;
 
 /// How many inputs each kernel is measured over unless another number is asked for.
@@ -115,7 +115,7 @@ impl<T: Number> Number for Lanes<T> {
 /// What is compared: bands, or numbers one by one.
 fn ranges(measure: Measure, order: usize, count: usize) -> Vec<Range<usize>> {
     match measure {
-        Measure::Bands => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
+        Measure::Bands | Measure::Through(_) => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
         _ => (0..count).map(|i| i..i + 1).collect(),
     }
 }
@@ -154,9 +154,8 @@ impl<'a> Runner<'a> {
 
     /// The largest error of the inputs of a seed, for each contraction; infinite where a result is no number.
     fn worst(&self, seed: u64, count: usize) -> [f64; 2] {
-        let max_angle = self.spec.max_angle().unwrap_or(std::f64::consts::PI);
-        let inputs = samples::inputs(self.spec, &self.listing.params, seed, count, max_angle);
-        let measure = Measure::of(self.spec);
+        let inputs = samples::inputs(&self.listing.params, seed, count, None);
+        let measure = self.spec.family.measure;
         let mut worst = [0.0f64; 2];
         for some in inputs.chunks(LANES) {
             // A last, short group repeats its first input.
@@ -204,8 +203,8 @@ pub fn worst(spec: &Spec, listing: &Listing, count: usize) -> [f64; 2] {
 pub struct Proven {
     /// What was asked for.
     pub spec: Spec,
-    /// What it does, and the spec whose inputs it takes: two listings where it decides between them.
-    pub ways: Vec<(Spec, Listing)>,
+    /// What it does: two listings where it decides between them.
+    pub ways: Vec<Listing>,
     /// The bound of all.
     pub bound: Bound,
 }
@@ -214,19 +213,12 @@ pub struct Proven {
 pub fn proven() -> Vec<Proven> {
     let specs: Vec<Spec> = catalog::standard().into_iter().filter(|spec| !spec.rgb).collect();
     let prove = |spec: &Spec| {
-        let code = code(spec);
+        let code = spec.code();
         let bound = bound::of(spec, &code)?;
-        let ways = match (code, &spec.family) {
-            (Code::Straight(listing), _) => vec![(spec.clone(), listing)],
-            (Code::Loop(kernel), _) => vec![(spec.clone(), Listing::from(&kernel))],
-            (Code::Branch(branch), Family::RotateAdaptive(methods)) => {
-                let way = |family| Spec { family, ..spec.clone() };
-                vec![
-                    (way(Family::RotateSmall(methods.clone())), branch.below),
-                    (way(Family::Rotate(Method::Zyz)), branch.above),
-                ]
-            }
-            _ => return None,
+        let ways = match code {
+            Code::Straight(listing) => vec![listing],
+            Code::Loop(kernel) => vec![Listing::from(&kernel)],
+            Code::Branch(branch) => vec![branch.below, branch.above],
         };
         Some(Proven { spec: spec.clone(), ways, bound })
     };
@@ -236,12 +228,12 @@ pub fn proven() -> Vec<Proven> {
 impl Proven {
     /// The operations of its longest way.
     pub fn steps(&self) -> usize {
-        self.ways.iter().map(|(_, listing)| listing.steps.len()).max().unwrap_or(0)
+        self.ways.iter().map(|listing| listing.steps.len()).max().unwrap_or(0)
     }
 
     /// The bound beside the worst of so many inputs.
     pub fn measured(&self, inputs: usize) -> Bounds {
-        let worst = self.ways.iter().map(|(spec, listing)| worst(spec, listing, inputs));
+        let worst = self.ways.iter().map(|listing| worst(&self.spec, listing, inputs));
         let measured = worst.fold([0.0; 2], |a, b| [f64::max(a[0], b[0]), f64::max(a[1], b[1])]).map(significant);
         let [separate, fused] = [(self.bound.separate, measured[0]), (self.bound.fused, measured[1])]
             .map(|(proven, measured)| Pair { proven: significant(proven), measured });
@@ -283,13 +275,12 @@ pub fn stale(rows: &[Bounds]) -> Vec<String> {
 mod tests {
     use super::*;
     use zonal_codegen::promise::accuracy::rounding;
-    use zonal_codegen::promise::built::kernel;
 
     #[test]
     fn lanes_do_what_single_numbers_do() {
         for text in ["rotate:4", "basis:5", "eval:4", "angles:3", "tilt:3"] {
             let spec: Spec = text.parse().unwrap();
-            let listing = Listing::new(&kernel(&spec));
+            let listing = Listing::new(&spec.kernel());
             let code = Code::Straight(listing.clone());
             let single = [Contraction::Separate, Contraction::Fused]
                 .map(|contraction| rounding::<f32>(&spec, &code, SEED, 100, contraction));

@@ -5,7 +5,11 @@ use serde::{Deserialize, Serialize};
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::{Family, Form, Spec};
+use zonal_codegen::families::axis::SWAP_YZ;
+use zonal_codegen::families::basis::EVAL;
+use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
+use zonal_codegen::families::tilt::{TILT_SCALE, TILT_UNSCALE};
+use zonal_codegen::families::{Family, Form, Spec};
 use zonal_codegen::generate;
 use zonal_codegen::ir::listing::{Cost, Listing};
 
@@ -36,17 +40,15 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    let turns = |spec: &Spec| {
-        let family = &spec.family;
-        !matches!(family, Family::Eval | Family::SwapYz | Family::EvalMonomial | Family::ToMonomial)
-            && !matches!(family, Family::TiltScale | Family::TiltUnscale)
-    };
+    // Names a family: these neither turn a signal nor serve one that does.
+    const OTHERS: [&Family; 6] = [&EVAL, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
+    let turns = |spec: &Spec| !OTHERS.contains(&spec.family);
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()
 }
 
 fn of(spec: &Spec) -> Costs {
     let function = generate::build(std::slice::from_ref(spec)).remove(0);
-    let listing = Listing::new(&zonal_codegen::promise::built::kernel(spec));
+    let listing = Listing::new(&spec.kernel());
     let Cost { mul, fma, special, total, .. } = listing.cost(1);
     let footprint = listing.footprint();
     let module = Module {

@@ -8,7 +8,7 @@ use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::math::linear::singular_values;
 use zonal_codegen::math::tables::{basis_factor, legendre_polynomial};

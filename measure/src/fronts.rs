@@ -7,19 +7,21 @@ use crate::stability::truth::norm;
 use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Runner;
+use zonal_codegen::ir::domain::Domain;
 use zonal_codegen::ir::eval::Contraction;
 use zonal_codegen::math::linear::largest_input;
-use zonal_codegen::plan::choose::{Budget, Norm, Turn, cheapest, exact};
+use zonal_codegen::plan::mixtures::{Budget, cheapest, exact};
 use zonal_codegen::promise::accuracy::Difference;
-use zonal_codegen::promise::built::{self, Built};
+use zonal_codegen::promise::built::Built;
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::scene::{Job, Norm};
 
 /// The orders that are weighed.
 pub const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
 /// The rotations that are planned; the first has the fronts, since only it may mix exact bands with others.
-pub const TURNS: [Turn; 3] = [Turn::Quaternion, Turn::Y, Turn::Tilt];
+pub const TURNS: [Job; 3] = [Job::Quaternion, Job::Y, Job::Tilt];
 /// A plan is run at so many angles up to its largest, each with so many turns about z before and after.
 const ANGLES: usize = 8;
 const TURNED: usize = 4;
@@ -51,7 +53,7 @@ pub struct Front {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Which rotation is wanted.
-    pub turn: Turn,
+    pub turn: Job,
     /// The order.
     pub order: usize,
     /// The largest angle in degrees.
@@ -97,21 +99,21 @@ fn quaternion([alpha, beta, gamma]: [f64; 3]) -> [f64; 4] {
 }
 
 /// What a kernel takes for such a turn, rounded to f32, and the rotation that this is.
-fn given(parameter: &str, angles: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
+fn given(parameter: Domain, angles: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
     let [alpha, beta, _] = angles;
     let (sin, cos) = beta.sin_cos();
     let exact = match parameter {
-        "q" => quaternion(angles).to_vec(),
-        "n" => vec![sin * alpha.cos(), sin * alpha.sin(), cos],
-        "cs" => vec![cos, sin],
+        Domain::Quaternion | Domain::SmallTurn(_) => quaternion(angles).to_vec(),
+        Domain::Hemisphere | Domain::Tilt(_) => vec![sin * alpha.cos(), sin * alpha.sin(), cos],
+        Domain::Phases => vec![cos, sin],
         _ => vec![beta],
     };
     let rounded: Vec<f64> = exact.iter().map(|x| f64::from(*x as f32)).collect();
     let size = norm(rounded.iter().copied());
-    let meant = match (parameter, &rounded[..]) {
-        ("n", [x, y, z]) => vec![-y, *x, 0.0, size + z],
-        ("cs", [cos, sin]) => vec![0.0, *sin, 0.0, size + cos],
-        (_, [beta]) => quaternion([0.0, *beta, 0.0]).to_vec(),
+    let meant = match &rounded[..] {
+        [x, y, z] => vec![-y, *x, 0.0, size + z],
+        [cos, sin] => vec![0.0, *sin, 0.0, size + cos],
+        [beta] => quaternion([0.0, *beta, 0.0]).to_vec(),
         _ => rounded.clone(),
     };
     let size = norm(meant.iter().copied());
@@ -119,7 +121,7 @@ fn given(parameter: &str, angles: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The largest error of any band, over its norm, that a kernel has in f32 at angles up to one in radians.
-fn measured(turn: Turn, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f64 {
+fn measured(turn: Job, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f64 {
     let (order, narrow) = (built.spec.order, built.code.runner::<f32>());
     let difference = Difference::new(&built.spec);
     let mut random = Random::new(SEED);
@@ -130,11 +132,11 @@ fn measured(turn: Turn, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f
         for _ in 0..TURNED {
             let [alpha, gamma] = [random.signed(), random.signed()].map(|x| x * std::f64::consts::PI);
             let [alpha, gamma] = match turn {
-                Turn::Y => [0.0; 2],
-                Turn::Tilt => [alpha, -alpha],
+                Job::Y => [0.0; 2],
+                Job::Tilt => [alpha, -alpha],
                 _ => [alpha, gamma],
             };
-            let (parameter, meant) = given(built.code.params()[0].name, [alpha, beta, gamma]);
+            let (parameter, meant) = given(built.code.params()[0].domain, [alpha, beta, gamma]);
             // The turn before the one about y is taken off beforehand.
             let most = exact.run(&[&quaternion([0.0, 0.0, -gamma]), &most], Contraction::Separate);
             let any: Vec<f64> = (0..order * order).map(|_| random.signed()).collect();
@@ -158,8 +160,8 @@ fn measured(turn: Turn, built: &Built, exact: &Runner<f64>, max_angle: f64) -> f
 }
 
 /// The plans of a turn at an order: the cheapest kernels whose law and rounding together keep each error.
-fn plans(turn: Turn, order: usize) -> Vec<Plan> {
-    let reference = built::code(&exact(Turn::Quaternion, order, false)).runner();
+fn plans(turn: Job, order: usize) -> Vec<Plan> {
+    let reference = exact(Job::Quaternion, order, false).code().runner();
     let mut known: HashMap<Spec, Built> = HashMap::new();
     let mut plans = Vec::new();
     for degrees in SHOWN {
@@ -192,7 +194,7 @@ fn plans(turn: Turn, order: usize) -> Vec<Plan> {
 pub fn measure(progress: &dyn Progress) -> (Vec<Front>, Vec<Plan>) {
     let at: Vec<(usize, f64)> = ORDERS.flat_map(|order| SHOWN.map(|degrees| (order, degrees))).collect();
     let fronts = each(progress, "cost against error", &at, |(order, degrees)| front(*order, *degrees));
-    let tasks: Vec<(usize, Turn)> = ORDERS.flat_map(|order| TURNS.map(|turn| (order, turn))).collect();
+    let tasks: Vec<(usize, Job)> = ORDERS.flat_map(|order| TURNS.map(|turn| (order, turn))).collect();
     let mut plans = each(progress, "plans", &tasks, |(order, turn)| plans(*turn, *order)).concat();
     plans.sort_by_key(|plan| TURNS.iter().position(|turn| *turn == plan.turn));
     (fronts, plans)

@@ -6,7 +6,7 @@ use crate::methods::named;
 use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::families::spec::SMALL_ANGLE_DEGREES;
+use zonal_codegen::families::family::SMALL_ANGLE_DEGREES;
 use zonal_codegen::promise::accuracy::method_error;
 
 /// The colour of each method that is about y, of what is exact, and of laws.

@@ -11,7 +11,7 @@ use crate::timing::Timing;
 use crate::{Progress, costs, errors, factorisation, fronts, rounding};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 
 /// How far two floating-point figures may lie apart, relatively: another machine's sine may differ in its last bit.
 const TOLERANCE: f64 = 0.01;

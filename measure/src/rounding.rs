@@ -4,10 +4,11 @@
 use crate::numbers::{Half, Twin};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::family::Measure;
+use zonal_codegen::families::zhf::{ZHF_TAILORED, ZHF_WEIGHTS};
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
-use zonal_codegen::promise::built::kernel;
 use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on.
@@ -32,10 +33,9 @@ pub struct Rounding {
 /// The largest error of `Narrow` against `Wide`, on inputs that `Narrow` holds exactly.
 fn worst<Narrow: Number, Wide: Number>(spec: &Spec, listing: &Listing) -> Option<f64> {
     let (narrow, wide) = (Program::<Narrow>::new(listing), Program::<Wide>::new(listing));
-    let max_angle = spec.max_angle().unwrap_or(std::f64::consts::PI);
     let norm = |list: &[Wide]| list.iter().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt();
     let mut worst = 0.0f64;
-    for input in samples::inputs(spec, &listing.params, SEED, SAMPLES, max_angle) {
+    for input in samples::inputs(&listing.params, SEED, SAMPLES, None) {
         let narrow_input: Vec<Vec<Narrow>> =
             input.iter().map(|list| list.iter().map(|&x| Narrow::from_f64(x)).collect()).collect();
         let wide_input: Vec<Vec<Wide>> =
@@ -60,7 +60,7 @@ fn worst<Narrow: Number, Wide: Number>(spec: &Spec, listing: &Listing) -> Option
 }
 
 fn of(spec: &Spec) -> Rounding {
-    let listing = Listing::new(&kernel(spec));
+    let listing = Listing::new(&spec.kernel());
     Rounding {
         spec: spec.to_string(),
         order: spec.order,
@@ -72,10 +72,9 @@ fn of(spec: &Spec) -> Rounding {
 
 /// The kernels whose result is a signal of n² coefficients, of what [`crate::costs`] has.
 pub fn specs() -> Vec<Spec> {
-    let whole = |spec: &Spec| match spec.family {
-        Family::Angles | Family::Lifted | Family::ZhfWeights | Family::ZhfTailored => false,
-        _ => spec.is_whole(),
-    };
+    // Names a family: weights and samples of lobes are no signal whose bands could be compared.
+    let is_signal = |spec: &Spec| ![&ZHF_WEIGHTS, &ZHF_TAILORED].contains(&spec.family);
+    let whole = |spec: &Spec| spec.is_whole() && !matches!(spec.family.measure, Measure::Through(_)) && is_signal(spec);
     crate::costs::specs().into_iter().filter(whole).collect()
 }
 

@@ -9,9 +9,9 @@ use crate::papers::{Column, ERRATA, LOBES, SPARSITY, TABLE_2, recomputed};
 use crate::plots::dense_operations;
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::families::spec::Spec;
-use zonal_codegen::plan::choose::Turn;
+use zonal_codegen::families::Spec;
 use zonal_codegen::promise::law;
+use zonal_codegen::scene::Job;
 
 const HEAD: &str = "<!-- Written by `cargo measure`; do not edit. -->";
 
@@ -180,7 +180,7 @@ fn rounding(report: &Report) -> File {
 /// The methods of a spec's bands from 1, neighbours of one method together.
 fn bands(spec: &str) -> String {
     let spec: Spec = spec.parse().expect("a report holds specs");
-    let Some((methods, _)) = law::methods(&spec.family) else { return "exact".to_owned() };
+    let Some((methods, _)) = law::methods(&spec) else { return "exact".to_owned() };
     let mut first = 1;
     let runs = methods.chunk_by(|a, b| a == b).map(|run| {
         let (start, end) = (first, first + run.len() - 1);
@@ -196,7 +196,7 @@ fn bands(spec: &str) -> String {
 
 fn fronts(report: &Report) -> File {
     let mut parts = vec![
-        "What the planner chooses (`codegen/src/choose.rs`): the cheapest kernel whose predicted error keeps the budget, a \
+        "What the planner chooses (`codegen/src/plan/mixtures.rs`): the cheapest kernel whose predicted error keeps the budget, a \
          method for each band. Errors are of a band, over its norm, at any angle up to the largest. *Law* is the method's \
          own, in closed form, *rounding* what f32 may add, proven; *predicted* is their sum, as a scene's plan has it. \
          *Measured* is the largest error of the kernel in f32 against the exact rotation, over angles up to the largest \
@@ -209,10 +209,10 @@ fn fronts(report: &Report) -> File {
         ["order", "up to", "budget", "operations", "methods by band", "law", "rounding", "predicted", "measured"];
     for turn in TURNS {
         let title = match turn {
-            Turn::Tilt => "From a normal: the tilt of z to it; the exact rotation takes the tilt's quaternion",
-            Turn::Y => "About y, given the angle, or its cosine and sine for the exact rotation",
-            Turn::Zyz => "About z, y and z",
-            Turn::Quaternion => "From a quaternion whose y angle is bounded, set-up counted",
+            Job::Tilt => "From a normal: the tilt of z to it; the exact rotation takes the tilt's quaternion",
+            Job::Y => "About y, given the angle, or its cosine and sine for the exact rotation",
+            Job::Zyz => "About z, y and z",
+            Job::Quaternion => "From a quaternion whose y angle is bounded, set-up counted",
         };
         // The budgets that the same kernel keeps stand together, the largest first.
         let row = |same: &[Plan]| {

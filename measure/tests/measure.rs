@@ -4,13 +4,14 @@ mod stability;
 
 use std::path::Path;
 use std::sync::OnceLock;
-use zonal_codegen::families::spec::Spec;
-use zonal_codegen::families::{rotate::rotate_y, y_rotation::small_y};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::axis::ROTATE_Y;
+use zonal_codegen::families::small_turn::small_y;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::plan;
-use zonal_codegen::plan::choose::Turn;
 use zonal_codegen::promise::accuracy::method_error;
 use zonal_codegen::promise::law;
+use zonal_codegen::scene::Job;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_measure::errors::{Comparison, LEVELS, LOBE, MAX, MEAN, RMS, SHOWN};
 use zonal_measure::fronts::{ORDERS, Plan, TURNS};
@@ -178,7 +179,7 @@ fn no_front_is_beaten_by_a_whole_method_and_plans_are_on_it() {
         for name in ["taylor1", "taylor15", "taylor2", "lf3", "lf5"].iter().filter(|_| front.degrees <= 25.0) {
             let methods = vec![*name; front.order - 1].join("+");
             let spec: Spec = format!("rotate_small:{}:{methods}", front.order).parse().unwrap();
-            let operations = zonal_codegen::promise::built::code(&spec).cost(1).total;
+            let operations = spec.code().cost(1).total;
             assert!(best(method_error(&spec, front.degrees.to_radians())) <= operations, "{spec}, {}°", front.degrees);
         }
         for plan in planned(TURNS[0], front.order, front.degrees) {
@@ -187,7 +188,7 @@ fn no_front_is_beaten_by_a_whole_method_and_plans_are_on_it() {
     }
 }
 
-fn planned(turn: Turn, order: usize, degrees: f64) -> impl Iterator<Item = &'static Plan> {
+fn planned(turn: Job, order: usize, degrees: f64) -> impl Iterator<Item = &'static Plan> {
     fresh().plans.iter().filter(move |plan| (plan.turn, plan.order, plan.degrees) == (turn, order, degrees))
 }
 
@@ -235,9 +236,9 @@ fn plans_are_no_worse_than_those_found_by_hand() {
     let angle = 5;
     let about_y = |plan: &Plan| {
         let spec: Spec = plan.choice.spec.parse().unwrap();
-        let kernel = match law::methods(&spec.family) {
+        let kernel = match law::methods(&spec) {
             Some((methods, _)) => small_y(spec.order, methods),
-            None => rotate_y(spec.order),
+            None => Spec::new(&ROTATE_Y, spec.order).kernel(),
         };
         Listing::new(&kernel).cost(1).total
     };
@@ -269,7 +270,7 @@ fn plans_are_no_worse_than_those_found_by_hand() {
         (8, 45.0, [416; 4]),
         (10, 45.0, [776; 4]),
     ] {
-        for (plan, wanted) in planned(Turn::Quaternion, order, degrees).zip(wanted) {
+        for (plan, wanted) in planned(Job::Quaternion, order, degrees).zip(wanted) {
             let found = about_y(plan);
             assert!(wanted == 0 || found <= wanted + angle, "{plan:?}: {found} about y, by hand {wanted}");
         }

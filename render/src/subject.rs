@@ -2,8 +2,8 @@
 //! knows nothing of adapters.
 
 use zonal_codegen::environment::{Map, Projection};
-use zonal_codegen::families::spec::{Family, Spec};
-use zonal_codegen::families::y_rotation::Small;
+use zonal_codegen::families::tilt::TILT;
+use zonal_codegen::families::{SmallAngle, Spec};
 use zonal_codegen::picture::AssetError;
 use zonal_codegen::picture::brdf::Brdf;
 use zonal_codegen::picture::camera::Camera;
@@ -12,7 +12,7 @@ use zonal_codegen::picture::normal_map::NormalMap;
 use zonal_codegen::picture::shade::{Method, Shading};
 use zonal_codegen::plan::Plan;
 use zonal_codegen::scene::diagnostic::Diagnostic;
-use zonal_codegen::scene::{Light, Located, Order, Scene, Turn};
+use zonal_codegen::scene::{Job, Light, Located, Order, Scene};
 
 /// What a picture shows.
 #[derive(Clone, Debug)]
@@ -131,11 +131,12 @@ impl Subject {
 fn planned_method(scene: &Scene, plan: &Plan) -> Method {
     // The plan lists the kernels that the scene names, then its rotations.
     let mut chosen = scene.rotations.iter().zip(&plan.kernels[scene.kernels.len()..]);
-    let tilt = chosen.find(|(rotation, _)| rotation.kind == Turn::Tilt);
+    let tilt = chosen.find(|(rotation, _)| rotation.kind == Job::Tilt);
     let spec: Option<Spec> = tilt.and_then(|(_, chosen)| chosen.row.spec.parse().ok());
+    // Names a family: a picture knows the tilt as two of its ways.
     match spec {
-        Some(Spec { family: Family::Tilt(methods), .. }) if methods.contains(&Small::Lf5) => Method::Tilt5,
-        Some(Spec { family: Family::Tilt(_), .. }) => Method::Tilt,
+        Some(spec) if *spec.family == TILT && spec.methods.contains(&SmallAngle::Lf5) => Method::Tilt5,
+        Some(spec) if *spec.family == TILT => Method::Tilt,
         _ => Method::Exact,
     }
 }

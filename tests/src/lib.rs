@@ -6,10 +6,9 @@ pub mod shader;
 
 use serde_json::Value;
 use std::path::PathBuf;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
-use zonal_codegen::promise::built;
 
 /// A path below the repository.
 pub fn repository(path: &str) -> PathBuf {
@@ -53,7 +52,7 @@ pub struct Runner<T>(Program<T>);
 impl<T: Number> Runner<T> {
     /// The kernel of a spec.
     pub fn new(spec: &Spec) -> Self {
-        Self(Program::new(&Listing::new(&built::kernel(spec))))
+        Self(Program::new(&Listing::new(&spec.kernel())))
     }
 
     /// Runs it unfused on inputs that are rounded to `T`.

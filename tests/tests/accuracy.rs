@@ -96,7 +96,7 @@ fn the_spectral_norm_of_a_known_matrix() {
 #[test]
 fn rounding_is_what_separates_f32_from_f64() {
     let spec = zonal_tests::spec("rotate:4");
-    let code = zonal_codegen::promise::built::code(&spec);
+    let code = spec.code();
     assert_eq!(rounding::<f64>(&spec, &code, 1, 50, Contraction::Separate), 0.0);
     assert!(rounding::<f32>(&spec, &code, 1, 50, Contraction::Separate) > 1e-8);
 }

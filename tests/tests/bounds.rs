@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 use zonal_codegen::catalog::standard;
-use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::family::Measure;
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Program};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Shape;
 use zonal_codegen::ir::listing::{Listing, Op, Operand, Sign, Step};
 use zonal_codegen::math::exact::Exact;
-use zonal_codegen::promise::accuracy::{Meaning, Measure, rounding};
+use zonal_codegen::promise::accuracy::{Meaning, rounding};
 use zonal_codegen::promise::bound::phases::of_quaternion;
 use zonal_codegen::promise::bound::plain::plain;
 use zonal_codegen::promise::bound::{Bound, boxes, of, prove, within};
-use zonal_codegen::promise::built::code;
 use zonal_codegen::promise::samples::{self, Random};
 use zonal_measure::bounds::{self, Bounds, Pair};
 use zonal_tests::spec;
@@ -25,7 +25,7 @@ const STEPS: usize = 12_000_000;
 
 fn listing(text: &str) -> (Spec, Listing) {
     let spec = spec(text);
-    let listing = match code(&spec) {
+    let listing = match spec.code() {
         Code::Straight(listing) => listing,
         Code::Loop(kernel) => plain(&Listing::from(&kernel)),
         Code::Branch(_) => panic!("{text} is two listings"),
@@ -84,11 +84,11 @@ fn every_kernel_of_the_catalogue_has_a_bound() {
 fn a_loop_without_what_changes_nothing_is_the_same() {
     for text in ["basis:6:loop", "taylor15:6:loop", "rotate:6:loop", "rotate:12:loop"] {
         let (spec, plain) = listing(text);
-        let Code::Loop(kernel) = code(&spec) else { panic!("{text} is a loop") };
+        let Code::Loop(kernel) = spec.code() else { panic!("{text} is a loop") };
         let whole = Listing::from(&kernel);
         assert!(plain.steps.len() < whole.steps.len(), "{text}");
         let programs = [&whole, &plain].map(Program::<f32>::new);
-        for input in samples::inputs(&spec, &whole.params, 4, 30, 0.4) {
+        for input in samples::inputs(&whole.params, 4, 30, Some(0.4)) {
             let narrow: Vec<Vec<f32>> = input.iter().map(|list| list.iter().map(|&x| x as f32).collect()).collect();
             let narrow: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
             for contraction in BOTH {
@@ -150,7 +150,7 @@ fn error(spec: &Spec, narrow: &Program<f32>, wide: &Program<f64>, input: &[Vec<f
     let same: Vec<Vec<f64>> = rounded.iter().map(|list| list.iter().map(|&x| f64::from(x)).collect()).collect();
     let got = narrow.run(&rounded.iter().map(Vec::as_slice).collect::<Vec<_>>(), contraction);
     let want = wide.run(&same.iter().map(Vec::as_slice).collect::<Vec<_>>(), contraction);
-    let (measure, meaning) = (Measure::of(spec), Meaning::of(spec));
+    let (measure, meaning) = (spec.family.measure, Meaning::of(spec));
     let got = got.iter().map(|&x| f64::from(x)).collect();
     measure.error(&meaning.apply(got), &meaning.apply(want), spec.order)
 }
@@ -189,7 +189,7 @@ fn a_search_for_the_worst_input_stays_below_the_bound() {
         let most = spec.max_angle().unwrap_or(std::f64::consts::PI);
         let mut random = Random::new(11);
         for (contraction, bound) in BOTH.into_iter().zip([bound.separate, bound.fused]) {
-            let drawn = samples::inputs(&spec, &listing.params, 3, 400, most);
+            let drawn = samples::inputs(&listing.params, 3, 400, None);
             let of = |input: &[Vec<f64>]| error(&spec, &narrow, &wide, input, contraction);
             let mut best = drawn.into_iter().max_by(|a, b| of(a).total_cmp(&of(b))).expect("inputs were drawn");
             let (first, mut worst) = (of(&best), of(&best));
@@ -217,8 +217,7 @@ fn a_wrong_constant_exceeds_the_bound() {
         let (spec, listing) = listing(text);
         let bound = proven(&spec, &listing).value();
         let wide = Program::<f64>::new(&listing);
-        let most = spec.max_angle().unwrap_or(std::f64::consts::PI);
-        let inputs = samples::inputs(&spec, &listing.params, 5, 200, most);
+        let inputs = samples::inputs(&listing.params, 5, 200, None);
         let worst = |listing: &Listing| {
             let narrow = Program::<f32>::new(listing);
             inputs.iter().map(|input| error(&spec, &narrow, &wide, input, Contraction::Fused)).fold(0.0, f64::max)
@@ -289,7 +288,7 @@ fn bounds_are_as_close_as_the_best_known() {
         let (spec, listing) = listing(text);
         let bound = proven(&spec, &listing);
         assert!(bound.fused <= most, "{text}: {:e} above {most:e}", bound.fused);
-        assert!(bound.bands.len() == if spec.family == Family::Basis { 0 } else { spec.order });
+        assert!(bound.bands.len() == if matches!(spec.family.measure, Measure::Absolute) { 0 } else { spec.order });
     }
 }
 
@@ -297,7 +296,7 @@ fn bounds_are_as_close_as_the_best_known() {
 #[test]
 fn a_bound_within_an_angle_holds_there() {
     for text in ["rotate_small:10", "tilt:10", "tilt:8:lf5", "rotate:8:lf3", "rotate_adaptive:8"] {
-        let (spec, code) = (spec(text), code(&spec(text)));
+        let (spec, code) = (spec(text), spec(text).code());
         let whole = of(&spec, &code).expect("is proven").value();
         let mut before = 0.0;
         for degrees in [1.0, 5.0, 15.0] {
@@ -306,7 +305,7 @@ fn a_bound_within_an_angle_holds_there() {
             assert!(before <= bound.value() && bound.value() <= whole, "{text} at {degrees} degrees");
             before = bound.value();
             let (narrow, wide) = (code.runner::<f32>(), code.runner::<f64>());
-            for input in samples::inputs(&spec, code.params(), 5, 300, angle) {
+            for input in samples::inputs(code.params(), 5, 300, Some(angle)) {
                 let rounded: Vec<Vec<f32>> =
                     input.iter().map(|list| list.iter().map(|&x| x as f32).collect()).collect();
                 let exact: Vec<Vec<f64>> =
@@ -315,7 +314,7 @@ fn a_bound_within_an_angle_holds_there() {
                 for (contraction, most) in BOTH.into_iter().zip([bound.separate, bound.fused]) {
                     let got = narrow.run(&rounded.iter().map(Vec::as_slice).collect::<Vec<_>>(), contraction);
                     let got: Vec<f64> = got.into_iter().map(f64::from).collect();
-                    let error = Measure::of(&spec).error(&got, &want, spec.order);
+                    let error = spec.family.measure.error(&got, &want, spec.order);
                     assert!(error <= most, "{text} at {degrees} degrees: {error:e}, proven {most:e}");
                 }
             }

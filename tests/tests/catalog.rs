@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use zonal_codegen::catalog::{files, standard};
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::families::zhf;
 use zonal_codegen::files::{Difference, File, differences};
 use zonal_codegen::generate::build;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::generate::{build, file};
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::plan::Plan;
@@ -60,7 +60,7 @@ fn rounding_in_f16_is_that_of_f32_times_what_the_formats_differ_by() {
         let ratio = narrow.measured_f32 / wide.measured_f32;
         // Inputs are f32 numbers, whose own rounding to f16 comes on top: as much again and the amplification of it.
         assert!((1000.0..80_000.0).contains(&ratio), "{text}: {ratio}");
-        let code = zonal_codegen::promise::built::code(&half);
+        let code = half.code();
         for contraction in [Contraction::Separate, Contraction::Fused] {
             let other = rounding::<f16>(&half, &code, 4242, 2000, contraction);
             assert!(other <= narrow.rounding_f32, "{text}: {other:e} above {:e}", narrow.rounding_f32);

@@ -1,10 +1,13 @@
 //! The laws of the approximate rotations against their kernels' own matrices.
 
-use zonal_codegen::families::{rotate, y_rotation};
+use zonal_codegen::families::about_y::about_y;
+use zonal_codegen::families::axis::ROTATE_Y;
+use zonal_codegen::families::family::AngleAs;
+use zonal_codegen::families::{SmallAngle, Spec};
 use zonal_codegen::ir::eval::{Contraction, Program};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::promise::accuracy::band_errors;
-use zonal_codegen::promise::law::{self, Given};
+use zonal_codegen::promise::law;
 use zonal_codegen::promise::samples::Random;
 use zonal_tests::{norm, spec};
 
@@ -50,9 +53,9 @@ fn the_law_is_the_spectral_norm_of_every_band() {
 fn the_law_is_what_random_signals_err_by() {
     let mut random = Random::new(41);
     let (order, beta) = (7, 0.2f64);
-    for (text, method) in y_rotation::Small::ALL.map(|(method, name)| (name, method)) {
-        let approximate = Program::<f64>::new(&Listing::new(&y_rotation::about_y(order, &vec![method; order - 1])));
-        let exact = Program::<f64>::new(&Listing::new(&rotate::rotate_y(order)));
+    for (text, method) in SmallAngle::APPROXIMATE.map(|method| (method.name(), method)) {
+        let approximate = Program::<f64>::new(&Listing::new(&about_y(order, &vec![method; order - 1])));
+        let exact = Program::<f64>::new(&Listing::new(&Spec::new(&ROTATE_Y, order).kernel()));
         let mut squares = vec![0.0; order];
         let count = 2000;
         for _ in 0..count {
@@ -69,7 +72,7 @@ fn the_law_is_what_random_signals_err_by() {
             }
         }
         for l in 1..order {
-            let (mean, law) = ((squares[l] / count as f64).sqrt(), law::error(method, Given::Angle, l, beta).mean);
+            let (mean, law) = ((squares[l] / count as f64).sqrt(), law::error(method, AngleAs::Angle, l, beta).mean);
             // Two thousand samples of a sum of squares that varies by less than its mean: half of 1 / √2000, times 4.
             assert!((mean / law - 1.0).abs() < 0.05, "{text}, band {l}: {mean:e}, law {law:e}");
         }
@@ -79,8 +82,8 @@ fn the_law_is_what_random_signals_err_by() {
 /// What a planner may count on: the error grows with the angle as far as the methods are meant for.
 #[test]
 fn the_law_grows_with_the_angle() {
-    for (method, _) in y_rotation::Small::ALL {
-        for given in [Given::Angle, Given::Phase, Given::Normal] {
+    for method in SmallAngle::APPROXIMATE {
+        for given in [AngleAs::Angle, AngleAs::Phase, AngleAs::Normal] {
             for l in 1..10 {
                 let mut last = 0.0;
                 for step in 1..=100 {

@@ -7,9 +7,12 @@ use std::process::Command;
 use zonal_codegen::builder::Builder;
 use zonal_codegen::emit::dialect::{Dialect, Target};
 use zonal_codegen::emit::loop_body::{MAX_TABLE, print, too_long};
+use zonal_codegen::families::SmallAngle;
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::about_y::about_y;
+use zonal_codegen::families::basis::BASIS;
 use zonal_codegen::families::loops::{basis_loop, rotate_loop, taylor15_loop};
-use zonal_codegen::families::y_rotation::{Small, about_y};
-use zonal_codegen::families::{basis, rotate};
+use zonal_codegen::families::zyz::ZYZ;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Kernel, Shape};
@@ -28,9 +31,9 @@ const F32: f64 = 3e-6;
 
 fn unrolled(name: &str, order: usize) -> Kernel {
     match name {
-        "taylor15" => about_y(order, &vec![Small::Taylor15; order - 1]),
-        "basis" => basis::basis(order, &(0..order).collect::<Vec<_>>()),
-        _ => rotate::zyz(order),
+        "taylor15" => about_y(order, &vec![SmallAngle::Taylor15; order - 1]),
+        "basis" => Spec::new(&BASIS, order).kernel(),
+        _ => Spec::new(&ZYZ, order).kernel(),
     }
 }
 

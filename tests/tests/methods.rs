@@ -1,17 +1,16 @@
 //! The methods that widen the front: five shears, the tilt on prescaled coefficients, evaluation in monomials, the small
 //! rotation from a quaternion, and the rotation that decides between it and the exact one.
 
-use zonal_codegen::families::spec::LIFTED_DEGREES;
+use zonal_codegen::families::lifted::LIFTED_DEGREES;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
 use zonal_codegen::promise::accuracy::{band_errors, method_errors};
-use zonal_codegen::promise::built;
 use zonal_codegen::promise::samples::{self, Random};
 use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 
 /// Runs a kernel of any form in f64.
 fn run(text: &str, inputs: &[&[f64]]) -> Vec<f64> {
-    built::code(&spec(text)).runner::<f64>().run(inputs, Contraction::Separate)
+    spec(text).code().runner::<f64>().run(inputs, Contraction::Separate)
 }
 
 fn signal(random: &mut Random, order: usize) -> Vec<f64> {
@@ -47,7 +46,7 @@ fn the_tilt_on_prescaled_coefficients_is_the_tilt() {
         let (tilt, prescaled) = (spec(&text("tilt")), spec(&text("tilt_prescaled")));
         let [scale, unscale] =
             ["tilt_scale", "tilt_unscale"].map(|name| Runner::<f64>::new(&spec(&format!("{name}:{order}"))));
-        let inputs = samples::inputs(&tilt, built::code(&tilt).params(), 7, 40, tilt.max_angle().unwrap_or(1.0));
+        let inputs = samples::inputs(tilt.code().params(), 7, 40, None);
         let light = signal(&mut random, order);
         for input in &inputs {
             let want = Runner::<f64>::new(&tilt).run(input);
@@ -117,7 +116,7 @@ fn monomials_evaluate_to_what_harmonics_do() {
 #[test]
 fn the_monomial_form_costs_one_operation_a_coefficient() {
     for (order, most) in [(3, 28), (4, 53), (5, 84), (6, 121), (8, 213)] {
-        let cost = built::code(&spec(&format!("eval_monomial:{order}:rgb"))).cost(3).total;
+        let cost = spec(&format!("eval_monomial:{order}:rgb")).code().cost(3).total;
         assert!(cost <= most, "order {order}: {cost}");
         assert_eq!(cost, 3 * (order * order - 1) + 4 * (order - 2), "the floor for free coefficients and the powers");
     }
@@ -126,7 +125,7 @@ fn the_monomial_form_costs_one_operation_a_coefficient() {
 #[test]
 fn prescaling_pays_from_order_4_on() {
     for (order, most) in [(4, 77), (5, 127), (6, 191), (8, 349), (10, 557)] {
-        let cost = |text: String| built::code(&spec(&text)).cost(1).total;
+        let cost = |text: String| spec(&text).code().cost(1).total;
         let prescaled = cost(format!("tilt_prescaled:{order}"));
         assert!(prescaled <= most && prescaled < cost(format!("tilt:{order}")), "order {order}: {prescaled}");
     }
@@ -202,8 +201,9 @@ fn the_limit_is_the_exact_inverse_of_the_caching_error() {
 /// section 3 has the polynomials; the shears are ours). Their errors are those of 2 × 2 matrices, as the laws are.
 #[test]
 fn what_is_not_on_the_front_is_left_out() {
-    use zonal_codegen::families::y_rotation::Small;
-    use zonal_codegen::promise::law::{Given, error};
+    use zonal_codegen::families::SmallAngle;
+    use zonal_codegen::families::family::AngleAs;
+    use zonal_codegen::promise::law::error;
     // Four shears of (1 − ½√2, ½√2, ½√2, 1 − ½√2) T, the linear part of the cubic error taken off: 4/3 of LF3's shears.
     let root = 0.5f64.sqrt();
     let four = |l: usize, beta: f64| -> f64 {
@@ -230,7 +230,7 @@ fn what_is_not_on_the_front_is_left_out() {
     for (l, degrees) in [(4, 15.0), (6, 10.0), (8, 10.0)] {
         let beta = f64::to_radians(degrees);
         let (three, five) =
-            (error(Small::Lf3, Given::Angle, l, beta).max, error(Small::Lf5, Given::Angle, l, beta).max);
+            (error(SmallAngle::Lf3, AngleAs::Angle, l, beta).max, error(SmallAngle::Lf5, AngleAs::Angle, l, beta).max);
         // A third more operations than three shears for hardly less error, where two thirds more give five to twelve times less.
         assert!(
             four(l, beta) > 0.4 * three && five < 0.2 * three,
@@ -240,7 +240,7 @@ fn what_is_not_on_the_front_is_left_out() {
     }
     // The best quadratic in A has the error of T₃ on [−lβ, lβ] at least: (lβ)³/24, LF3's own, for 36 operations at l = 4
     // where LF3 takes 33 and keeps the determinant.
-    let cost = |text: &str| built::code(&spec(text)).cost(1).total;
+    let cost = |text: &str| spec(text).code().cost(1).total;
     let band = |text: &str| cost(&format!("{text}:5")) - cost(&format!("{text}:4"));
     println!("operations of band 4: lf3 {}, lf5 {}, taylor2 {}", band("lf3"), band("lf5"), band("taylor2"));
     assert!(band("lf3") < band("taylor2"), "a quadratic costs what Taylor 2 does");
@@ -254,7 +254,7 @@ fn prepared<T: Number>(method: &str, order: usize, q: &[f64], c: &[f64]) -> Vec<
     let run = |text: String, inputs: &[&[f64]]| -> Vec<f64> {
         let rounded: Vec<Vec<T>> = inputs.iter().map(|list| list.iter().map(|&x| T::from_f64(x)).collect()).collect();
         let rounded: Vec<&[T]> = rounded.iter().map(Vec::as_slice).collect();
-        let got = built::code(&spec(&text)).runner::<T>().run(&rounded, Contraction::Separate);
+        let got = spec(&text).code().runner::<T>().run(&rounded, Contraction::Separate);
         got.into_iter().map(Number::to_f64).collect()
     };
     let made = run(format!("{method}:{order}"), &[q]);
@@ -320,7 +320,7 @@ fn the_lifted_domain_ends_where_its_tangents_begin_to_cost() {
 /// The ledger: what a rotation costs with all given, and what its set-up does.
 #[test]
 fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
-    let cost = |text: String| built::code(&spec(&text)).cost(1);
+    let cost = |text: String| spec(&text).code().cost(1);
     let mut rows = Vec::new();
     for n in 3..=10usize {
         let (planes, lifted) = (cost(format!("rotate:{n}:angles")), cost(format!("rotate:{n}:lifted")));
@@ -343,12 +343,12 @@ fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
 #[test]
 fn lifting_pays_from_a_few_signals_on() {
     let cost = |text: &str, signals: usize| {
-        let code = built::code(&spec(text));
+        let code = spec(text).code();
         price(code.cost(1)) + (signals - 1) * (price(code.cost(2)) - price(code.cost(1)))
     };
     let all = |n: usize, signals: usize| -> [usize; 3] {
         let pair = |method: &str| {
-            price(built::code(&spec(&format!("{method}:{n}"))).cost(1)) + cost(&format!("rotate:{n}:{method}"), signals)
+            price(spec(&format!("{method}:{n}")).code().cost(1)) + cost(&format!("rotate:{n}:{method}"), signals)
         };
         [cost(&format!("rotate:{n}"), signals), pair(SHARED[0]), pair(SHARED[1])]
     };

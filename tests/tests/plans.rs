@@ -3,36 +3,41 @@
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
-use zonal_codegen::families::spec::{Family, Spec};
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::{Code, Runner};
+use zonal_codegen::ir::domain::Domain;
 use zonal_codegen::ir::eval::{Contraction, Number};
-use zonal_codegen::plan::choose::{Budget, Norm, Turn, cheapest, exact};
+use zonal_codegen::ir::kernel::Shape;
+use zonal_codegen::plan::mixtures::{Budget, cheapest, exact};
 use zonal_codegen::promise::accuracy::band_errors;
-use zonal_codegen::promise::built::{self, Built};
+use zonal_codegen::promise::built::Built;
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::scene::{Job, Norm};
 use zonal_tests::{norm, quaternion_of_angles};
 
 const DEGREES: [f64; 5] = [5.0, 10.0, 15.0, 25.0, 45.0];
 const BUDGETS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
-const TURNS: [Turn; 4] = [Turn::Tilt, Turn::Y, Turn::Zyz, Turn::Quaternion];
+const TURNS: [Job; 4] = [Job::Tilt, Job::Y, Job::Zyz, Job::Quaternion];
 const NORMS: [Norm; 3] = [Norm::Max, Norm::Mean, Norm::Signal];
 const CASES: usize = 10_000;
 
 /// A turn by β about y between two turns about z, as a kernel of a family takes it, and the quaternion of the same.
 fn parameters(spec: &Spec, beta: f64, [alpha, gamma]: [f64; 2]) -> (Vec<Vec<f64>>, Vec<f64>) {
     let turns = |alpha: f64, gamma: f64| quaternion_of_angles(alpha, beta, gamma);
-    match &spec.family {
-        Family::SmallY(_) => (vec![vec![beta]], turns(0.0, 0.0)),
-        Family::RotateY => (vec![vec![beta.cos(), beta.sin()]], turns(0.0, 0.0)),
-        Family::Tilt(_) => {
+    let params = spec.kernel().params;
+    let domains: Vec<Domain> = params.iter().map(|param| param.domain).filter(|domain| !domain.is_signal()).collect();
+    match (&domains[..], params[0].shape) {
+        ([Domain::Angle(_)], _) => (vec![vec![beta]], turns(0.0, 0.0)),
+        ([Domain::Phases], Shape::Pair) => (vec![vec![beta.cos(), beta.sin()]], turns(0.0, 0.0)),
+        ([Domain::Tilt(_) | Domain::Hemisphere], _) => {
             let n = vec![beta.sin() * alpha.cos(), beta.sin() * alpha.sin(), beta.cos()];
             (vec![n], turns(alpha, -alpha))
         }
-        Family::Rotate(zonal_codegen::families::spec::Method::Small(_)) => {
+        ([Domain::Phases, Domain::Angle(_)], _) => {
             let cs = vec![alpha.cos(), alpha.sin(), gamma.cos(), gamma.sin()];
             (vec![cs, vec![beta]], turns(alpha, gamma))
         }
-        Family::Rotate(zonal_codegen::families::spec::Method::Euler) => {
+        ([Domain::Phases], _) => {
             let cs = vec![alpha.cos(), alpha.sin(), beta.cos(), beta.sin(), gamma.cos(), gamma.sin()];
             (vec![cs], turns(alpha, gamma))
         }
@@ -79,7 +84,7 @@ fn make_plans() -> Vec<Planned> {
                     let energy = (0..order).map(|l| (1.0 + l as f64).powf(-slope)).collect();
                     let budget = Budget { max_angle: f64::to_radians(degrees), error, norm, energy };
                     let (spec, _, predicted) = cheapest(turn, order, &budget);
-                    let runner = built::code(&spec).runner();
+                    let runner = spec.code().runner();
                     all.push(Planned { spec, budget, predicted, runner });
                 }
             }
@@ -93,7 +98,7 @@ fn no_budget_is_exceeded_on_ten_thousand_cases() {
     let plans = plans();
     let mut random = Random::new(2026);
     let references: Vec<Runner<f64>> =
-        (0..=10).map(|order| built::code(&exact(Turn::Quaternion, order.max(3), false)).runner()).collect();
+        (0..=10).map(|order| exact(Job::Quaternion, order.max(3), false).code().runner()).collect();
     let mut closest = HashMap::new();
     for case in 0..CASES {
         let planned = &plans[case % plans.len()];
@@ -150,7 +155,7 @@ fn predictions_hold_within_a_factor_of_two() {
             Norm::Mean => {
                 let mut squares = vec![0.0; order];
                 let count = 60;
-                let reference = built::code(&exact(Turn::Quaternion, order, false)).runner::<f64>();
+                let reference = exact(Job::Quaternion, order, false).code().runner::<f64>();
                 for _ in 0..count {
                     let (mut inputs, q) = parameters(spec, budget.max_angle, [random.signed(), random.signed()]);
                     let c: Vec<f64> = (0..order * order).map(|_| random.signed()).collect();
@@ -188,11 +193,11 @@ fn rounding_is_part_of_what_is_promised() {
     for degrees in [5.0, 25.0] {
         for order in [4, 6] {
             let budget = Budget { max_angle: f64::to_radians(degrees), error: 1e-3, norm: Norm::Max, energy: vec![] };
-            let (spec, ..) = cheapest(Turn::Quaternion, order, &budget);
+            let (spec, ..) = cheapest(Job::Quaternion, order, &budget);
             let built = Built::new(&spec);
             let Code::Straight(_) = &built.code else { panic!("a small rotation is straight") };
             let (narrow, promised) = (built.code.runner::<f32>(), budget.predict(&spec) + built.accuracy.rounding_f32);
-            let reference = built::code(&exact(Turn::Quaternion, order, false)).runner::<f64>();
+            let reference = exact(Job::Quaternion, order, false).code().runner::<f64>();
             for _ in 0..500 {
                 let (mut inputs, q) = parameters(&spec, budget.max_angle * random.signed(), [1.0, random.signed()]);
                 let c: Vec<f64> = (0..order * order).map(|_| random.signed()).collect();

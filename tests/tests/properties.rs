@@ -1,7 +1,7 @@
 //! What rotations promise, over random and extreme rotations: the group law, inverses, the identity, norms, each method
 //! at its own bound; and where bad numbers may spread.
 
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::promise::accuracy::method_errors;
 use zonal_codegen::promise::samples::{Random, inputs};
 use zonal_tests::{Runner, band_error, norm, quaternion_product, spec};
@@ -14,8 +14,8 @@ fn quaternion_rotations(order: usize) -> Vec<Spec> {
 
 /// Rotations and signals, extremes first, and random quaternions for a second rotation.
 fn trials(spec: &Spec, count: usize) -> Vec<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    let params = zonal_codegen::promise::built::kernel(spec).params;
-    let first = inputs(spec, &params, 31, count, 1.0);
+    let params = spec.kernel().params;
+    let first = inputs(&params, 31, count, None);
     let mut random = Random::new(37);
     first.into_iter().map(|input| (input[0].clone(), random.unit::<4>().to_vec(), input[1].clone())).collect()
 }
@@ -214,8 +214,8 @@ fn bands_do_not_mix() {
         ["rotate:6", "rotate:6:zxzxz", "tilt:6", "lf3:6", "taylor15:6", "rotate_z:6", "swap_yz:6", "rotate:3", "zhf:6"]
     {
         let spec = spec(text);
-        let params = zonal_codegen::promise::built::kernel(&spec).params;
-        let clean = inputs(&spec, &params, 47, 20, 0.2).pop().expect("twenty inputs");
+        let params = spec.kernel().params;
+        let clean = inputs(&params, 47, 20, Some(0.2)).pop().expect("twenty inputs");
         let runner = Runner::<f32>::new(&spec);
         let want = runner.run(&clean);
         let signal = clean.len() - 1;
@@ -238,11 +238,11 @@ fn bands_do_not_mix() {
 fn huge_and_small_signals_keep_their_relative_accuracy() {
     for text in ["rotate:5", "rotate:3", "tilt:5", "lf3:5", "eval:5"] {
         let spec = spec(text);
-        let params = zonal_codegen::promise::built::kernel(&spec).params;
+        let params = spec.kernel().params;
         let (narrow, wide) = (Runner::<f32>::new(&spec), Runner::<f64>::new(&spec));
         for exponent in [-60, -100, 60, 100] {
             let scale = 2f64.powi(exponent);
-            for input in inputs(&spec, &params, 53, 40, 0.2) {
+            for input in inputs(&params, 53, 40, Some(0.2)) {
                 let mut scaled = input.clone();
                 let last = scaled.len() - 1;
                 scaled[last].iter_mut().for_each(|x| *x *= scale);

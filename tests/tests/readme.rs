@@ -2,7 +2,7 @@
 //! writes them with `UPDATE=1 cargo test -p zonal-tests --test readme`.
 
 use std::process::Command;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 use zonal_tests::command::zonal;
 use zonal_tests::{repository, spec};

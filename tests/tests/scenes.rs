@@ -120,7 +120,7 @@ fn a_lifted_rotation_is_refused_outside_of_its_domain() {
     let refused = plan(17.15).expect_err("is too far").to_string();
     assert!(refused.contains("takes angles up to 17.14 degrees, not 17.15"), "{refused}");
     let refused =
-        "rotate:2:lifted".parse::<zonal_codegen::families::spec::Spec>().expect_err("has no such order").to_string();
+        "rotate:2:lifted".parse::<zonal_codegen::families::Spec>().expect_err("has no such order").to_string();
     assert!(refused.contains("orders from 3 on"), "{refused}");
 }
 

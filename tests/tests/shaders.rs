@@ -69,8 +69,7 @@ fn check(function: &Function, target: Target, language: Language) {
     assert_eq!(shader.functions(), std::slice::from_ref(&name), "{target}");
     let (params, channels) = (function.built.code.params(), function.spec.channels());
     let (shape, kind) = function.built.code.result();
-    let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
-    let inputs = samples::inputs(&function.spec, params, 21, CASES + 2, max_angle);
+    let inputs = samples::inputs(params, 21, CASES + 2, None);
     let costs = match &function.built.code {
         Code::Branch(branch) => branch.costs(channels).to_vec(),
         code => vec![code.cost(channels)],

@@ -17,7 +17,8 @@ use std::time::Duration;
 use zonal_codegen::builder::Error;
 use zonal_codegen::drawn::draw;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::{Spec, family_names};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::text::family_names;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.

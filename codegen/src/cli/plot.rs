@@ -3,8 +3,8 @@
 
 use plotters::prelude::*;
 use std::error::Error;
-use zonal_codegen::families::spec::Spec;
-use zonal_codegen::plan::choose::Budget;
+use zonal_codegen::families::Spec;
+use zonal_codegen::plan::mixtures::Budget;
 use zonal_codegen::plan::{Chosen, Plan};
 
 const WIDTH: u32 = 900;

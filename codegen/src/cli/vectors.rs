@@ -4,14 +4,12 @@
 
 use super::{Failure, out_json, progress, spec_of};
 use serde_json::{Map, Value, json};
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Param, Shape};
-use zonal_codegen::promise::built;
 use zonal_codegen::promise::samples;
 use zonal_codegen::scene::diagnostic::{Diagnostic, Place, Source};
 
@@ -137,9 +135,8 @@ fn from_file(path: &Path, spec: &Spec, params: &[Param]) -> Result<Vec<Vec<Chann
 
 /// Seeded inputs; the channels of a signal differ.
 fn seeded(spec: &Spec, params: &[Param], count: usize, seed: u64) -> Vec<Vec<Channels>> {
-    let max_angle = spec.max_angle().unwrap_or(PI);
     let channels: Vec<_> = (0..spec.channels() as u64)
-        .map(|channel| samples::inputs(spec, params, seed.wrapping_add(channel << 32), count, max_angle))
+        .map(|channel| samples::inputs(params, seed.wrapping_add(channel << 32), count, None))
         .collect();
     (0..count)
         .map(|case| {
@@ -170,7 +167,7 @@ fn run<T: Number>(runner: &zonal_codegen::ir::code::Runner<T>, case: &[Channels]
 pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Result<(), Failure> {
     let spec = spec_of(text)?;
     let bar = progress("building and running");
-    let code = built::code(&spec);
+    let code = spec.code();
     let params = code.params();
     let cases = match file {
         Some(path) => from_file(&path, &spec, params)?,

@@ -9,7 +9,7 @@ pub mod names;
 pub mod support;
 pub mod validate;
 
-use crate::families::spec::Spec;
+use crate::families::family::Spec;
 use crate::ir::code::Code;
 use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
@@ -277,13 +277,13 @@ impl Function {
             (Some(name), false) => (name.clone(), None),
             (Some(name), true) => (format!("{name}_channels"), Some(name.clone())),
             (None, false) => (self.spec.stem(), None),
-            (None, true) => (Built::base(&self.spec).stem(), Some(self.spec.stem())),
+            (None, true) => (self.spec.base().stem(), Some(self.spec.stem())),
         }
     }
 
     fn rust(&self, name: String) -> FunctionText {
         let dialect = Dialect { target: Target::Rust, rgb: false, half: false };
-        let mut text = self.frame(dialect, name, &Built::base(&self.spec));
+        let mut text = self.frame(dialect, name, &self.spec.base());
         match &self.built.code {
             Code::Straight(listing) => {
                 let body = Body::new(listing, dialect);

@@ -1,182 +1,58 @@
-//! The basis and sums over it. For each m: the sectoral pair y_{m,±m}, then what lies above it as polynomials in z²
-//! times the pair of degree m (even l − m) or m + 1 (odd l − m). All normalisation is folded into the constants; nothing
-//! cancels near the poles (paper 000's and Sloan's recurrences, rearranged).
+//! The basis at a direction, and sums over it that do not store it.
 
-use crate::families::Phase;
-use crate::ir::graph::{Graph, Id, Kind};
+use crate::families::family::{Family, Group, Looped, Measure, Spec};
+use crate::families::loops;
+use crate::families::parts::columns::{self, Columns, Sectoral};
+use crate::families::parts::params::direction;
+use crate::ir::domain::Domain;
+use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Kernel, Shape};
-use crate::math::exact::Exact;
 use crate::math::index::index;
 use crate::math::tables;
 
-/// What the harmonics of each band are multiplied by; the orthonormal ones have ones.
-pub type BandScale = fn(usize) -> Exact;
+/// The bands that irradiance has below order 5: the cosine lobe has no band 3.
+pub const IRRADIANCE_BANDS: [usize; 4] = [0, 1, 2, 4];
 
-/// The orthonormal basis.
-pub fn orthonormal(_band: usize) -> Exact {
-    Exact::one()
-}
+/// `basis`.
+pub static BASIS: Family = Family {
+    name: "basis",
+    stem: "basis",
+    group: Group::Evaluate,
+    what: |spec| {
+        format!(
+            "The spherical harmonics {} at a direction, accurate also near the poles (Sloan 2013's recurrence, rearranged).",
+            spec.which_bands()
+        )
+    },
+    some_bands: true,
+    looped: Some(Looped { name: "basis", has: Spec::is_whole, kernel: loops::basis_loop }),
+    kernel: |spec| basis(spec.order, &spec.bands),
+    measure: Measure::Absolute,
+    shown: |order| vec![Spec::new(&BASIS, order), Spec::new(&BASIS, order).looped()],
+    ..Family::PLAIN
+};
 
-/// Band l by √(4π / (2l + 1)), so that a zonal coefficient times it is the rotated coefficient.
-pub fn zonal(band: usize) -> Exact {
-    Exact::sqrt_ratio(4, 2 * band as i64 + 1) * Exact::pi_sqrt_power(1)
-}
-
-/// How the sectoral pairs of m = 2 and 3 are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sectoral {
-    /// From x and y alone: accurate relative to the value itself, also near the poles.
-    Safe,
-    /// With x² = 1 − y² − z², one operation cheaper each: accurate relative to the whole sum.
-    UnitLength,
-}
-
-/// The values at one direction from which every harmonic is made.
-struct Columns {
-    z: Id,
-    z2: Id,
-    /// `pairs[m]` is y_{m,m} and y_{m,−m}; the latter has no meaning for m = 0.
-    pairs: Vec<Phase>,
-    scale: BandScale,
-}
-
-/// The coefficients of the two-step recurrence y_l = (a z² + b) y_{l−2} + c y_{l−4} for column m.
-fn two_step(l: usize, m: usize) -> [Exact; 3] {
-    let b = |l: usize| if l > m + 1 { tables::legendre_recurrence(l, m).1 } else { Exact::zero() };
-    let a = |l: usize| tables::legendre_recurrence(l, m).0;
-    let lead = &a(l) * &a(l - 1);
-    let back = b(l - 1);
-    if back.is_zero() {
-        return [lead, -b(l), Exact::zero()];
-    }
-    let ratio = &(&a(l) * &back) / &a(l - 2);
-    [lead, -&(&b(l) + &ratio), -&(&ratio * &b(l - 2))]
-}
-
-/// (−1)^m √2 K_m^m (2m − 1)!!, the factor of Re and Im (x + iy)^m in the sectoral pair; K_0^0 for m = 0.
-fn sectoral_factor(m: usize) -> Exact {
-    let mut factor = tables::k(m, m);
-    for odd in 0..m {
-        factor = factor * Exact::int(-(2 * odd as i64 + 1));
-    }
-    match m {
-        0 => factor,
-        _ => factor * Exact::sqrt_ratio(2, 1),
-    }
-}
-
-impl Columns {
-    fn new(g: &mut Graph, dir: &[Id], order: usize, scale: BandScale, sectoral: Sectoral) -> Self {
-        let [x, y, z] = [dir[0], dir[1], dir[2]];
-        let z2 = g.mul(z, z);
-        let factor = |m: usize| &sectoral_factor(m) * &scale(m);
-        let zero = g.constant(Exact::zero());
-        let first = g.constant(factor(0));
-        let mut pairs = vec![Phase { cos: first, sin: zero }];
-        for m in 1..order {
-            let k = factor(m);
-            let pair = match (m, sectoral) {
-                (1, _) => Phase { cos: g.scale(&k, x), sin: g.scale(&k, y) },
-                (2, Sectoral::UnitLength) => {
-                    let ky = g.scale(&(&k * &Exact::int(2)), y);
-                    let rim = g.affine(&-&k, z2, &k);
-                    let yy = g.mul(ky, y);
-                    Phase { cos: g.sub(rim, yy), sin: g.mul(ky, x) }
-                }
-                (3, Sectoral::UnitLength) => {
-                    let ratio = &(&k * &Exact::int(2)) / &factor(2);
-                    let rim = g.affine(&-&k, z2, &k);
-                    let c2 = g.scale(&ratio, pairs[2].cos);
-                    let (plus, minus) = (g.add(c2, rim), g.sub(c2, rim));
-                    Phase { cos: g.mul(minus, x), sin: g.mul(plus, y) }
-                }
-                _ if m % 2 == 0 => {
-                    let half = pairs[m / 2];
-                    let ratio = &k / &(&factor(m / 2) * &factor(m / 2));
-                    let twice = g.scale(&(&ratio * &Exact::int(2)), half.cos);
-                    let (cc, ss) = (g.mul(half.cos, half.cos), g.mul(half.sin, half.sin));
-                    let difference = g.sub(cc, ss);
-                    Phase { cos: g.scale(&ratio, difference), sin: g.mul(twice, half.sin) }
-                }
-                _ => {
-                    let ratio = &k / &factor(m - 1);
-                    let (ax, ay) = (g.scale(&ratio, x), g.scale(&ratio, y));
-                    super::turn(g, pairs[m - 1], Phase { cos: ax, sin: ay })
-                }
-            };
-            pairs.push(pair);
+/// `eval`.
+pub static EVAL: Family = Family {
+    name: "eval",
+    stem: "eval",
+    group: Group::Evaluate,
+    what: |spec| {
+        format!("The sum of c_i y_i(dir) over the harmonics {}, without storing the basis.", spec.which_bands())
+    },
+    some_bands: true,
+    kernel: |spec| eval(spec.order, &spec.bands),
+    measure: Measure::Whole,
+    shown: |order| {
+        let mut specs = Spec::new(&EVAL, order).both();
+        if order == 5 {
+            let irradiance = Spec { bands: IRRADIANCE_BANDS.to_vec(), ..Spec::new(&EVAL, order) };
+            specs.extend(irradiance.both());
         }
-        Self { z, z2, pairs, scale }
-    }
-
-    /// y_{m+1,m} / y_{m,m} = κ z.
-    fn step(&self, g: &mut Graph, m: usize) -> Id {
-        let kappa = self.ratio(tables::legendre_recurrence(m + 1, m).0, m + 1, m);
-        g.scale(&kappa, self.z)
-    }
-
-    fn ratio(&self, factor: Exact, to: usize, from: usize) -> Exact {
-        &(&factor * &(self.scale)(to)) / &(self.scale)(from)
-    }
-
-    /// The polynomials in z² for l = m + 2 .. `order`: entry d is what the pair of degree m (even d) or m + 1 (odd d) is
-    /// multiplied by; entries 0 and 1 are one. For m = 0 even entries hold the constant y_{0,0} already.
-    fn polynomials(&self, g: &mut Graph, m: usize, order: usize) -> Vec<Id> {
-        let one = g.constant(Exact::one());
-        let start = if m == 0 { self.pairs[0].cos } else { one };
-        let mut all = vec![start, one];
-        for d in 2..order.saturating_sub(m) {
-            let l = m + d;
-            let [a, b, c] = two_step(l, m);
-            let (a, b) = (self.ratio(a, l, l - 2), self.ratio(b, l, l - 2));
-            let next = match d {
-                2 | 3 => {
-                    // The polynomial below is a constant: fold it into the coefficients.
-                    let below = match (m, d) {
-                        (0, 2) => &sectoral_factor(0) * &(self.scale)(0),
-                        _ => Exact::one(),
-                    };
-                    g.affine(&(&a * &below), self.z2, &(&b * &below))
-                }
-                _ => {
-                    let c = self.ratio(c, l, l - 4);
-                    let factor = g.affine(&a, self.z2, &b);
-                    let before = g.scale(&c, all[d - 4]);
-                    g.mul_add(factor, all[d - 2], before)
-                }
-            };
-            all.push(next);
-        }
-        all.truncate(order - m);
-        all
-    }
-}
-
-/// All n² values at a direction, each band multiplied by `scale`.
-pub fn values(g: &mut Graph, dir: &[Id], order: usize, scale: BandScale) -> Vec<Id> {
-    let columns = Columns::new(g, dir, order, scale, Sectoral::Safe);
-    let zero = g.constant(Exact::zero());
-    let mut out = vec![zero; order * order];
-    for m in 0..order {
-        let polynomials = columns.polynomials(g, m, order);
-        let even = columns.pairs[m];
-        let odd = (m + 1 < order).then(|| {
-            let step = columns.step(g, m);
-            Phase { cos: g.mul(step, even.cos), sin: g.mul(step, even.sin) }
-        });
-        for (d, &polynomial) in polynomials.iter().enumerate() {
-            let l = m + d;
-            let pair = if d % 2 == 0 { even } else { odd.expect("there is a degree m + 1") };
-            if m == 0 {
-                out[index(l, 0)] = if d % 2 == 0 { polynomial } else { g.mul(polynomial, pair.cos) };
-            } else {
-                out[index(l, m as isize)] = g.mul(polynomial, pair.cos);
-                out[index(l, -(m as isize))] = g.mul(polynomial, pair.sin);
-            }
-        }
-    }
-    out
-}
+        specs
+    },
+    ..Family::PLAIN
+};
 
 /// The flat indices that the coefficients of some bands have in a packed array of those bands alone.
 fn packed(bands: &[usize], order: usize) -> Vec<Option<usize>> {
@@ -191,19 +67,15 @@ fn packed(bands: &[usize], order: usize) -> Vec<Option<usize>> {
     places
 }
 
-fn direction(builder: &mut Builder) -> Vec<Id> {
-    builder.param("dir", Shape::Vec3, Kind::Scalar, "the direction, of unit length")
-}
-
 fn coefficients_of(bands: &[usize]) -> usize {
     bands.iter().map(|l| 2 * l + 1).sum()
 }
 
 /// All values of the bands at a direction: the kernel `basis`.
-pub fn basis(order: usize, bands: &[usize]) -> Kernel {
+fn basis(order: usize, bands: &[usize]) -> Kernel {
     let mut builder = Builder::new();
     let dir = direction(&mut builder);
-    let all = values(&mut builder.graph, &dir, order, orthonormal);
+    let all = columns::values(&mut builder.graph, &dir, order, columns::orthonormal);
     let outputs: Vec<Id> = bands.iter().flat_map(|&l| all[l * l..(l + 1) * (l + 1)].to_vec()).collect();
     let count = outputs.len();
     builder.finish(outputs, Shape::Array(count), "y_lm(dir), bands ascending, m from −l to l")
@@ -211,17 +83,17 @@ pub fn basis(order: usize, bands: &[usize]) -> Kernel {
 
 /// Σ c_i y_i(dir) without storing the basis: the kernel `eval`. Nested by m: a coefficient costs one operation a channel,
 /// the polynomials are shared by channels and by cosine and sine.
-pub fn eval(order: usize, bands: &[usize]) -> Kernel {
+fn eval(order: usize, bands: &[usize]) -> Kernel {
     let mut builder = Builder::new();
     let dir = direction(&mut builder);
     let count = coefficients_of(bands);
-    let c = builder.param("c", Shape::Array(count), Kind::Signal, "the coefficients of the bands, ascending");
+    let c = builder.param("c", Shape::Array(count), Domain::Signal, "the coefficients of the bands, ascending");
     let places = packed(bands, order);
     let g = &mut builder.graph;
-    let columns = Columns::new(g, &dir, order, orthonormal, Sectoral::UnitLength);
+    let basis = Columns::new(g, &dir, order, columns::orthonormal, Sectoral::UnitLength);
     let mut sum: Option<Id> = None;
     for m in 0..order {
-        let polynomials = columns.polynomials(g, m, order);
+        let polynomials = basis.polynomials(g, m, order);
         for negative in [false, true] {
             if negative && m == 0 {
                 continue;
@@ -248,16 +120,17 @@ pub fn eval(order: usize, bands: &[usize]) -> Kernel {
                 (even, Some(odd)) => {
                     // For m = 0 the even part holds y_{0,0} already and the odd part is a multiple of y_{1,0}.
                     let step = if m == 0 {
-                        let y10 = &columns.ratio(tables::legendre_recurrence(1, 0).0, 1, 0) * &sectoral_factor(0);
-                        g.scale(&y10, columns.z)
+                        let y10 =
+                            &basis.ratio(tables::legendre_recurrence(1, 0).0, 1, 0) * &columns::sectoral_factor(0);
+                        g.scale(&y10, basis.z)
                     } else {
-                        columns.step(g, m)
+                        basis.step(g, m)
                     };
                     let odd = g.mul(odd, step);
                     even.map_or(odd, |even| g.add(even, odd))
                 }
             };
-            let pair = columns.pairs[m];
+            let pair = basis.pairs[m];
             let term = match (m, negative) {
                 (0, _) => nested,
                 (_, false) => g.mul(nested, pair.cos),

@@ -3,16 +3,82 @@
 //! the part tanh(βA/2) of even rows, the inner one is the part sinh(βA) of odd rows: sums of tan(kβ/2) and of sin kβ with
 //! constant factors. Given these sums, a band takes 3 l (l + 1) / 2 multiply-adds and no change of basis, where the
 //! rotation by planes takes two changes and four operations a plane. Making them is dearer than multiples of angles are,
-//! so that it pays for several signals that turn alike. The tangents bound β; see [`crate::families::spec::LIFTED_DEGREES`].
+//! so that it pays for several signals that turn alike. The tangents bound β; see [`LIFTED_DEGREES`].
 
-use crate::families::rotate::{
-    each_band, half_tangent_of_quaternion, phases_of_quaternion, quaternion, signal, z_band,
-};
-use crate::families::{Phase, multiples, phases};
-use crate::ir::graph::{Graph, Id, Kind};
+use crate::families::family::{Does, Family, Group, Job, MAX_ORDER, Measure, Spec};
+use crate::families::parts::bands::{each_band, z_band};
+use crate::families::parts::params::{quaternion, rotated, signal};
+use crate::families::parts::phases::{Phase, half_tangent_of_quaternion, multiples, phases, phases_of_quaternion};
+use crate::ir::domain::{Domain, Held, Made, OfAngle, POLAR};
+use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::tables;
+use std::ops::RangeInclusive;
+
+/// The largest (n − 1) β in degrees that a lifted rotation takes: there the tangents of its shears reach √3, and f32 errs
+/// by some one and a half times what the rotation by planes does; beyond, the error grows with them, to infinity at 180
+/// degrees.
+pub const LIFTED_DEGREES: f64 = 120.0;
+
+const ORDERS: RangeInclusive<usize> = 3..=MAX_ORDER;
+
+fn max_angle(order: usize) -> f64 {
+    (LIFTED_DEGREES / (order - 1) as f64).to_radians()
+}
+
+fn outside(order: usize) -> [String; 2] {
+    match order < *ORDERS.start() {
+        true => {
+            let help = "at order 2 the matrix of a rotation costs least: take `rotate:2:matrix`";
+            [format!("a lifted rotation has orders from 3 on, not {order}"), help.to_owned()]
+        }
+        false => (Family::PLAIN.outside)(order),
+    }
+}
+
+/// `lifted`: what [`ROTATE_LIFTED`] takes.
+pub static LIFTED: Family = Family {
+    name: "lifted",
+    stem: "lifted",
+    group: Group::Rotate,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "The multiples of the two z angles of a rotation and the shears of its y rotation that `rotate:{order}:lifted` takes; done once for many signals."
+        )
+    },
+    orders: ORDERS,
+    outside,
+    half: false,
+    kernel: |spec| lifted(spec.order),
+    measure: Measure::Through(rotate),
+    max_angle: |spec| Some(max_angle(spec.order)),
+    shown: |order| if ORDERS.contains(&order) { vec![Spec::new(&LIFTED, order)] } else { vec![] },
+    ..Family::PLAIN
+};
+
+/// `rotate:n:lifted`.
+pub static ROTATE_LIFTED: Family = Family {
+    name: "rotate",
+    method: "lifted",
+    stem: "rotate_lifted",
+    usual: |_, _| false,
+    group: Group::Rotate,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "Rotates order {order} exactly, by z, y, z with the y rotation as shears, from what `lifted:{order}` makes; the y angle is bounded."
+        )
+    },
+    orders: ORDERS,
+    outside,
+    kernel: |spec| rotate(spec.order),
+    max_angle: |spec| Some(max_angle(spec.order)),
+    does: |order, _| if ORDERS.contains(&order) { vec![Does::job(Job::Quaternion)] } else { vec![] },
+    shown: |order| if ORDERS.contains(&order) { Spec::new(&ROTATE_LIFTED, order).both() } else { vec![] },
+    ..Family::PLAIN
+};
 
 /// The pairs of an even and an odd order that a y rotation of band l couples: those of one sign, zero with the positive
 /// ones.
@@ -38,6 +104,15 @@ fn pairs(order: usize) -> usize {
 const PAIRS: &str = "(cos, sin) of α, 2α, …, (n−1)α, then of the multiples of γ, in Rz(α) Ry(β) Rz(γ); then for each band \
                      from 1 and each pair of an even and an odd order of one sign what couples them in the outer \
                      and in the inner shear of Ry(β), the sums of tan(kβ/2) and of sin kβ";
+
+/// What each number of [`PAIRS`] is.
+fn holds(order: usize) -> Vec<Held> {
+    let pair = |circle: usize, k: usize| [OfAngle::Cos(k), OfAngle::Sin(k)].map(|of| Held { circle, of });
+    let multiples = (0..2).flat_map(|circle| (1..order).flat_map(move |k| pair(circle, k)));
+    let shear = |l: usize, at: usize, inner: bool| Held { circle: POLAR, of: OfAngle::Shear { l, at, inner } };
+    let band = |l: usize| (0..couplings(l).len()).flat_map(move |at| [false, true].map(|inner| shear(l, at, inner)));
+    multiples.chain((1..order).flat_map(band)).collect()
+}
 
 /// A coupling in the outer and in the inner shear.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +165,7 @@ fn half_tangent(g: &mut Graph, half: Id, beta: &[Phase], k: usize) -> Id {
 /// The kernel `lifted`: what [`rotate`] takes, from a unit quaternion; done once for many signals.
 pub fn lifted(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let q = quaternion(&mut builder);
+    let q = quaternion(&mut builder, Domain::BoundedTurn(max_angle(order)));
     let g = &mut builder.graph;
     let [alpha, beta, gamma] = phases_of_quaternion(g, &q).map(|phase| multiples(g, phase, order - 1));
     let half = half_tangent_of_quaternion(g, &q);
@@ -107,9 +182,10 @@ pub fn lifted(order: usize) -> Kernel {
 }
 
 /// `rotate` by z, y, z, the y rotation by shears, with all that [`lifted`] makes given.
-pub fn rotate(order: usize) -> Kernel {
+fn rotate(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let cs = builder.param("cs", Shape::Pairs(pairs(order)), Kind::Scalar, PAIRS);
+    let made = Made { by: LIFTED.name, order, kernel: lifted, max_angle: Some(max_angle(order)), holds };
+    let cs = builder.param("cs", Shape::Pairs(pairs(order)), Domain::Made(made), PAIRS);
     let c = signal(&mut builder, order);
     let (turns, shears) = cs.split_at(4 * (order - 1));
     let turns: Vec<Phase> = phases(turns);
@@ -124,5 +200,5 @@ pub fn rotate(order: usize) -> Kernel {
         let band = y_band(g, &band, own);
         z_band(g, &band, alpha)
     });
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+    rotated(builder, order, out)
 }

@@ -1,6 +1,8 @@
 //! The loop forms: the three kernels that have one, each as tables and a few loops that serve every order. They do what
 //! the straight lines of the other files do.
 
+use crate::families::family::small_angle;
+use crate::ir::domain::Domain;
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
 use crate::ir::program::{Int, LoopKernel, Name, Num, Stmt, Table};
@@ -9,12 +11,8 @@ use crate::math::index::coefficients;
 use crate::math::tables;
 use std::collections::HashMap;
 
-fn param(name: Name, shape: Shape, kind: Kind, doc: &str) -> Param {
-    Param { name, shape, kind, doc: doc.to_owned() }
-}
-
 fn signal(order: usize) -> Param {
-    param("c", Shape::Array(order * order), Kind::Signal, "the coefficients, index l(l+1)+m")
+    Param::new("c", Shape::Array(order * order), Domain::Signal, "the coefficients, index l(l+1)+m")
 }
 
 fn table(name: Name, values: Vec<Exact>, doc: &str) -> Table {
@@ -63,7 +61,7 @@ pub fn taylor15_loop(order: usize) -> LoopKernel {
         table("DDY_DIAG", diag.collect(), "the diagonal of the second derivative of D at 0"),
     ];
     let angle = "the angle about y in radians, small";
-    let params = vec![param("beta", Shape::Scalar, Kind::Scalar, angle), signal(order)];
+    let params = vec![Param::new("beta", Shape::Scalar, Domain::Angle(small_angle()), angle), signal(order)];
     kernel(order, params, tables, body, "the rotated coefficients")
 }
 
@@ -132,7 +130,7 @@ pub fn basis_loop(order: usize) -> LoopKernel {
         table("SECTORAL", (1..order).map(sectoral).collect(), "y_mm by y_(m-1)(m-1) and x + iy, from m = 1"),
     ];
     let direction = "the direction, of unit length";
-    let params = vec![param("dir", Shape::Vec3, Kind::Scalar, direction)];
+    let params = vec![Param::new("dir", Shape::Vec3, Domain::Direction, direction)];
     kernel(order, params, tables, body, "y_lm(dir), bands ascending, m from −l to l")
 }
 
@@ -205,7 +203,7 @@ fn about_z(order: usize, angle: Int, l: &Int, from: Name, place: &Int) -> [Stmt;
     ]
 }
 
-/// A row of multiples each for −β, α and γ: the phases of a quaternion as [`crate::families::rotate`] has them, without
+/// A row of multiples each for −β, α and γ: the phases of a quaternion as [`crate::families::zyz`] has them, without
 /// trigonometry or branch, then complex products.
 fn phases(order: usize) -> Vec<Stmt> {
     let q = |i: usize| Num::item("q", i);
@@ -265,7 +263,7 @@ pub fn rotate_loop(order: usize) -> LoopKernel {
         Stmt::each("l", 1, order, band),
     ]);
     let rotation = "the rotation, a unit quaternion (x, y, z, w)";
-    let params = vec![param("q", Shape::Vec4, Kind::Scalar, rotation), signal(order)];
+    let params = vec![Param::new("q", Shape::Vec4, Domain::Quaternion, rotation), signal(order)];
     let doc = "J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those\n\
                below l; of these the even columns in the rows from l, the odd columns in those below l";
     let tables = vec![table("J", exchange(order), doc)];

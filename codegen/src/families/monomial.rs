@@ -2,20 +2,57 @@
 //! one operation a channel, which is the floor for n² free coefficients, and only the powers of x + iy are shared besides
 //! (MATH section 12). The coefficients are turned once, when they are stored, by `to_monomial`.
 
-use crate::families::{Phase, rotate, turn};
-use crate::ir::graph::{Graph, Id, Kind};
+use crate::families::family::{Family, Group, Measure, Proof, Spec};
+use crate::families::parts::params::{direction, signal};
+use crate::families::parts::phases::{Phase, turn};
+use crate::ir::domain::Domain;
+use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::index::index;
 use crate::math::tables;
 
+/// `eval_monomial`.
+pub static EVAL_MONOMIAL: Family = Family {
+    name: "eval_monomial",
+    stem: "eval_monomial",
+    group: Group::Evaluate,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "The sum of c_i y_i(dir) over the harmonics of order {order}, from the coefficients that `to_monomial:{order}` makes."
+        )
+    },
+    kernel: |spec| eval(spec.order),
+    measure: Measure::Whole,
+    shown: |order| Spec::new(&EVAL_MONOMIAL, order).both(),
+    ..Family::PLAIN
+};
+
+/// `to_monomial`.
+pub static TO_MONOMIAL: Family = Family {
+    name: "to_monomial",
+    stem: "to_monomial",
+    group: Group::Evaluate,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "From the coefficients of the harmonics of order {order} to those of the monomials that `eval_monomial:{order}` takes; done once, when they are stored."
+        )
+    },
+    kernel: |spec| from_harmonics(spec.order),
+    proof: Proof::Mixed,
+    shown: |order| Spec::new(&TO_MONOMIAL, order).both(),
+    ..Family::PLAIN
+};
+
 const LAYOUT: &str = "of z^(l−|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m";
 
 /// The kernel `eval_monomial`: what `eval` returns, from the coefficients of monomials.
-pub fn eval(order: usize) -> Kernel {
+fn eval(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let dir = builder.param("dir", Shape::Vec3, Kind::Scalar, "the direction, of unit length");
-    let c = builder.param("c", Shape::Array(order * order), Kind::Signal, format!("the coefficients {LAYOUT}"));
+    let dir = direction(&mut builder);
+    let c = builder.param("c", Shape::Array(order * order), Domain::Signal, format!("the coefficients {LAYOUT}"));
     let g = &mut builder.graph;
     let [x, y, z] = [dir[0], dir[1], dir[2]];
     let horner = |g: &mut Graph, m: isize| -> Id {
@@ -37,9 +74,9 @@ pub fn eval(order: usize) -> Kernel {
 }
 
 /// The kernel `to_monomial`: coefficients of harmonics to those that `eval_monomial` takes, a triangular map in each m.
-pub fn from_harmonics(order: usize) -> Kernel {
+fn from_harmonics(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let c = rotate::signal(&mut builder, order);
+    let c = signal(&mut builder, order);
     let g = &mut builder.graph;
     let zero = g.constant(Exact::zero());
     let mut out = vec![zero; order * order];

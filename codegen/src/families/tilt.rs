@@ -2,15 +2,110 @@
 //! Bands 1 and 2 are exact closed forms; from band 3 on three or five parity shears, regular at n = z and odd in (nx, ny), so
 //! that the inverse is the same code with −n (MATH section 9).
 
-use crate::families::inner;
-use crate::families::rotate::{each_band, normal, signal};
-use crate::families::y_rotation::{ParityShear, Small, parity_shears};
-use crate::ir::graph::Kind;
+use crate::families::family::{AngleAs, ByBand, Does, Family, Group, Job, Spec, Spelled, small_angle};
+use crate::families::parts::bands::each_band;
+use crate::families::parts::params::{normal, signal};
+use crate::families::parts::small_angle::{ParityShear, SmallAngle, names, parity_shears};
+use crate::families::parts::sums::inner;
+use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::index::coefficients;
 use crate::math::tables;
+
+const BY_BAND: ByBand = ByBand {
+    spelled: Spelled::AsOption,
+    given: AngleAs::Normal,
+    in_band: |l| if l < 3 { &[SmallAngle::Exact] } else { &[SmallAngle::Lf3, SmallAngle::Lf5] },
+    rule: [
+        "a tilt is exact in bands 1 and 2 and takes `lf3` or `lf5` in the others",
+        "write it as in `tilt:5:lf5` or `tilt:5:exact+exact+lf3+lf5`",
+    ],
+    plane: |order, methods| tilt(order, methods, false),
+};
+
+/// A family's kernels with lf3 and with lf5.
+fn both_shears(family: &'static Family, order: usize) -> Vec<Spec> {
+    [SmallAngle::Lf3, SmallAngle::Lf5]
+        .into_iter()
+        .flat_map(|method| Spec::new(family, order).by(method).both())
+        .collect()
+}
+
+/// `tilt`.
+pub static TILT: Family = Family {
+    name: "tilt",
+    stem: "tilt",
+    group: Group::Tilt,
+    what: |spec| match spec.order {
+        order @ 2..=3 => {
+            format!("Tilts order {order}: the shortest rotation from z to a normal, exactly, with no trigonometry.")
+        }
+        order => format!(
+            "Tilts order {order}: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by shears that are regular at n = z ({}). The inverse is the same with (-n.x, -n.y, n.z).",
+            names(&spec.methods[2..])
+        ),
+    },
+    by_band: Some(BY_BAND),
+    kernel: |spec| tilt(spec.order, &spec.methods, false),
+    does: |_, _| vec![Does::job(Job::Tilt)],
+    shown: |order| match order {
+        2 | 3 => Spec::new(&TILT, order).both(),
+        _ => both_shears(&TILT, order),
+    },
+    ..Family::PLAIN
+};
+
+/// `tilt_prescaled`.
+pub static TILT_PRESCALED: Family = Family {
+    name: "tilt_prescaled",
+    stem: "tilt_prescaled",
+    group: Group::Tilt,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "Tilts order {order} as `tilt` does ({}), on coefficients that `tilt_scale:{order}` has divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a light, is scaled the other way, by `tilt_unscale:{order}`.",
+            names(spec.methods.get(2..).unwrap_or_default())
+        )
+    },
+    by_band: Some(BY_BAND),
+    kernel: |spec| tilt(spec.order, &spec.methods, true),
+    shown: |order| if order > 3 { both_shears(&TILT_PRESCALED, order) } else { vec![] },
+    ..Family::PLAIN
+};
+
+/// `tilt_scale`.
+pub static TILT_SCALE: Family = Family {
+    name: "tilt_scale",
+    stem: "tilt_scale",
+    group: Group::Tilt,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "Divides the coefficients of order {order} as `tilt_prescaled:{order}` takes them; done once, when they are stored."
+        )
+    },
+    kernel: |spec| rescale(spec.order, false),
+    shown: |order| if order > 3 { Spec::new(&TILT_SCALE, order).both() } else { vec![] },
+    ..Family::PLAIN
+};
+
+/// `tilt_unscale`.
+pub static TILT_UNSCALE: Family = Family {
+    name: "tilt_unscale",
+    stem: "tilt_unscale",
+    group: Group::Tilt,
+    what: |spec| {
+        let order = spec.order;
+        format!(
+            "The inverse of `tilt_scale:{order}`: for tilted coefficients, or for a light that they are multiplied with."
+        )
+    },
+    kernel: |spec| rescale(spec.order, true),
+    shown: |order| if order > 3 { Spec::new(&TILT_UNSCALE, order).both() } else { vec![] },
+    ..Family::PLAIN
+};
 
 /// What every band needs of the normal.
 struct Normal {
@@ -180,7 +275,7 @@ impl Shear {
 }
 
 /// Three or five shears, β the tilt. With sin β for β the series' second coefficient takes c₀/6 more.
-fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: Small, prescaled: bool) -> Vec<Id> {
+fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: SmallAngle, prescaled: bool) -> Vec<Id> {
     let l = band.len() / 2;
     let mut x = band.to_vec();
     for ParityShear { parity, series: [first, third] } in parity_shears(l, method) {
@@ -192,13 +287,17 @@ fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: Small, prescaled: bool
 
 /// The kernels `tilt` and `tilt_prescaled`, with `methods[l − 1]` for band l: exact for bands 1 and 2, shears for the
 /// others.
-pub fn tilt(order: usize, methods: &[Small], prescaled: bool) -> Kernel {
+fn tilt(order: usize, methods: &[SmallAngle], prescaled: bool) -> Kernel {
     let mut builder = Builder::new();
-    let n = normal(&mut builder);
+    let domain = match methods.iter().all(|method| *method == SmallAngle::Exact) {
+        true => Domain::Hemisphere,
+        false => Domain::Tilt(small_angle()),
+    };
+    let n = normal(&mut builder, domain);
     let c = match prescaled {
         true => {
             let doc = format!("the coefficients as `tilt_scale:{order}` stores them");
-            builder.param("c", Shape::Array(order * order), Kind::Signal, doc)
+            builder.param("c", Shape::Array(order * order), Domain::Signal, doc)
         }
         false => signal(&mut builder, order),
     };
@@ -217,7 +316,7 @@ pub fn tilt(order: usize, methods: &[Small], prescaled: bool) -> Kernel {
 }
 
 /// The kernels `tilt_scale` and `tilt_unscale`: each coefficient divided by [`scale`], or multiplied by it.
-pub fn rescale(order: usize, unscale: bool) -> Kernel {
+fn rescale(order: usize, unscale: bool) -> Kernel {
     let mut builder = Builder::new();
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;

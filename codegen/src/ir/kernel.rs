@@ -1,6 +1,7 @@
 //! A kernel: named parameters, a graph, and the outputs that it computes. Families in `kernels/` build it through
 //! [`Builder`]; the interpreter and the printers read it.
 
+use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id, Kind};
 
 /// The shape of a parameter or a result.
@@ -46,7 +47,7 @@ impl Shape {
 }
 
 /// One parameter of a kernel.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Param {
     /// Its name, the same in every language.
     pub name: &'static str,
@@ -54,8 +55,18 @@ pub struct Param {
     pub shape: Shape,
     /// Whether it is the signal, which has one number a channel, or a number that all channels share.
     pub kind: Kind,
+    /// What it may be.
+    pub domain: Domain,
     /// What it holds, with its unit and range.
     pub doc: String,
+}
+
+impl Param {
+    /// A parameter; it is the signal where its domain says so.
+    pub fn new(name: &'static str, shape: Shape, domain: Domain, doc: impl Into<String>) -> Self {
+        let kind = if domain.is_signal() { Kind::Signal } else { Kind::Scalar };
+        Self { name, shape, kind, domain, doc: doc.into() }
+    }
 }
 
 /// A straight-line kernel.
@@ -90,9 +101,10 @@ impl Builder {
     }
 
     /// Declares a parameter and returns its components in flat order.
-    pub fn param(&mut self, name: &'static str, shape: Shape, kind: Kind, doc: impl Into<String>) -> Vec<Id> {
-        let param = self.params.len() as u32;
-        self.params.push(Param { name, shape, kind, doc: doc.into() });
+    pub fn param(&mut self, name: &'static str, shape: Shape, domain: Domain, doc: impl Into<String>) -> Vec<Id> {
+        let (param, of) = (self.params.len() as u32, Param::new(name, shape, domain, doc));
+        let kind = of.kind;
+        self.params.push(of);
         (0..shape.len() as u32).map(|index| self.graph.input(param, index, kind)).collect()
     }
 

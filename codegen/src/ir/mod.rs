@@ -1,7 +1,8 @@
-//! A kernel as data: the expression graph, the kernel with its parameters, the listing that it is laid out as, loops,
+//! A kernel as data: the expression graph, the kernel with its parameters and their domains, the listing that it is laid out as, loops,
 //! the operations in any form, and the interpreter. It knows arithmetic and nothing of harmonics, text or targets.
 
 pub mod code;
+pub mod domain;
 pub mod eval;
 pub mod graph;
 pub mod kernel;

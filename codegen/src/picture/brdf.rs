@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::environment;
-use crate::families::spec::{MAX_ORDER, MIN_ORDER};
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::math::index::band_degree;
 
 /// The sharpest and the dullest exponent of `phong`.

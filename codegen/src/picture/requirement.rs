@@ -6,12 +6,12 @@
 //! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget.
 
 use crate::environment::Projection;
-use crate::families::spec::{MAX_HALF_ORDER, MIN_ORDER, Spec};
+use crate::families::Spec;
+use crate::families::family::{MAX_HALF_ORDER, MIN_ORDER};
 use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::listing::Listing;
 use crate::math::index::{band, band_degree};
 use crate::picture::brdf::{Brdf, Table, gauss_legendre};
-use crate::promise::built;
 use crate::promise::samples::Random;
 use half::f16;
 use serde::Serialize;
@@ -183,7 +183,7 @@ impl Requirement {
     fn count(&mut self, brdf: &Brdf) {
         let rotation = |order: usize| {
             let spec: Spec = format!("rotate:{order}").parse().expect("is a spec");
-            built::code(&spec).cost(1).total
+            spec.code().cost(1).total
         };
         let all = self.max_order * self.max_order;
         let kept = self.coefficients();
@@ -201,7 +201,7 @@ impl Requirement {
     /// The relative rms error over views and frames.
     fn measure(&self, light: &[[f64; 3]], brdf: &Brdf) -> f64 {
         let spec: Spec = format!("rotate:{}:zyz", self.max_order).parse().expect("is a spec");
-        let rotate = Program::<f64>::new(&Listing::new(&built::kernel(&spec)));
+        let rotate = Program::<f64>::new(&Listing::new(&spec.kernel()));
         let channel = |c: usize| -> Vec<f64> { light.iter().map(|value| value[c]).collect() };
         let lights = [channel(0), channel(1), channel(2)];
         let kept: Vec<[f64; 3]> = light

@@ -19,8 +19,11 @@
 use super::normal_map::LEAST_Z;
 use crate::emit::dialect::{Dialect, Target, shader_literal};
 use crate::emit::{Function, Limit, Module, docs, results};
-use crate::families::spec::{self, Family, Spec};
-use crate::families::y_rotation::Small;
+use crate::families::about_y::SMALL_ZYZ;
+use crate::families::axis::ROTATE_Z;
+use crate::families::text::{hint, usual};
+use crate::families::tilt::TILT;
+use crate::families::{SmallAngle, Spec};
 use crate::generate;
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
@@ -69,23 +72,20 @@ impl Method {
 
     /// The kernel of an order, if it is one.
     pub fn spec(self, order: usize) -> Option<Spec> {
-        let small = |method: Small| Family::Rotate(spec::Method::Small(vec![method; order - 1]));
-        let family = match self {
-            Self::Exact => return Some(rotation(order)),
-            Self::Tilt => Family::Tilt(Small::Lf3.from_band_3(order)),
-            // Below band 3 there is but one tilt.
-            Self::Tilt5 if order <= 3 => Family::Tilt(Small::Lf3.from_band_3(order)),
-            Self::Tilt5 => Family::Tilt(Small::Lf5.from_band_3(order)),
-            Self::Lf3 => small(Small::Lf3),
-            Self::Taylor15 => small(Small::Taylor15),
-            Self::None => return None,
-        };
-        Some(Spec::new(family, order))
+        // Names a family: these are the ways that a picture compares.
+        match self {
+            Self::Exact => Some(rotation(order)),
+            Self::Tilt => Some(Spec::new(&TILT, order)),
+            Self::Tilt5 => Some(Spec::new(&TILT, order).by(SmallAngle::Lf5)),
+            Self::Lf3 => Some(Spec::new(&SMALL_ZYZ, order)),
+            Self::Taylor15 => Some(Spec::new(&SMALL_ZYZ, order).by(SmallAngle::Taylor15)),
+            Self::None => None,
+        }
     }
 
     /// What the kernel of an order costs.
     pub fn cost(self, order: usize) -> Cost {
-        self.spec(order).map_or_else(Cost::default, |spec| crate::promise::built::code(&spec).cost(1))
+        self.spec(order).map_or_else(Cost::default, |spec| spec.code().cost(1))
     }
 
     /// For each angle in radians between the two normals, the error of each band as a spectral norm.
@@ -122,7 +122,7 @@ impl FromStr for Method {
     fn from_str(text: &str) -> Result<Self, String> {
         let names = Self::ALL.map(Self::name);
         let found = Self::ALL.into_iter().find(|method| method.name() == text);
-        found.ok_or_else(|| format!("`{text}` is no way to turn coefficients; {}", spec::hint(text, &names)))
+        found.ok_or_else(|| format!("`{text}` is no way to turn coefficients; {}", hint(text, &names)))
     }
 }
 
@@ -141,7 +141,8 @@ fn left_out(order: usize, angles: &[f64], norm: fn(&[f64]) -> f64) -> Vec<Vec<f6
 
 /// The exact rotation from a quaternion.
 fn rotation(order: usize) -> Spec {
-    Spec::new(Family::Rotate(Spec::default_method(order, false)), order)
+    // Names a family: a picture's exact way.
+    usual("rotate", order, false)
 }
 
 /// What a shader is made for.
@@ -192,7 +193,7 @@ impl Shading {
         let mut specs = vec![rotation(self.order)];
         specs.extend(self.method.spec(self.order).filter(|spec| *spec != specs[0]));
         if self.isotropic {
-            specs.push(Spec::new(Family::RotateZ, self.order));
+            specs.push(Spec::new(&ROTATE_Z, self.order));
         }
         specs
     }
@@ -221,7 +222,7 @@ impl Shading {
         context.insert("method", self.method.name());
         context.insert("rotate", &rotation(self.order).name());
         context.insert("kernel", &name(self.method.spec(self.order)));
-        context.insert("rotate_z", &Spec::new(Family::RotateZ, self.order).name());
+        context.insert("rotate_z", &Spec::new(&ROTATE_Z, self.order).name());
         context.insert("size", &size);
         context.insert("indices", &(0..size).collect::<Vec<_>>());
         context.insert("texels", &(0..size.div_ceil(4)).collect::<Vec<_>>());
@@ -370,7 +371,7 @@ mod tests {
         use crate::ir::eval::{Contraction, Program};
         use crate::ir::listing::Listing;
         let order = 5;
-        let program = Program::<f64>::new(&Listing::new(&crate::families::rotate::rotate_y(order)));
+        let program = Program::<f64>::new(&Listing::new(&Spec::new(&crate::families::axis::ROTATE_Y, order).kernel()));
         for angle in [0.1f64, 0.5, 1.0, 1.5] {
             let errors = &Method::None.band_errors(order, &[angle])[0];
             let typical = &Method::None.typical_band_errors(order, &[angle])[0];

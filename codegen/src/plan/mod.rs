@@ -2,21 +2,21 @@
 //! every method that does the job is built, counted and measured, and the cheapest that keeps the error is chosen; for
 //! an environment, the smallest order whose missing bands cost less than the budget. All figures are the kernels' own.
 
-pub mod choose;
+pub mod mixtures;
 
 use crate::emit::dialect::Target;
 use crate::emit::names::{self, Use};
 use crate::emit::{Constants, Function, Module};
-use crate::families::spec::{Family, Method, Spec};
-use crate::families::y_rotation::Small;
+use crate::families::basis;
+use crate::families::family::{Does, Spec};
 use crate::generate::{self, Row};
 use crate::ir::graph::Kind;
 use crate::ir::listing::Cost;
-use crate::plan::choose::{Budget, Norm, Precision, Turn};
+use crate::plan::mixtures::{Budget, candidates, set_up};
 use crate::promise::accuracy::{self, round_up};
 use crate::promise::built::Built;
 use crate::scene::diagnostic::{Diagnostic, Place};
-use crate::scene::{Located, Order, Rotation, Scene, Wanted};
+use crate::scene::{Job, Located, Norm, Order, Precision, Rotation, Scene, Wanted};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -181,40 +181,6 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
     Ok((spec, true))
 }
 
-/// What turns several signals, or channels, by one quaternion: the set-ups that are done once, each with the rotation that takes what it
-/// makes.
-const SHARED: [(Family, Family); 2] =
-    [(Family::Angles, Family::Rotate(Method::Angles)), (Family::Lifted, Family::Rotate(Method::Lifted))];
-
-/// The methods that turn a signal as the scene asks, exact ones first, and those that are listed only to say why not.
-fn candidates(kind: Turn, order: usize, rgb: bool) -> Vec<(Spec, Option<&'static str>)> {
-    let exact = Family::Rotate(Spec::default_method(order, rgb));
-    // Every small-angle method in all bands, as the rotation `of` takes it.
-    let small =
-        |of: Turn, why| Small::ALL.map(|(method, _)| (choose::family(of, vec![method; order - 1]), why)).to_vec();
-    let families = match kind {
-        Turn::Tilt => {
-            let why = "takes angles, which a normal gives by trigonometry only, none at n = z";
-            let mut families = vec![
-                (Family::Tilt(Small::Lf3.from_band_3(order)), None),
-                (exact, None),
-                (Family::Rotate(Method::Align), Some("leaves the spin about the normal open")),
-            ];
-            if order > 3 {
-                families.insert(1, (Family::Tilt(Small::Lf5.from_band_3(order)), None));
-            }
-            [families, small(Turn::Zyz, Some(why))].concat()
-        }
-        Turn::Y => [vec![(Family::RotateY, None)], small(Turn::Y, None)].concat(),
-        Turn::Zyz => [vec![(exact, None), (Family::Rotate(Method::Euler), None)], small(Turn::Zyz, None)].concat(),
-        Turn::Quaternion => {
-            let small = |(method, _): (Small, _)| (choose::family(kind, method.from_band_3(order)), None);
-            [vec![(exact, None)], Small::ALL.map(small).to_vec()].concat()
-        }
-    };
-    families.into_iter().map(|(family, why)| (Spec { rgb, ..Spec::new(family, order) }, why)).collect()
-}
-
 /// An error with two digits, rounded up.
 pub fn short(error: f64) -> String {
     match error {
@@ -260,16 +226,18 @@ impl<'a> Contest<'a> {
             energy: energy.to_vec(),
         };
         let mut contest = Self { rotation, order, budget, entries: vec![] };
-        let (specs, why): (Vec<_>, Vec<_>) = candidates(rotation.kind, order, rotation.rgb).into_iter().unzip();
-        for (function, why) in generate::build(&specs).into_iter().zip(why) {
+        let all = candidates(rotation.kind, order, rotation.rgb).into_iter();
+        let (alone, shared): (Vec<_>, Vec<_>) =
+            all.map(|(spec, does)| (set_up(&spec), spec, does.barred)).partition(|(set_up, ..)| set_up.is_none());
+        let specs: Vec<Spec> = alone.iter().map(|(_, spec, _)| spec.clone()).collect();
+        for (function, (.., why)) in generate::build(&specs).into_iter().zip(alone) {
             contest.enter(function, None, why);
         }
-        if rotation.kind == Turn::Quaternion && (rotation.rgb || rotation.signals > 1) {
-            for (set_up, family) in SHARED.into_iter().filter(|(set_up, _)| order > 2 || *set_up != Family::Lifted) {
-                let specs = [Spec::new(set_up, order), Spec { rgb: rotation.rgb, ..Spec::new(family, order) }];
-                if let [set_up, function] = &generate::build(&specs)[..] {
-                    contest.enter(function.clone(), Some(set_up.clone()), None);
-                }
+        // A set-up that is done once pays for several signals, or channels, that turn alike.
+        for (set_up, spec, why) in shared.into_iter().filter(|_| rotation.rgb || rotation.signals > 1) {
+            let specs: Vec<Spec> = set_up.into_iter().chain([spec]).collect();
+            if let [set_up, function] = &generate::build(&specs)[..] {
+                contest.enter(function.clone(), Some(set_up.clone()), why);
             }
         }
         let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|entry| entry.function.spec == *spec);
@@ -339,7 +307,7 @@ impl<'a> Contest<'a> {
         let approximate = self.entries.iter().filter(|entry| entry.function.spec.is_approximate());
         let rounding = approximate.map(|entry| entry.rival.rounding_f32).fold(0.0, f64::max);
         let budget = Budget { error: self.budget.error - rounding, ..self.budget.clone() };
-        let mut specs = choose::mixtures(self.rotation.kind, self.order, &budget);
+        let mut specs = mixtures::mixtures(self.rotation.kind, self.order, &budget);
         specs.iter_mut().for_each(|spec| spec.rgb = self.rotation.rgb);
         specs
     }
@@ -371,10 +339,10 @@ impl<'a> Contest<'a> {
             max_error.value,
             self.entries.len(),
             match self.rotation.kind {
-                Turn::Tilt => "tilt z to a normal",
-                Turn::Y => "turn about y",
-                Turn::Zyz => "turn about z, y and z",
-                Turn::Quaternion => "turn by a quaternion whose y angle is bounded",
+                Job::Tilt => "tilt z to a normal",
+                Job::Y => "turn about y",
+                Job::Zyz => "turn about z, y and z",
+                Job::Quaternion => "turn by a quaternion whose y angle is bounded",
             },
             self.rotation.max_angle.value,
             match self.rotation.signals {
@@ -413,11 +381,10 @@ fn check_angle(wanted: &Wanted, spec: &Spec) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let message = format!("`{spec}` takes angles up to {degrees} degrees, not {}", angle.value);
-    let exact = match spec.family {
-        Family::SmallY(_) => "rotate_y",
-        _ => "rotate",
-    };
-    let help = format!("`{exact}:{}` takes every angle, or let a `[[rotation]]` with a `max_error` choose", spec.order);
+    let own = |job: &Job| (spec.family.does)(spec.order, spec.rgb).contains(&Does::job(*job));
+    let job = [Job::Y, Job::Quaternion].into_iter().find(own).unwrap_or(Job::Quaternion);
+    let exact = mixtures::exact(job, spec.order, spec.rgb).base();
+    let help = format!("`{exact}` takes every angle, or let a `[[rotation]]` with a `max_error` choose");
     Err(Diagnostic::at(&angle.place, message, help))
 }
 
@@ -453,7 +420,7 @@ fn check_collisions(module: &Module, places: &[Place]) -> Result<(), Diagnostic>
         shader.push(name);
         let order = function.spec.order;
         let (generic, rgb) = function.rust_names();
-        let shared = function.name.is_none().then(|| crate::promise::built::Built::base(&function.spec));
+        let shared = function.name.is_none().then(|| function.spec.base());
         for (name, owner) in std::iter::once((generic, shared)).chain(rgb.map(|rgb| (rgb, None))) {
             match rust.insert((order, name.clone()), owner.clone()) {
                 Some(earlier) if earlier.is_none() || earlier != owner => return taken(&name, place),
@@ -600,7 +567,7 @@ impl EnvironmentPlan {
     /// Bands that hold nothing are neither stored nor evaluated, unless a kernel of the environment's order needs all
     /// of them: only `basis` and `eval` can do without.
     fn leave_out_vanishing_bands(&mut self, specs: &mut [(Spec, bool)], whole: bool) {
-        let serves = |spec: &Spec| matches!(spec.family, Family::Basis | Family::Eval) && spec.is_whole();
+        let serves = |spec: &Spec| spec.family.some_bands && spec.is_whole();
         let takes_order = || specs.iter().filter(|(_, takes_order)| *takes_order);
         if whole || takes_order().next().is_none() || !takes_order().all(|(spec, _)| serves(spec)) {
             return;
@@ -613,8 +580,9 @@ impl EnvironmentPlan {
     }
 
     fn count_operations(&mut self) {
+        // Names a family: evaluation is what the coefficients are for.
         let eval =
-            |order: usize, bands: &[usize]| Spec { bands: bands.to_vec(), ..Spec::new(Family::Eval, order).rgb() };
+            |order: usize, bands: &[usize]| Spec { bands: bands.to_vec(), ..Spec::new(&basis::EVAL, order).rgb() };
         let all: Vec<usize> = (0..self.max_order).collect();
         let functions = generate::build(&[eval(self.order, &self.bands), eval(self.max_order, &all)]);
         self.operations = [0, 1].map(|i| functions[i].built.code.cost(3).total);
@@ -692,7 +660,7 @@ mod environment {
     #[cfg(feature = "picture")]
     use crate::emit::dialect::Target;
     use crate::environment::{Map, MapError};
-    use crate::families::spec::MIN_ORDER;
+    use crate::families::family::MIN_ORDER;
     #[cfg(feature = "picture")]
     use crate::picture::requirement::Requirement;
     use crate::scene::{Light, Maps};

@@ -1,16 +1,15 @@
 //! How exact a kernel is: the rounding error of its f32 form, proven ([`crate::promise::bound`]) and, against its f64 form, measured
 //! over seeded inputs; for an approximate rotation the error of the method at an angle, computed from its matrix.
 
-use crate::families::spec::{Family, MAX_ORDER, Spec};
-use crate::families::y_rotation::{about_y, small_y};
-use crate::families::{lifted, rotate, tilt};
+use crate::families::axis;
+use crate::families::family::{AngleAs, MAX_ORDER, Measure, Spec};
 use crate::ir::code::Code;
 use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::kernel::Kernel;
 use crate::ir::listing::Listing;
 use crate::math::linear::spectral_norm;
 use crate::promise::bound;
-use crate::promise::law::{self, Given};
+use crate::promise::law;
 use crate::promise::samples;
 use half::f16;
 
@@ -59,30 +58,11 @@ pub fn round_up(value: f64) -> f64 {
     format!("{}e{}", tenths + 1, exponent - 1).parse().expect("a number")
 }
 
-/// What a rounding error is measured against.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    /// Each band's error against the band's norm in the input.
-    Bands,
-    /// The value's error against the norm of all coefficients.
-    Whole,
-    /// The error itself.
-    Absolute,
-}
-
 impl Measure {
-    /// The measure of a spec's kernel.
-    pub fn of(spec: &Spec) -> Self {
-        match spec.family {
-            Family::Basis => Self::Absolute,
-            Family::Eval | Family::EvalMonomial => Self::Whole,
-            _ => Self::Bands,
-        }
-    }
-
-    fn name(self) -> &'static str {
+    /// What an error in it is relative to.
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Bands => "the norm of a band",
+            Self::Bands | Self::Through(_) => "the norm of a band",
             Self::Whole => "the norm of the coefficients, each band of norm one",
             Self::Absolute => "one",
         }
@@ -94,7 +74,9 @@ impl Measure {
             got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
         match self {
-            Self::Bands => (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger),
+            Self::Bands | Self::Through(_) => {
+                (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger)
+            }
             _ => (0..got.len()).map(|i| difference(i..i + 1)).fold(0.0, larger),
         }
     }
@@ -108,9 +90,8 @@ fn larger(a: f64, b: f64) -> f64 {
 /// The largest rounding error of running in `T`, against f64, over `count` seeded inputs.
 pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, contraction: Contraction) -> f64 {
     let (narrow, wide) = (code.runner::<T>(), code.runner::<f64>());
-    let max_angle = spec.max_angle().unwrap_or(std::f64::consts::PI);
-    let (measure, meaning) = (Measure::of(spec), Meaning::of(spec));
-    samples::inputs(spec, code.params(), seed, count, max_angle)
+    let (measure, meaning) = (spec.family.measure, Meaning::of(spec));
+    samples::inputs(code.params(), seed, count, None)
         .iter()
         .map(|input| {
             let rounded: Vec<Vec<T>> =
@@ -136,10 +117,8 @@ pub enum Meaning {
 impl Meaning {
     /// What the results of a spec's kernel are compared by.
     pub fn of(spec: &Spec) -> Self {
-        let order = spec.order;
-        match spec.family {
-            Family::Angles => Self::rotated(order, &rotate::zyz_from_angles(order)),
-            Family::Lifted => Self::rotated(order, &lifted::rotate(order)),
+        match spec.family.measure {
+            Measure::Through(rotation) => Self::rotated(spec.order, &rotation(spec.order)),
             _ => Self::Itself,
         }
     }
@@ -184,7 +163,7 @@ impl Accuracy {
             rounding_f32: round_up(bound.as_ref().map_or(worst * MARGIN, bound::Bound::value)),
             proven: bound.is_some(),
             measured_f32: round_up(worst),
-            relative_to: Measure::of(spec).name(),
+            relative_to: spec.family.measure.name(),
             samples,
             method,
         }
@@ -207,7 +186,7 @@ pub fn method_errors(spec: &Spec, angles: &[f64]) -> Vec<f64> {
 pub struct Difference {
     order: usize,
     /// The approximate one and what it is given; none for an exact kernel.
-    approximate: Option<(Program<f64>, Given)>,
+    approximate: Option<(Program<f64>, AngleAs)>,
     exact: Program<f64>,
 }
 
@@ -215,15 +194,13 @@ impl Difference {
     /// Of a spec's kernel.
     pub fn new(spec: &Spec) -> Self {
         let order = spec.order;
-        let approximate = law::methods(&spec.family).map(|(methods, given)| {
-            let kernel = match given {
-                Given::Angle => about_y(order, methods),
-                Given::Phase => small_y(order, methods),
-                Given::Normal => tilt::tilt(order, methods, false),
-            };
-            (Program::new(&Listing::new(&kernel)), given)
+        let approximate = spec.family.by_band.map(|by_band| {
+            let kernel = (by_band.plane)(order, &spec.methods);
+            (Program::new(&Listing::new(&kernel)), by_band.given)
         });
-        Self { order, approximate, exact: Program::new(&Listing::new(&rotate::rotate_y(order))) }
+        // Names a family: what every approximate rotation is compared with.
+        let exact = Spec::new(&axis::ROTATE_Y, order).kernel();
+        Self { order, approximate, exact: Program::new(&Listing::new(&exact)) }
     }
 
     /// What becomes of a signal at an angle in radians.
@@ -231,9 +208,9 @@ impl Difference {
         let Some((approximate, given)) = &self.approximate else { return vec![0.0; signal.len()] };
         let (sin, cos) = angle.sin_cos();
         let parameter = match given {
-            Given::Angle => vec![angle],
-            Given::Phase => vec![cos, sin],
-            Given::Normal => vec![sin, 0.0, cos],
+            AngleAs::Angle => vec![angle],
+            AngleAs::Phase => vec![cos, sin],
+            AngleAs::Normal => vec![sin, 0.0, cos],
         };
         let want = self.exact.run(&[&[cos, sin], signal], Contraction::Separate);
         let got = approximate.run(&[&parameter, signal], Contraction::Separate);

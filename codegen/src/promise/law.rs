@@ -6,8 +6,8 @@
 //! a random one, in the root mean square. Only Taylor 1.5 keeps the diagonal of A² and so mixes planes: its law is
 //! computed from its matrix (paper 000 says L²/4, which is what it starts with).
 
-use crate::families::spec::{Family, Method, Spec};
-use crate::families::y_rotation::{Small, parity_shears};
+use crate::families::family::{AngleAs, Spec};
+use crate::families::parts::small_angle::{SmallAngle, parity_shears};
 use crate::math::tables;
 
 /// What a method errs by in one band.
@@ -19,18 +19,7 @@ pub struct Error {
     pub mean: f64,
 }
 
-/// What a kernel knows of the angle: the shears and the expansions take it differently.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Given {
-    /// β itself.
-    Angle,
-    /// Its cosine and sine: β = sin β (1 + sin²β/6), to the fifth order.
-    Phase,
-    /// A normal, as the tilt has it: the same series, multiplied out in the shears.
-    Normal,
-}
-
-impl Given {
+impl AngleAs {
     /// What stands for β and for β².
     fn powers(self, beta: f64) -> [f64; 2] {
         let (sin, square) = (beta.sin(), beta.sin() * beta.sin());
@@ -42,19 +31,14 @@ impl Given {
     }
 }
 
-/// The methods of a family's bands from 1 and what they are given, if it is a rotation that may be approximate.
-pub fn methods(family: &Family) -> Option<(&[Small], Given)> {
-    match family {
-        Family::SmallY(methods) | Family::Rotate(Method::Small(methods)) => Some((methods, Given::Angle)),
-        Family::RotateSmall(methods) | Family::RotateAdaptive(methods) => Some((methods, Given::Phase)),
-        Family::Tilt(methods) | Family::TiltPrescaled(methods) => Some((methods, Given::Normal)),
-        _ => None,
-    }
+/// The methods of a spec's bands from 1 and what they are given, if it is a rotation that may be approximate.
+pub fn methods(spec: &Spec) -> Option<(&[SmallAngle], AngleAs)> {
+    spec.family.by_band.map(|by_band| (&spec.methods[..], by_band.given))
 }
 
 /// The error of every band of a spec's kernel for a y angle, or a tilt, of β radians; zero for exact kernels.
 pub fn errors(spec: &Spec, beta: f64) -> Vec<Error> {
-    match methods(&spec.family) {
+    match methods(spec) {
         None => vec![Error::default(); spec.order],
         Some((methods, given)) => std::iter::once(Error::default())
             .chain(methods.iter().zip(1..).map(|(method, l)| error(*method, given, l, beta)))
@@ -71,20 +55,20 @@ fn product(a: Plane, b: Plane) -> Plane {
 }
 
 /// What a method does to the plane of a frequency k, as a rotation by kβ should; none if it mixes planes.
-fn plane(method: Small, given: Given, l: usize, k: f64, beta: f64) -> Option<Plane> {
+fn plane(method: SmallAngle, given: AngleAs, l: usize, k: f64, beta: f64) -> Option<Plane> {
     let [first, square] = given.powers(beta);
     let x = k * first;
     let polynomial = |even: f64, odd: f64| Some([[even, odd], [-odd, even]]);
     match method {
-        Small::Exact => polynomial((k * beta).cos(), (k * beta).sin()),
-        Small::Taylor1 => polynomial(1.0, x),
-        Small::Taylor2 => polynomial(1.0 - x * x / 2.0, x),
-        Small::Taylor15 => None,
-        Small::Lf3 | Small::Lf5 => {
+        SmallAngle::Exact => polynomial((k * beta).cos(), (k * beta).sin()),
+        SmallAngle::Taylor1 => polynomial(1.0, x),
+        SmallAngle::Taylor2 => polynomial(1.0 - x * x / 2.0, x),
+        SmallAngle::Taylor15 => None,
+        SmallAngle::Lf3 | SmallAngle::Lf5 => {
             let shears = parity_shears(l, method);
             Some(shears.iter().fold([[1.0, 0.0], [0.0, 1.0]], |all, shear| {
                 let [linear, cubic] = shear.series.each_ref().map(|value| value.to_f64());
-                let cubic = if given == Given::Normal { cubic + linear / 6.0 } else { cubic };
+                let cubic = if given == AngleAs::Normal { cubic + linear / 6.0 } else { cubic };
                 let f = x * (linear + cubic * square);
                 let own = if shear.parity == 0 { [[1.0, f], [0.0, 1.0]] } else { [[1.0, 0.0], [-f, 1.0]] };
                 product(own, all)
@@ -101,11 +85,11 @@ fn norms([[a, b], [c, d]]: Plane) -> [f64; 2] {
 }
 
 /// What `method` errs by in band l at the angle β in radians.
-pub fn error(method: Small, given: Given, l: usize, beta: f64) -> Error {
-    if method == Small::Exact || l == 0 {
+pub fn error(method: SmallAngle, given: AngleAs, l: usize, beta: f64) -> Error {
+    if method == SmallAngle::Exact || l == 0 {
         return Error::default();
     }
-    if method == Small::Taylor15 {
+    if method == SmallAngle::Taylor15 {
         return of_matrix(l, given, beta);
     }
     let (mut max, mut square) = (0.0f64, 0.0);
@@ -120,7 +104,7 @@ pub fn error(method: Small, given: Given, l: usize, beta: f64) -> Error {
 }
 
 /// Taylor 1.5 in band l: 1 + β A + β²/2 diag(A²) against the exact rotation, for the chains of cosines and of sines.
-fn of_matrix(l: usize, given: Given, beta: f64) -> Error {
+fn of_matrix(l: usize, given: AngleAs, beta: f64) -> Error {
     let [first, squared] = given.powers(beta);
     let size = 2 * l + 1;
     let signed = |i: usize| i as isize - l as isize;

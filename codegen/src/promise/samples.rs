@@ -1,10 +1,9 @@
 //! Inputs to try a kernel on: seeded, the extremes among them. They use no transcendental function, so that they are
 //! the same to the last bit on every machine, and every number is an f32.
 
-use crate::families::spec::{Family, Method, Spec};
-use crate::families::{lifted, rotate};
+use crate::ir::domain::Domain;
 use crate::ir::eval::{Contraction, Program};
-use crate::ir::kernel::{Param, Shape};
+use crate::ir::kernel::Param;
 use crate::ir::listing::Listing;
 
 /// A small generator of numbers (splitmix64).
@@ -125,52 +124,77 @@ fn signal(random: &mut Random, count: usize) -> Vec<f64> {
     values
 }
 
-/// `count` sets of inputs for a kernel's parameters, extremes first; `max_angle` bounds `beta` and the tilt of `n` in
-/// radians (an exact tilt takes every normal with n.z ≥ 0). Each input is one list of numbers a parameter, in flat order, every number an f32.
-pub fn inputs(spec: &Spec, params: &[Param], seed: u64, count: usize, max_angle: f64) -> Vec<Vec<Vec<f64>>> {
+/// What a parameter may be, ready to be drawn from.
+enum Source {
+    /// The domain itself.
+    Of(Domain, usize),
+    /// What another kernel makes of its parameters.
+    Made(Box<Program<f64>>, Vec<Source>),
+}
+
+impl Source {
+    /// The source of a domain, of which angles are at most `max_angle`.
+    fn new(domain: Domain, len: usize, max_angle: Option<f64>) -> Self {
+        let domain = max_angle.map_or(domain, |angle| domain.within(angle));
+        match domain {
+            Domain::Made(made) => {
+                let kernel = (made.kernel)(made.order);
+                let params =
+                    kernel.params.iter().map(|param| Self::new(param.domain, param.shape.len(), made.max_angle));
+                Self::Made(Box::new(Program::new(&Listing::new(&kernel))), params.collect())
+            }
+            _ => Self::Of(domain, len),
+        }
+    }
+
+    /// Input number `i`.
+    fn draw(&self, random: &mut Random, i: usize) -> Vec<f64> {
+        match self {
+            Self::Of(domain, len) => draw(*domain, *len, random, i),
+            Self::Made(program, sources) => {
+                let inputs: Vec<Vec<f64>> = sources.iter().map(|source| source.draw(random, i)).collect();
+                let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
+                program.run(&inputs, Contraction::Separate)
+            }
+        }
+    }
+}
+
+/// Input number `i` of a domain, extremes first.
+fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
+    match domain {
+        Domain::Signal => signal(random, len),
+        Domain::Direction | Domain::Normal => direction(random, i).to_vec(),
+        Domain::Hemisphere => {
+            let [x, y, z] = direction(random, i);
+            vec![x, y, z.abs()]
+        }
+        Domain::Tilt(most) => tilted(random, i, most).to_vec(),
+        Domain::Quaternion => quaternion(random, i).to_vec(),
+        Domain::SmallTurn(most) | Domain::BoundedTurn(most) => small_rotation(random, i, most).to_vec(),
+        Domain::Rotation => matrix_of(quaternion(random, i)).to_vec(),
+        Domain::Phases => pairs(random, i, len / 2),
+        Domain::Angle(most) => {
+            const FRACTIONS: [f64; 6] = [0.0, 1.0, -1.0, 1e-7, 1e-20, -0.5];
+            vec![FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed()) * most]
+        }
+        Domain::HalfSine(most) => {
+            // The half angle's sine: at most a third of a per cent below half the angle at 25 degrees.
+            let half = most / 2.0;
+            vec![random.signed().abs() * (half - half * half * half / 6.0)]
+        }
+        Domain::Made(_) => unreachable!("what is made has a source of its own"),
+    }
+}
+
+/// `count` sets of inputs for a kernel's parameters, extremes first, of the domains that they name, of which angles are
+/// at most `max_angle` in radians. Each input is one list of numbers a parameter, in flat order, every number an f32.
+pub fn inputs(params: &[Param], seed: u64, count: usize, max_angle: Option<f64>) -> Vec<Vec<Vec<f64>>> {
     let mut random = Random::new(seed);
-    let set_up = match spec.family {
-        Family::Rotate(Method::Angles) => Some(rotate::angles(spec.order)),
-        Family::Rotate(Method::Lifted) => Some(lifted::lifted(spec.order)),
-        _ => None,
-    };
-    let set_up = set_up.map(|kernel| Program::<f64>::new(&Listing::new(&kernel)));
-    let tilts = matches!(spec.family, Family::Tilt(_) | Family::TiltPrescaled(_));
-    let small = !tilts && spec.max_angle().is_some() && !matches!(spec.family, Family::RotateAdaptive(_));
-    let turn = |random: &mut Random, i: usize| match small {
-        true => small_rotation(random, i, max_angle),
-        false => quaternion(random, i),
-    };
-    (0..count)
-        .map(|i| {
-            let values = params.iter().map(|param| match (param.name, param.shape) {
-                ("beta", _) => {
-                    const FRACTIONS: [f64; 6] = [0.0, 1.0, -1.0, 1e-7, 1e-20, -0.5];
-                    vec![FRACTIONS.get(i).copied().unwrap_or_else(|| random.signed()) * max_angle]
-                }
-                ("limit", _) => {
-                    // The half angle's sine: at most a third of a per cent below half the angle at 25 degrees.
-                    let half = max_angle / 2.0;
-                    vec![random.signed().abs() * (half - half * half * half / 6.0)]
-                }
-                ("n", _) if tilts && spec.max_angle().is_some() => tilted(&mut random, i, max_angle).to_vec(),
-                ("n", _) if tilts => {
-                    let [x, y, z] = direction(&mut random, i);
-                    vec![x, y, z.abs()]
-                }
-                (_, Shape::Vec3) => direction(&mut random, i).to_vec(),
-                (_, Shape::Vec4) => turn(&mut random, i).to_vec(),
-                (_, Shape::Mat3) => matrix_of(quaternion(&mut random, i)).to_vec(),
-                (_, Shape::Pair) => pairs(&mut random, i, 1),
-                (_, Shape::Pairs(n)) => match &set_up {
-                    Some(program) => program.run(&[&turn(&mut random, i)], Contraction::Separate),
-                    None => pairs(&mut random, i, n),
-                },
-                (_, shape) => signal(&mut random, shape.len()),
-            });
-            values.map(|list: Vec<f64>| list.into_iter().map(|x| f64::from(x as f32)).collect()).collect()
-        })
-        .collect()
+    let sources: Vec<Source> =
+        params.iter().map(|param| Source::new(param.domain, param.shape.len(), max_angle)).collect();
+    let narrow = |list: Vec<f64>| list.into_iter().map(|x| f64::from(x as f32)).collect();
+    (0..count).map(|i| sources.iter().map(|source| narrow(source.draw(&mut random, i))).collect()).collect()
 }
 
 /// A unit quaternion whose y angle is at most `max_angle`; the extremes are those of [`tilted`].

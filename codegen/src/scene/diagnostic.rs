@@ -1,7 +1,7 @@
 //! What is wrong with something a person wrote, where it stands and what to do. It knows texts and places, nothing of
 //! kernels; the command line draws it with a caret, a build script gets it as one line.
 
-use crate::families::spec::SpecError;
+use crate::families::text::SpecError;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;

@@ -53,15 +53,18 @@
 //!
 //! Without the feature `picture` of this crate, these last two tables are skipped.
 
+pub mod budget;
 pub mod diagnostic;
 #[cfg(feature = "picture")]
 pub mod picture;
 
 use crate::emit::dialect::Target;
-use crate::families::spec::{self, MAX_ORDER, MIN_ORDER};
+pub use crate::families::family::Job;
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
+use crate::families::text::hint;
 use crate::files;
-pub use crate::plan::choose::{Norm, Precision, Turn};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
+pub use budget::{Norm, Precision};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
 use serde_spanned::Spanned;
@@ -134,7 +137,7 @@ pub struct Wanted {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rotation {
     /// Which rotation.
-    pub kind: Turn,
+    pub kind: Job,
     /// The order of the signal.
     pub order: Located<Order>,
     /// The largest angle in degrees.
@@ -234,7 +237,7 @@ struct KernelTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RotationTable {
-    kind: Turn,
+    kind: Job,
     order: Spanned<Order>,
     max_angle: Spanned<f64>,
     max_error: Spanned<f64>,
@@ -284,7 +287,7 @@ fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic 
     let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match (message.split_once(", expected"), &words[..]) {
         (Some((unknown, _)), [got, known @ ..]) if message.starts_with("unknown") && !known.is_empty() => {
-            Diagnostic::at(&place, unknown, spec::hint(got, known))
+            Diagnostic::at(&place, unknown, hint(got, known))
         }
         _ => match message.split_once("; ") {
             Some((message, help)) => Diagnostic::at(&place, message, help),
@@ -468,7 +471,7 @@ fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<
     for text in list.value {
         let Located { value, place } = locate.at(text);
         let Ok(target) = value.parse() else {
-            let help = spec::hint(&value, &Target::ALL.map(Target::name));
+            let help = hint(&value, &Target::ALL.map(Target::name));
             return Err(Diagnostic::at(&place, format!("`{value}` is no target"), help));
         };
         if targets.contains(&target) {

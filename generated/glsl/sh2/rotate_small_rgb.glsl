@@ -13,7 +13,7 @@
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
-// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (proven for IEEE
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 vec3[4] sh2_rotate_small_rgb(vec4 q, vec3[4] c) {
     float t0 = q.y + 1e-15;

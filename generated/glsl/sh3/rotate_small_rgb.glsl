@@ -13,7 +13,7 @@
 // Returns the rotated coefficients.
 // Operations: 147 (70 mul, 8 add, 69 fma) and 1 inverse square root or reciprocal; 3 constants, 19
 //     live values.
-// Error: f32 rounding at most 5.2e-6 of the norm of a band, for every input (proven for IEEE
+// Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 vec3[9] sh3_rotate_small_rgb(vec4 q, vec3[9] c) {
     float t0 = q.y + 1e-15;

@@ -10,7 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
-// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (proven for IEEE
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_small(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
     let t0 = q.y + 1e-15;

@@ -2,12 +2,11 @@
 
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::families::spec::Spec;
-use zonal_codegen::families::y_rotation::Small;
+use zonal_codegen::families::SmallAngle;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::kernel::Shape;
 use zonal_codegen::ir::listing::Listing;
-use zonal_codegen::promise::built::kernel;
 use zonal_codegen::promise::samples::{Random, matrix_of};
 
 /// After how many rotations the norm is noted.
@@ -38,12 +37,12 @@ impl Drift {
 pub fn specs() -> Vec<Spec> {
     let exact = ["rotate:4", "rotate:4:zxzxz", "rotate:3", "rotate:3:matrix", "zhf:4", "rotate_y:4"];
     let exact = exact.into_iter().map(str::to_owned);
-    let small = Small::ALL.into_iter().map(|(_, name)| format!("{name}:4"));
+    let small = SmallAngle::APPROXIMATE.into_iter().map(|method| format!("{}:4", method.name()));
     exact.chain(small).map(|text| text.parse().expect("names a kernel")).collect()
 }
 
 fn drift<T: Number>(spec: &Spec, number: &str) -> Drift {
-    let program = Program::<T>::new(&Listing::new(&kernel(spec)));
+    let program = Program::<T>::new(&Listing::new(&spec.kernel()));
     let order = spec.order;
     let shape = program.listing().params[0].shape;
     let mut random = Random::new(0xd21f);

@@ -6,7 +6,7 @@ use crate::stability::truth::{Pair, turn};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal::glam::{Mat3, Quat};
-use zonal_codegen::families::rotate::angles;
+use zonal_codegen::families::zyz::angles;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::promise::samples::{Random, matrix_of};
@@ -203,15 +203,15 @@ pub fn multiples(progress: &dyn Progress) -> Vec<Multiples> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use zonal_codegen::families::{multiples, phases};
+    use zonal_codegen::families::parts::phases::{multiples, phases};
+    use zonal_codegen::ir::domain::Domain;
 
     /// What is measured is what the kernels do.
     #[test]
     fn products_are_the_kernels_own() {
-        use zonal_codegen::ir::graph::Kind;
         use zonal_codegen::ir::kernel::{Builder, Shape};
         let mut builder = Builder::new();
-        let cs = builder.param("cs", Shape::Pair, Kind::Scalar, "");
+        let cs = builder.param("cs", Shape::Pair, Domain::Phases, "");
         let all = multiples(&mut builder.graph, phases(&cs)[0], MULTIPLES[3]);
         let out = all.iter().flat_map(|phase| [phase.cos, phase.sin]).collect();
         let program = Program::<f32>::new(&Listing::new(&builder.finish(out, Shape::Pairs(MULTIPLES[3]), "")));

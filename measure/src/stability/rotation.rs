@@ -8,10 +8,10 @@ use crate::stability::truth::{Pair, Rotation, Swap, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::families::loops::rotate_loop;
-use zonal_codegen::families::phases;
-use zonal_codegen::families::rotate::{YPhases, y_band, z_band};
+use zonal_codegen::families::parts::bands::{y_band, z_band};
+use zonal_codegen::families::parts::phases::{YPhases, phases};
+use zonal_codegen::ir::domain::Domain;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
-use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Builder, Param, Shape};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::ir::program::{LoopKernel, Stmt};
@@ -112,7 +112,7 @@ fn from_multiples(mut kernel: LoopKernel, order: usize) -> LoopKernel {
     let rest = kernel.body.iter().position(|statement| is(statement, "swapped")).expect("the loop swaps");
     let result = kernel.body.iter().position(|statement| is(statement, kernel.output)).expect("the loop has a result");
     kernel.body = [&kernel.body[result..=result], &kernel.body[rest..]].concat();
-    let given = |name| Param { name, shape: Shape::Array(3 * order), kind: Kind::Scalar, doc: String::new() };
+    let given = |name| Param::new(name, Shape::Array(3 * order), Domain::Phases, "");
     kernel.params = [vec![given("phase_cos"), given("phase_sin")], kernel.params.split_off(1)].concat();
     kernel
 }
@@ -157,8 +157,8 @@ fn setup<T: Number>(q: [T; 4]) -> [[T; 2]; 3] {
 /// A band in straight lines from the multiples of its angles.
 fn straight(l: usize) -> Listing {
     let mut builder = Builder::new();
-    let cs = builder.param("cs", Shape::Pairs(3 * l + 1), Kind::Scalar, "");
-    let c = builder.param("c", Shape::Array(2 * l + 1), Kind::Signal, "");
+    let cs = builder.param("cs", Shape::Pairs(3 * l + 1), Domain::Phases, "");
+    let c = builder.param("c", Shape::Array(2 * l + 1), Domain::Signal, "");
     let all = phases(&cs);
     let (last, g) = (all[3 * l], &mut builder.graph);
     let beta = YPhases { multiples: all[l..2 * l].to_vec(), half_square: last.cos, product: last.sin };

@@ -5,11 +5,10 @@
 use crate::stability::truth::norm;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Runner;
 use zonal_codegen::ir::eval::Contraction;
 use zonal_codegen::ir::kernel::{Param, Shape};
-use zonal_codegen::promise::built::code;
 use zonal_codegen::promise::samples;
 
 /// What the coefficients of a band are scaled to.
@@ -68,15 +67,14 @@ struct Bench {
 impl Bench {
     fn new(text: &str) -> Self {
         let spec: Spec = text.parse().expect("names a kernel");
-        let code = code(&spec);
+        let code = spec.code();
         let (params, narrow, wide) = (code.params().to_vec(), code.runner(), code.runner());
         Self { spec, params, narrow, wide }
     }
 
     /// Seeded parameters, and the signal that comes last.
     fn inputs(&self) -> Vec<(Vec<Vec<f64>>, Vec<f32>)> {
-        let most = self.spec.max_angle().unwrap_or(std::f64::consts::PI);
-        let sets = samples::inputs(&self.spec, &self.params, SEED, INPUTS, most).into_iter();
+        let sets = samples::inputs(&self.params, SEED, INPUTS, None).into_iter();
         sets.map(|mut set| {
             let signal = set.pop().expect("a kernel that turns a signal has one");
             (set, signal.into_iter().map(|x| x as f32).collect())

@@ -11,7 +11,7 @@ use std::time::Instant;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 
 /// The order of the kernels that get a corrupted constant, if their family has it.

@@ -6,15 +6,14 @@ use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::Family;
+use zonal_codegen::families::family::{Measure, Proof};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
-use zonal_codegen::promise::accuracy::{MARGIN, Measure};
-use zonal_codegen::promise::built::kernel;
+use zonal_codegen::promise::accuracy::MARGIN;
 use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on, at least and at most; both are multiples of [`wrap::GROUP`].
@@ -93,9 +92,9 @@ impl Number for Wide {
 /// that has one. A flushed subnormal number changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
 pub fn tolerance(function: &Function) -> f64 {
     let (built, order) = (&function.built, function.spec.order as f64);
-    let promised = match function.spec.family {
+    let promised = match function.spec.family.measure {
         // The file promises what the angles rotate; here they are compared themselves, and l of them add up.
-        Family::Angles | Family::Lifted => 2.0 * ULP * order,
+        Measure::Through(_) => 2.0 * ULP * order,
         _ => 1.5 * built.accuracy.rounding_f32.min(MARGIN * built.accuracy.measured_f32),
     };
     let special = match built.code.cost(1).special {
@@ -156,19 +155,17 @@ impl Cases {
     pub fn new(function: &Function) -> Self {
         let (built, order) = (&function.built, function.spec.order);
         let params = built.code.params();
-        let max_angle = function.spec.max_angle().unwrap_or(std::f64::consts::PI);
         let count = inputs(function);
-        let samples = samples::inputs(&function.spec, params, 7, count, max_angle);
+        let samples = samples::inputs(params, 7, count, None);
         // A loop is held to its unrolled twin, which is the faster to run.
         let runner = match &built.code {
             Code::Straight(_) | Code::Branch(_) => built.code.runner::<Wide>(),
-            Code::Loop(_) => Code::Straight(Listing::new(&kernel(&function.spec))).runner(),
+            Code::Loop(_) => Code::Straight(Listing::new(&function.spec.kernel())).runner(),
         };
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
-        // The conversion to monomials mixes bands.
-        let mixes = matches!(function.spec.family, Family::Angles | Family::Lifted | Family::ToMonomial);
-        let by_band = Measure::of(&function.spec) == Measure::Bands && !mixes;
+        let family = function.spec.family;
+        let by_band = matches!(family.measure, Measure::Bands) && family.proof != Proof::Mixed;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
         for case in 0..count {

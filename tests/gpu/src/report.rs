@@ -6,16 +6,15 @@ use crate::devices::COLUMNS;
 use crate::system;
 use std::collections::BTreeMap;
 use std::process::Command;
-use zonal_codegen::families::spec::{Family, Method, Spec};
+use zonal_codegen::families::Spec;
 
 /// The family and the method of a spec, without its order and its channels.
 pub fn family(spec: &Spec) -> String {
     let text = Spec { rgb: false, ..spec.clone() }.to_string();
     let mut parts: Vec<&str> = text.split(':').collect();
     parts.remove(1);
-    let default = Spec::default_method(spec.order, false);
-    if spec.family == Family::Rotate(default.clone()) {
-        parts.insert(1, if default == Method::Tensor { "tensor" } else { "zyz" });
+    if !spec.family.method.is_empty() && (spec.family.usual)(spec.order, false) {
+        parts.insert(1, spec.family.method);
     }
     parts.join(":")
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::dialect::Target;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 use zonal_codegen::picture::shade::{Method, Shading};
 use zonal_gpu_tests::cases::{Cases, tolerance};

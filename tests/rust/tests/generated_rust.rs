@@ -7,12 +7,11 @@ use std::fmt::Debug;
 
 use zonal::real::{Channels, Lanes};
 use zonal_codegen::catalog;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Runner;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
-use zonal_codegen::promise::built::{self, Built};
 use zonal_codegen::promise::samples::{self, Random};
 
 const SEED: u64 = 0x9e_11;
@@ -198,8 +197,8 @@ fn compare<T: Same>(table: &BTreeMap<&'static str, Flattened<T>>) {
     for spec in &specs {
         let name = spec.name();
         let function = table.get(&name[..]).unwrap_or_else(|| panic!("`{name}` is missing in the table of this test"));
-        let (params, runner) = kernels.entry(Built::base(spec)).or_insert_with(|| {
-            let code = built::code(spec);
+        let (params, runner) = kernels.entry(spec.base()).or_insert_with(|| {
+            let code = spec.code();
             (code.params().to_vec(), code.runner())
         });
         compare_one(spec, params, runner, function);
@@ -207,7 +206,7 @@ fn compare<T: Same>(table: &BTreeMap<&'static str, Flattened<T>>) {
 }
 
 fn compare_one<T: Same>(spec: &Spec, params: &[Param], runner: &Runner<T>, function: &Flattened<T>) {
-    let inputs: Vec<Vec<Vec<T>>> = samples::inputs(spec, params, SEED, SAMPLES, 0.5)
+    let inputs: Vec<Vec<Vec<T>>> = samples::inputs(params, SEED, SAMPLES, None)
         .iter()
         .map(|input| input.iter().map(|row| row.iter().map(|&x| T::from_f64(x)).collect()).collect())
         .collect();

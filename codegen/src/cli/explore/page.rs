@@ -10,7 +10,7 @@ use zonal_codegen::emit::Function;
 use zonal_codegen::emit::dialect::Target;
 use zonal_codegen::emit::validate::validate;
 use zonal_codegen::environment::Map;
-use zonal_codegen::families::spec::Spec;
+use zonal_codegen::families::Spec;
 use zonal_codegen::generate;
 use zonal_codegen::picture::brdf::{Brdf, Table};
 use zonal_codegen::picture::mesh::{self, Mesh};

@@ -5,13 +5,76 @@
 pub mod lobes;
 pub mod search;
 
-use crate::families::basis;
-use crate::families::inner;
-use crate::families::rotate::{each_band, matrix, signal};
+use crate::families::family::{Family, Group, Proof, Spec};
+use crate::families::parts::bands::each_band;
+use crate::families::parts::columns;
+use crate::families::parts::params::{matrix, rotated, signal};
+use crate::families::parts::sums::inner;
 use crate::families::zhf::lobes::{LobeSet, shared_free};
-use crate::ir::graph::{Id, Kind};
+use crate::ir::domain::Domain;
+use crate::ir::graph::Id;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
+
+/// What the three families share.
+const FACTORISED: Family = Family {
+    group: Group::Factorise,
+    orders: 2..=10,
+    outside: |order| {
+        let message = format!("no lobe directions are known for order {order}");
+        [message, "the zonal factorisation has orders 2 to 10".to_owned()]
+    },
+    half: false,
+    nonzeros: Some(nonzeros),
+    ..Family::PLAIN
+};
+
+/// `zhf`.
+pub static ZHF: Family = Family {
+    name: "zhf",
+    stem: "zhf",
+    what: |spec| {
+        format!(
+            "Rotates order {} by sparse zonal factorisation over {} shared lobes (Nowrouzezahrai et al. 2012, the standard rotation).",
+            spec.order,
+            2 * spec.order - 1
+        )
+    },
+    kernel: |spec| rotate(spec.order),
+    proof: Proof::Lobes,
+    shown: |order| Spec::new(&ZHF, order).both(),
+    ..FACTORISED
+};
+
+/// `zhf_weights`.
+pub static ZHF_WEIGHTS: Family = Family {
+    name: "zhf_weights",
+    stem: "zhf_weights",
+    what: |spec| {
+        format!(
+            "The weights of the zonal lobes of order {}, the sparse product A^^T c (Nowrouzezahrai et al. 2012).",
+            spec.order
+        )
+    },
+    kernel: |spec| weights_of(spec.order),
+    shown: |order| Spec::new(&ZHF_WEIGHTS, order).both(),
+    ..FACTORISED
+};
+
+/// `zhf_tailored`.
+pub static ZHF_TAILORED: Family = Family {
+    name: "zhf_tailored",
+    stem: "zhf_tailored",
+    what: |spec| {
+        format!(
+            "Rotates order {} from samples at the lobes, the sparse product A^ f (Nowrouzezahrai et al. 2012, the signal-tailored rotation).",
+            spec.order
+        )
+    },
+    kernel: |spec| tailored(spec.order),
+    shown: |order| Spec::new(&ZHF_TAILORED, order).both(),
+    ..FACTORISED
+};
 
 /// The lobes of an order, 2 to 10; any 2l + 1 of the 2n − 1 directions serve band l.
 pub fn lobes(order: usize) -> &'static LobeSet {
@@ -38,7 +101,7 @@ fn weights(builder: &mut Builder, c: &[Id], order: usize) -> Vec<Id> {
 }
 
 /// The kernel `zhf_weights`: z = Âᵀ c, band by band, so that c = Yᵀ z.
-pub fn weights_of(order: usize) -> Kernel {
+fn weights_of(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let c = signal(&mut builder, order);
     let out = weights(&mut builder, &c, order);
@@ -47,7 +110,7 @@ pub fn weights_of(order: usize) -> Kernel {
 }
 
 /// The kernel `zhf`: c'_lm = Σ_d z_d y_lm(R ω_d) with z = Âᵀ c, from a rotation matrix.
-pub fn rotate(order: usize) -> Kernel {
+fn rotate(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let m = matrix(&mut builder);
     let c = signal(&mut builder, order);
@@ -62,7 +125,7 @@ pub fn rotate(order: usize) -> Kernel {
             let xyz = lobe.xyz();
             let turned: Vec<Id> = (0..3).map(|row| g.dot(&xyz, &[m[row], m[3 + row], m[6 + row]])).collect();
             g.stage(&turned);
-            basis::values(g, &turned, order, basis::orthonormal)
+            columns::values(g, &turned, order, columns::orthonormal)
         })
         .collect();
     let out = (0..order)
@@ -72,17 +135,17 @@ pub fn rotate(order: usize) -> Kernel {
             inner(g, &z[l * l..(l + 1) * (l + 1)], &at)
         })
         .collect();
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+    rotated(builder, order, out)
 }
 
 /// The kernel `zhf_tailored`: c = Â f from the samples of each band's function at the lobes turned back, f(R⁻¹ ω_d).
-pub fn tailored(order: usize) -> Kernel {
+fn tailored(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let doc = "the samples of each band's function at its lobes turned back, 2l + 1 for band l";
-    let f = builder.param("f", Shape::Array(order * order), Kind::Signal, doc);
+    let f = builder.param("f", Shape::Array(order * order), Domain::Signal, doc);
     let set = lobes(order);
     let out = each_band(&mut builder.graph, &f, order, |g, l, band| {
         set.a_hat(l).iter().map(|row| g.dot(row, band)).collect()
     });
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+    rotated(builder, order, out)
 }

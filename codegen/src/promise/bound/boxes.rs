@@ -4,7 +4,7 @@
 //! their bound is hardly above what is found at single angles.
 
 use crate::ir::listing::{Listing, Op, Operand};
-use crate::promise::bound::domain::{Domain, Enclosure, Root};
+use crate::promise::bound::region::{Enclosure, Region, Root};
 use crate::promise::bound::roundoff::{Both, U, larger};
 use crate::promise::bound::section::{Run, Section, Start};
 use std::collections::HashMap;
@@ -69,7 +69,7 @@ pub fn error(listing: &Listing, pairs: &[[Operand; 2]], outputs: &[Operand]) -> 
         let place = pairs.as_flattened().iter().position(|part| *part == operand)?;
         Some(Start { root: Root::Component(place), spread: 0.0, error: [0.0; 2] })
     };
-    let section = Section::new(listing, Domain::Pairs, &[], outputs, start)?;
+    let section = Section::new(listing, Region::Pairs, &[], outputs, start)?;
     let key = section.key();
     let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(&error) = known().get(&key) {

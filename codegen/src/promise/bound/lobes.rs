@@ -5,9 +5,9 @@
 use crate::families::zhf::lobes;
 use crate::ir::listing::{Listing, Op, Operand};
 use crate::math::linear::singular_values;
-use crate::promise::bound::domain::{Domain, Root};
 use crate::promise::bound::norm::SLACK;
 use crate::promise::bound::prover::{Part, Prover};
+use crate::promise::bound::region::{Region, Root};
 use crate::promise::bound::roundoff::{Both, INPUT, larger_of};
 use crate::promise::bound::section::{Run, Section, Start};
 use crate::promise::bound::sweep::density;
@@ -38,11 +38,11 @@ impl Prover<'_> {
             return self.band(l);
         };
         let weights = self.part(inputs, &self.listing.stages[place], &[])?;
-        let section = Section::new(alike, Domain::Sphere, &alike.stages[place], &outputs(alike), start)?;
+        let section = Section::new(alike, Region::Sphere, &alike.stages[place], &outputs(alike), start)?;
         let roots: Vec<Root> = section.starts().iter().map(|start| start.root).collect();
         let degree = section.degree();
         // Entries that were rounded to f32 turn a lobe to a vector that is not quite of unit length.
-        let (grid, factor) = Domain::Sphere.grid(&roots, degree, density(degree), (0.0, 0.0));
+        let (grid, factor) = Region::Sphere.grid(&roots, degree, density(degree), (0.0, 0.0));
         let mut run = Run::default();
         let mut columns = [vec![0.0; inputs.len()], vec![0.0; inputs.len()]];
         for mut values in grid {

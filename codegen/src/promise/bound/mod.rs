@@ -15,21 +15,20 @@
 //! Method: a band is cut where the kernel notes a stage ([`crate::ir::graph::Graph::stage`]); errors of stages add, each
 //! multiplied by the exact norm of what follows. A stage falls into parts that do not mix. A plane that a phase turns is
 //! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
-//! grid of its one to three angles ([`domain`] says why a grid proves it). Whatever is not recognised has no bound.
+//! grid of its one to three angles ([`region`] says why a grid proves it). Whatever is not recognised has no bound.
 
 pub mod boxes;
-pub mod domain;
 mod lobes;
 pub mod norm;
 pub mod phases;
 pub mod plain;
 mod prover;
+pub mod region;
 pub mod roundoff;
 pub mod section;
 mod sweep;
 
-use crate::families::spec::{Family, MAX_ORDER, Method, Spec};
-use crate::families::{lifted, rotate};
+use crate::families::family::{MAX_ORDER, Measure, Proof, Spec};
 use crate::ir::code::Code;
 use crate::ir::listing::Listing;
 use plain::plain;
@@ -71,10 +70,7 @@ pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound>
     match code {
         Code::Straight(listing) => prove(spec, listing),
         Code::Branch(branch) => {
-            let Family::RotateAdaptive(methods) = &spec.family else { return None };
-            let way = |family, listing| prove(&Spec { family, ..spec.clone() }, listing);
-            let below = way(Family::RotateSmall(methods.clone()), &branch.below)?;
-            let above = way(Family::Rotate(Method::Zyz), &branch.above)?;
+            let [below, above] = [prove(spec, &branch.below)?, prove(spec, &branch.above)?];
             let larger = |a: &f64, b: &f64| a.max(*b);
             Some(Bound {
                 separate: larger(&below.separate, &above.separate),
@@ -82,8 +78,8 @@ pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound>
                 bands: below.bands.iter().zip(&above.bands).map(|(a, b)| larger(a, b)).collect(),
             })
         }
-        // Beyond these orders the proof of a basis takes longer than a build may.
-        Code::Loop(_) if spec.family == Family::Basis && spec.order > MAX_ORDER => None,
+        // Beyond these orders the proof over a sphere takes longer than a build may.
+        Code::Loop(_) if matches!(spec.family.measure, Measure::Absolute) && spec.order > MAX_ORDER => None,
         Code::Loop(kernel) => prove(spec, &plain(&Listing::from(kernel))),
     }
 }
@@ -95,18 +91,16 @@ pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
 
 fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Option<Bound> {
     let prover = Prover::new(spec, listing, max_angle)?;
-    match spec.family {
-        Family::Basis => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
-        Family::Eval | Family::EvalMonomial => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
-        Family::Angles | Family::Lifted => {
-            let rotation = Listing::new(&match spec.family {
-                Family::Angles => rotate::zyz_from_angles(spec.order),
-                _ => lifted::rotate(spec.order),
-            });
+    match (spec.family.proof, spec.family.measure) {
+        (Proof::Nothing, _) => None,
+        (Proof::Mixed, _) => Bound::of(&prover.mixed()?, true),
+        (Proof::Lobes, _) => Bound::of(&prover.turned_lobes()?, true),
+        (Proof::Auto, Measure::Absolute) => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
+        (Proof::Auto, Measure::Whole) => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
+        (Proof::Auto, Measure::Through(rotation)) => {
+            let rotation = Listing::new(&rotation(spec.order));
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)
         }
-        Family::ToMonomial => Bound::of(&prover.mixed()?, true),
-        Family::Zhf => Bound::of(&prover.turned_lobes()?, true),
-        _ => Bound::of(&prover.bands()?, true),
+        (Proof::Auto, Measure::Bands) => Bound::of(&prover.bands()?, true),
     }
 }

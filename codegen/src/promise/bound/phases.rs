@@ -11,6 +11,7 @@
 //! 2 u + u |cos β|, and sin β = 2 √(AB), by 5.5 u sin β: as one vector 5.87 u; and with a normal's x² + y², off by 2 u,
 //! which leaves its inverse root by 3 u and (x, y) or x² + y² times that by 4 u.
 
+use crate::ir::domain::POLAR;
 use crate::ir::listing::{Listing, Op, Operand, Sign};
 use crate::promise::bound::boxes;
 use crate::promise::bound::roundoff::{Both, INPUT, U};
@@ -282,9 +283,6 @@ fn nudged(listing: &Listing, index: usize) -> Option<Operand> {
 fn sum_of_squares(listing: &Listing, a: Operand, b: Operand) -> Option<Operand> {
     find(listing, |op| pair(listing, op).and_then(|pair| pair.is_of([a, a], [b, b])) == Some([true, true]))
 }
-
-/// Which circle is that of a quaternion's β.
-pub const POLAR: usize = 2;
 
 /// What the angles of a quaternion are made of: (w, z), (y, x), the sums of their squares, the product of those, and its
 /// inverse root.

@@ -1,15 +1,15 @@
 //! The prover: what of a listing is a phase, what else its parts start from, and how a band falls into parts that are
 //! bounded one by one.
 
-use crate::families::lifted;
-use crate::families::spec::{Family, Method, Spec};
+use crate::families::family::Spec;
+use crate::ir::domain::{Domain, Held, Made, OfAngle, POLAR};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
 use crate::ir::listing::{Listing, Op, Operand, Step};
 use crate::math::exact::Exact;
-use crate::promise::bound::domain::{Domain, Root};
 use crate::promise::bound::norm::{Matrix, SLACK};
 use crate::promise::bound::phases::{self, Phase, Phases};
+use crate::promise::bound::region::{Region, Root};
 use crate::promise::bound::roundoff::{Both, INPUT, U, larger, larger_of};
 use crate::promise::bound::section::{Run, Section, Start};
 use crate::promise::bound::sweep::{exact_norm, phase_error, sweep};
@@ -49,8 +49,10 @@ impl Part {
 pub(super) struct Prover<'a> {
     pub(super) spec: &'a Spec,
     pub(super) listing: &'a Listing,
-    /// The largest y angle or tilt of an approximate rotation.
-    max_angle: Option<f64>,
+    /// The angle that parameters are within, where they are bounded by one.
+    within: f64,
+    /// Whether a tiny number is added to a quaternion.
+    nudge: bool,
     phases: Phases,
     /// Inputs that are functions of a circle's angle but no phases.
     others: HashMap<Operand, (Start, usize)>,
@@ -66,38 +68,43 @@ static KNOWN: LazyLock<Mutex<HashMap<String, Part>>> = LazyLock::new(Mutex::defa
 impl<'a> Prover<'a> {
     pub(super) fn new(spec: &'a Spec, listing: &'a Listing, max_angle: Option<f64>) -> Option<Self> {
         let mut others = HashMap::new();
-        let roots = match &spec.family {
-            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz) => {
-                phases::of_quaternion(listing)?
+        let first =
+            listing.params.first().map(|param| max_angle.map_or(param.domain, |most| param.domain.within(most)));
+        let roots = match first {
+            // What does not make phases of a quaternion or of a normal is bounded over all of them.
+            Some(Domain::Quaternion | Domain::SmallTurn(_) | Domain::BoundedTurn(_)) => {
+                phases::of_quaternion(listing).unwrap_or_default()
             }
-            Family::Rotate(Method::Align) => phases::of_normal(listing)?,
-            Family::Rotate(Method::Angles | Method::Lifted) => {
-                let given = Given::new(spec);
-                for (operand, root) in given.others {
-                    others.insert(operand, (Start { root, spread: INPUT, error: [0.0; 2] }, given.circle));
+            Some(Domain::Normal) => phases::of_normal(listing).unwrap_or_default(),
+            Some(Domain::Made(made)) => {
+                let given = Given::new(made);
+                for (operand, root, circle) in given.others {
+                    others.insert(operand, (Start { root, spread: INPUT, error: [0.0; 2] }, circle));
                 }
                 given.pairs
             }
-            _ => match listing.params.first().map(|param| param.shape) {
-                Some(Shape::Pair) => vec![phases::given(0, 0, 0, 1)],
-                Some(Shape::Pairs(n)) => (0..n).map(|pair| phases::given(0, pair, pair, 1)).collect(),
-                _ => vec![],
+            Some(Domain::Phases) => match listing.params[0].shape {
+                Shape::Pairs(n) => (0..n).map(|pair| phases::given(0, pair, pair, 1)).collect(),
+                _ => vec![phases::given(0, 0, 0, 1)],
             },
+            _ => vec![],
         };
-        if let (Family::Lifted, Some(polar)) = (&spec.family, roots.get(phases::POLAR)) {
+        if let (Some(Domain::BoundedTurn(most)), Some(polar)) = (first, roots.get(POLAR)) {
             // Constant factors take in the two of sin β = 2 √(AB).
             let half =
                 Start { root: Root::HalfSine, spread: polar.defect, error: polar.error.map(|error| error / 2.0) };
-            others.extend(phases::doubled(listing, polar.sin).map(|root| (root, (half, phases::POLAR))));
+            others.extend(phases::doubled(listing, polar.sin).map(|root| (root, (half, POLAR))));
             let (operand, error) = phases::half_tangent(listing)?;
-            let error = error.map(|error| error * (max_angle.unwrap_or_default() / 2.0).tan() * SLACK);
+            let error = error.map(|error| error * (most / 2.0).tan() * SLACK);
             let start = Start { root: Root::HalfTangent(1), spread: polar.defect, error };
-            others.insert(operand, (start, phases::POLAR));
+            others.insert(operand, (start, POLAR));
         }
         Some(Self {
             spec,
             listing,
-            max_angle,
+            within: max_angle.unwrap_or(f64::INFINITY),
+            nudge: matches!(first, Some(Domain::Quaternion | Domain::SmallTurn(_) | Domain::BoundedTurn(_)))
+                && listing.steps.iter().any(|step| step.op.operands().any(|operand| operand == Operand::Tiny)),
             phases: Phases::new(listing, roots),
             others,
             roundoff: U,
@@ -110,7 +117,8 @@ impl<'a> Prover<'a> {
     where
         'a: 'b,
     {
-        let Given { mut pairs, others: rest, circle } = Given::new(self.spec);
+        let Some(Domain::Made(made)) = rotation.params.first().map(|param| param.domain) else { return None };
+        let Given { mut pairs, others: rest } = Given::new(made);
         for (pair, outputs) in pairs.iter_mut().zip(self.listing.outputs.chunks_exact(2)) {
             let (made, is_sine) = self.phases.of(self.unsigned(outputs[0]))?;
             if is_sine || made.sin != self.unsigned(outputs[1]) || made.multiple != pair.multiple {
@@ -118,13 +126,13 @@ impl<'a> Prover<'a> {
             }
             *pair = Phase { defect: made.defect, error: made.error, ..*pair };
         }
-        let (sums, planes) = match self.spec.family {
-            Family::Lifted => self.sums().map(|(sums, planes)| (Some(sums), planes))?,
+        let (sums, planes) = match self.listing.params.first().map(|param| param.domain) {
+            Some(Domain::BoundedTurn(_)) => self.sums().map(|(sums, planes)| (Some(sums), planes))?,
             _ => (None, vec![]),
         };
         let (sums, room) = sums.as_ref().map_or((self, 1.0), |sums| (sums, ROOM));
         let mut others = HashMap::new();
-        for ((operand, root), &output) in rest.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
+        for ((operand, root, circle), &output) in rest.into_iter().zip(&self.listing.outputs[2 * pairs.len()..]) {
             let error = sums.scalars(&[self.unsigned(output)])?.map(|error| error * room);
             others.insert(operand, (Start { root, spread: 5.0 * INPUT, error }, circle));
         }
@@ -139,7 +147,7 @@ impl<'a> Prover<'a> {
         let count = self.spec.order - 1;
         let (half, _) = phases::half_tangent(self.listing)?;
         let tangents = phases::tangents(self.listing, &self.phases, half, count)?;
-        let polar = self.phases.all().iter().filter(|phase| phase.circle == phases::POLAR);
+        let polar = self.phases.all().iter().filter(|phase| phase.circle == POLAR);
         let mut listing = self.listing.clone();
         listing.constants.extend([Exact::one(), Exact::int(2)]);
         let [one, two] = [2, 1].map(|back| Operand::Const(listing.constants.len() - back));
@@ -177,7 +185,7 @@ impl<'a> Prover<'a> {
             let sine = phases::sine(self.listing, &self.phases, k)?;
             for (operand, root) in [(tangent, Root::HalfTangent(k)), (sine, Root::Sin(k))] {
                 let start = Start { root, spread: 4.0 * k as f64 * INPUT, error: [0.0; 2] };
-                others.insert(operand, (start, phases::POLAR));
+                others.insert(operand, (start, POLAR));
             }
         }
         let sums = Prover { phases: Phases::only(exact), others, planes: vec![], ..*self };
@@ -221,9 +229,9 @@ impl<'a> Prover<'a> {
         Some((signals, scalars))
     }
 
-    /// The domain of what these scalars depend on, and the circle if they are functions of one angle of a phase.
-    fn domain(&self, scalars: impl IntoIterator<Item = Operand>) -> Option<(Domain, usize)> {
-        let mut found: Option<(Domain, usize)> = None;
+    /// The region of what these scalars depend on, and the circle if they are functions of one angle of a phase.
+    fn domain(&self, scalars: impl IntoIterator<Item = Operand>) -> Option<(Region, usize)> {
+        let mut found: Option<(Region, usize)> = None;
         let mut seen = HashSet::new();
         let mut stack: Vec<Operand> = scalars.into_iter().collect();
         while let Some(operand) = stack.pop() {
@@ -246,35 +254,31 @@ impl<'a> Prover<'a> {
                 _ => found = Some(next),
             }
         }
-        Some(found.unwrap_or((Domain::Nothing, 0)))
+        Some(found.unwrap_or((Region::Nothing, 0)))
     }
 
-    /// What an angle may be: β, the last of a quaternion's, is small where it is approximate or lifted.
-    fn circle(&self, circle: usize) -> Domain {
-        match (&self.spec.family, self.max_angle) {
-            (Family::RotateSmall(_) | Family::Lifted | Family::Rotate(Method::Lifted), Some(most))
-                if circle == phases::POLAR =>
-            {
-                Domain::Arc(most * (1.0 + 4.0 * INPUT))
-            }
-            _ => Domain::Circle,
-        }
+    /// What an angle may be: β, the last of a quaternion's, is bounded where its parameter is.
+    fn circle(&self, circle: usize) -> Region {
+        let first = self.listing.params.first().map(|param| param.domain.within(self.within));
+        let most = match first {
+            Some(Domain::SmallTurn(most) | Domain::BoundedTurn(most)) => Some(most),
+            Some(Domain::Made(made)) => made.max_angle,
+            _ => None,
+        };
+        most.filter(|_| circle == POLAR).map_or(Region::Circle, |most| Region::Arc(most * (1.0 + 4.0 * INPUT)))
     }
 
-    fn parameter(&self, param: usize) -> Option<Domain> {
-        let domain = match (&self.spec.family, self.listing.params[param].shape) {
-            (Family::Basis | Family::Eval | Family::EvalMonomial | Family::Rotate(Method::Zonal), Shape::Vec3) => {
-                Domain::Sphere
-            }
-            (Family::Tilt(_) | Family::TiltPrescaled(_), Shape::Vec3) => {
-                Domain::Cap(self.max_angle.map_or(std::f64::consts::FRAC_PI_2, |most| most * (1.0 + INPUT)))
-            }
-            (Family::Rotate(Method::Tensor), Shape::Vec4) => Domain::Quaternion,
-            (Family::Rotate(Method::Matrix) | Family::Zhf, Shape::Mat3) => Domain::Rotation,
-            (_, Shape::Scalar) => Domain::Small(self.max_angle?),
+    fn parameter(&self, param: usize) -> Option<Region> {
+        let region = match self.listing.params[param].domain.within(self.within) {
+            Domain::Direction | Domain::Normal => Region::Sphere,
+            Domain::Hemisphere => Region::Cap(std::f64::consts::FRAC_PI_2),
+            Domain::Tilt(most) => Region::Cap(most * (1.0 + INPUT)),
+            Domain::Quaternion => Region::Quaternion,
+            Domain::Rotation => Region::Rotation,
+            Domain::Angle(most) => Region::Small(most),
             _ => return None,
         };
-        domain.is_valid().then_some(domain)
+        region.is_valid().then_some(region)
     }
 
     fn start(&self, operand: Operand) -> Option<Start> {
@@ -338,7 +342,7 @@ impl<'a> Prover<'a> {
         let (inputs, places) = (self.coefficients(), |l: usize| l * l..(l + 1) * (l + 1));
         let band = |l: usize| {
             let outputs = &self.listing.outputs[places(l)];
-            let section = Section::new(self.listing, Domain::Nothing, &inputs, outputs, |_| None)?;
+            let section = Section::new(self.listing, Region::Nothing, &inputs, outputs, |_| None)?;
             let measure = |run: &Run, mode: usize, _: f64| {
                 let weights = section.weights(run, mode);
                 let of = |from: usize| -> f64 {
@@ -347,7 +351,7 @@ impl<'a> Prover<'a> {
                 };
                 (0..self.spec.order).map(of).sum::<f64>() * SLACK
             };
-            Some(sweep(&section, Domain::Nothing, &[], self.roundoff, 0.0, &measure))
+            Some(sweep(&section, Region::Nothing, &[], self.roundoff, 0.0, &measure))
         };
         (0..self.spec.order).map(band).collect()
     }
@@ -359,11 +363,7 @@ impl<'a> Prover<'a> {
         let outputs: Vec<Operand> = self.listing.outputs[places].iter().map(|&output| self.unsigned(output)).collect();
         let stages: Vec<&[Operand]> = self.listing.stages.iter().map(Vec::as_slice).collect();
         let part = self.part(&inputs, &outputs, &stages)?;
-        let nudge = matches!(
-            self.spec.family,
-            Family::Angles | Family::Lifted | Family::RotateSmall(_) | Family::Rotate(Method::Zyz | Method::Zxzxz)
-        );
-        Some(part.error.map(|error| error * SLACK + if nudge { l as f64 * NUDGE } else { 0.0 }))
+        Some(part.error.map(|error| error * SLACK + if self.nudge { l as f64 * NUDGE } else { 0.0 }))
     }
 
     /// From values to values, cut at the stages that lie between.
@@ -432,14 +432,14 @@ impl<'a> Prover<'a> {
             let weight = section.weights(run, mode).weight_norm(enough);
             // The second bound is too slow for a grid of several angles.
             match domain {
-                Domain::Nothing | Domain::Circle | Domain::Arc(_) | Domain::Small(_) if weight > enough => {
+                Region::Nothing | Region::Circle | Region::Arc(_) | Region::Small(_) if weight > enough => {
                     weight.min(section.error_by_depth(run, roundoff)[mode])
                 }
                 _ => weight,
             }
         };
         let error = match (domain, section.is_affine()) {
-            (Domain::Circle, true) => {
+            (Region::Circle, true) => {
                 let given = phase_error(&section, domain, |start| start.error);
                 let starts: Vec<Start> =
                     section.starts().iter().map(|start| Start { error: [0.0; 2], ..*start }).collect();
@@ -466,34 +466,27 @@ impl<'a> Prover<'a> {
     }
 }
 
-/// What the method `angles` or `lifted` is given.
+/// What a rotation by a set-up's results is given.
 struct Given {
     /// First phases.
     pairs: Vec<Phase>,
-    /// Then other functions of an angle.
-    others: Vec<(Operand, Root)>,
-    /// Which angle that is.
-    circle: usize,
+    /// Then other functions of an angle, and which angle that is.
+    others: Vec<(Operand, Root, usize)>,
 }
 
 impl Given {
-    fn new(spec: &Spec) -> Self {
-        let count = spec.order - 1;
-        let (angles, circle, roots) = match spec.family {
-            Family::Angles | Family::Rotate(Method::Angles) => (3, 1, vec![Root::HalfSquare, Root::Product]),
-            _ => {
-                let band = |l: usize| {
-                    (0..lifted::couplings(l).len())
-                        .flat_map(move |at| [false, true].map(|inner| Root::Shear { l, at, inner }))
-                };
-                (2, phases::POLAR, (1..spec.order).flat_map(band).collect())
+    fn new(made: Made) -> Self {
+        let mut given = Self { pairs: vec![], others: vec![] };
+        for (index, Held { circle, of }) in (made.holds)(made.order).into_iter().enumerate() {
+            let mut other = |root| given.others.push((Operand::Input { param: 0, index }, root, circle));
+            match of {
+                OfAngle::Cos(k) => given.pairs.push(phases::given(0, index / 2, circle, k)),
+                OfAngle::Sin(_) => {}
+                OfAngle::HalfSquare => other(Root::HalfSquare),
+                OfAngle::Product => other(Root::Product),
+                OfAngle::Shear { l, at, inner } => other(Root::Shear { l, at, inner }),
             }
-        };
-        let place = |index| Operand::Input { param: 0, index: 2 * angles * count + index };
-        Self {
-            pairs: (0..angles * count).map(|pair| phases::given(0, pair, pair / count, pair % count + 1)).collect(),
-            others: roots.into_iter().enumerate().map(|(at, root)| (place(at), root)).collect(),
-            circle,
         }
+        given
     }
 }

@@ -5,8 +5,8 @@
 use crate::ir::eval::Number;
 use crate::ir::graph::Kind;
 use crate::ir::listing::{Listing, Op, Operand, Sign};
-use crate::promise::bound::domain::{Degree, Domain, Enclosure, Root};
 use crate::promise::bound::norm::{Matrix, SLACK};
+use crate::promise::bound::region::{Degree, Enclosure, Region, Root};
 use crate::promise::bound::roundoff::{Both, larger};
 use std::collections::HashMap;
 
@@ -151,7 +151,7 @@ impl Section {
     /// it needs another signal value, an unknown parameter, or divides by what an angle changes.
     pub fn new(
         listing: &Listing,
-        domain: Domain,
+        domain: Region,
         inputs: &[Operand],
         outputs: &[Operand],
         start: impl Fn(Operand) -> Option<Start>,
@@ -204,7 +204,7 @@ impl Section {
             known.insert(operand, place);
         }
         section.outputs = outputs.iter().map(|output| known[output]).collect();
-        if domain == Domain::Pairs {
+        if domain == Region::Pairs {
             section.ones = (0..section.slots.len()).filter(|&slot| section.is_one(slot)).collect();
         }
         section.sort_by_depth();

@@ -1,13 +1,13 @@
 //! A section over its whole domain: the largest of a measure on the grid that proves it, the exact norm, and what errors of
 //! phases do.
 
-use crate::promise::bound::domain::{self, Domain, Root};
 use crate::promise::bound::norm::Matrix;
+use crate::promise::bound::region::{Degree, Region, Root};
 use crate::promise::bound::roundoff::{Both, larger, larger_of};
 use crate::promise::bound::section::{Run, Section, Start};
 
 /// Points a degree on the grid, by the number of angles.
-pub(super) fn density(degree: domain::Degree) -> usize {
+pub(super) fn density(degree: Degree) -> usize {
     match degree.iter().filter(|&&d| d > 0).count() {
         0 | 1 => 16,
         2 => 12,
@@ -18,7 +18,7 @@ pub(super) fn density(degree: domain::Degree) -> usize {
 /// The largest measure over the domain; `reach` widens what the roots may be.
 pub(super) fn sweep(
     section: &Section,
-    domain: Domain,
+    domain: Region,
     starts: &[Start],
     roundoff: f64,
     reach: f64,
@@ -62,7 +62,7 @@ pub(super) fn sweep(
 
 /// How far a map that is affine in phases is off by errors of the phases, as a norm: Σ dcₖ Aₖ + dsₖ Bₖ, where the planes
 /// of different phases are orthogonal if the map is; else the norms add.
-pub(super) fn phase_error(section: &Section, domain: Domain, error: impl Fn(&Start) -> Both) -> Both {
+pub(super) fn phase_error(section: &Section, domain: Region, error: impl Fn(&Start) -> Both) -> Both {
     let starts = section.starts();
     let mut run = Run::default();
     let mut map = |values: &[f64]| -> Matrix {
@@ -71,7 +71,7 @@ pub(super) fn phase_error(section: &Section, domain: Domain, error: impl Fn(&Sta
         let [mid, _] = section.map(&run);
         mid
     };
-    debug_assert_eq!(domain, Domain::Circle);
+    debug_assert_eq!(domain, Region::Circle);
     let zero = map(&vec![0.0; starts.len()]);
     // The derivative by a phase's part, wherever it stands.
     let mut derivative = |root: Root| -> Matrix {
@@ -129,8 +129,8 @@ fn are_orthogonal(a: &Matrix, b: &Matrix) -> bool {
 }
 
 /// At least the 2-norm of a section's exact map; infinite where it is not needed, for domains of several angles.
-pub(super) fn exact_norm(section: &Section, domain: Domain) -> f64 {
-    if !matches!(domain, Domain::Nothing | Domain::Circle | Domain::Arc(_) | Domain::Small(_)) {
+pub(super) fn exact_norm(section: &Section, domain: Region) -> f64 {
+    if !matches!(domain, Region::Nothing | Region::Circle | Region::Arc(_) | Region::Small(_)) {
         return f64::INFINITY;
     }
     let exact: Vec<Start> =

@@ -1,18 +1,15 @@
-//! Approximate rotations about y by a small angle: Taylor expansions (paper 000) and three or five parity shears (LF3,
-//! LF5), which are cheaper and closer. A kernel names a method for every band.
+//! Rotations of one band about y by a small angle: Taylor expansions (paper 000) and three or five parity shears (LF3,
+//! LF5), which are cheaper and closer.
 
-use crate::families::rotate::{
-    YPhases, each_band, from_quaternion, phases_of_quaternion, quaternion, signal, y_band, y_phases, z_band,
-};
-use crate::families::{Phase, inner, multiples, phases};
-use crate::ir::graph::{Graph, Id, Kind};
-use crate::ir::kernel::{Builder, Kernel, Shape};
+use crate::families::parts::bands::{each_band, y_band, z_band};
+use crate::families::parts::phases::{Phase, YPhases, multiples, y_phases};
+use crate::ir::graph::{Graph, Id};
 use crate::math::exact::Exact;
 use crate::math::tables;
 
 /// How a band is rotated about y by a small angle β.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Small {
+pub enum SmallAngle {
     /// 1 + β A: error (lβ)²/2.
     Taylor1,
     /// 1 + β A + β²/2 diag(A²): paper 000's `shRotYdiff15`, error about (lβ)²/4.
@@ -27,19 +24,27 @@ pub enum Small {
     Exact,
 }
 
-impl Small {
-    /// The approximations, with the names that specs use.
-    pub const ALL: [(Self, &'static str); 5] = [
-        (Self::Taylor1, "taylor1"),
-        (Self::Taylor15, "taylor15"),
-        (Self::Taylor2, "taylor2"),
-        (Self::Lf3, "lf3"),
-        (Self::Lf5, "lf5"),
-    ];
+impl SmallAngle {
+    /// The exact rotation, then the approximations, cheapest first.
+    pub const ALL: [Self; 6] = [Self::Exact, Self::Taylor1, Self::Taylor15, Self::Taylor2, Self::Lf3, Self::Lf5];
+    /// The approximations.
+    pub const APPROXIMATE: [Self; 5] = [Self::Taylor1, Self::Taylor15, Self::Taylor2, Self::Lf3, Self::Lf5];
 
     /// Its name in a spec.
     pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(small, _)| *small == self).map_or("exact", |(_, name)| name)
+        match self {
+            Self::Taylor1 => "taylor1",
+            Self::Taylor15 => "taylor15",
+            Self::Taylor2 => "taylor2",
+            Self::Lf3 => "lf3",
+            Self::Lf5 => "lf5",
+            Self::Exact => "exact",
+        }
+    }
+
+    /// The method of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
     }
 
     /// `self` from band 3 on; bands 1 and 2 are exact, which costs less there than any shears.
@@ -69,14 +74,14 @@ pub struct ParityShear {
 /// diagonal, once first order is right; the term in β³ takes off the part of e k³ that is linear in k. For five shears
 /// β is split by the golden ratio, where both triangles have the same e = (7 − 3√5)/24; what is left to choose shifts
 /// β³ between the outer and the inner even shears, so that the two triangles err alike in (lβ)⁵ too.
-pub fn parity_shears(l: usize, method: Small) -> Vec<ParityShear> {
+pub fn parity_shears(l: usize, method: SmallAngle) -> Vec<ParityShear> {
     let p = shear_correction(l);
     let series: Vec<[Exact; 2]> = match method {
-        Small::Lf3 => {
+        SmallAngle::Lf3 => {
             let outer = [Exact::ratio(1, 2), &p / &Exact::int(4)];
             vec![outer.clone(), [Exact::one(), -&p], outer]
         }
-        Small::Lf5 => {
+        SmallAngle::Lf5 => {
             let root5 = Exact::sqrt_ratio(5, 1);
             let golden = &(&root5 - &Exact::one()) / &Exact::int(2);
             let outer = &(&Exact::one() - &golden) / &Exact::int(2);
@@ -139,7 +144,8 @@ impl<'a> Band<'a> {
 }
 
 /// What the small rotations of all bands share.
-struct Powers {
+/// The powers of β.
+pub struct Powers {
     beta: Id,
     /// β².
     square: Id,
@@ -147,17 +153,17 @@ struct Powers {
     exact: Option<YPhases>,
 }
 
-fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> Vec<Id> {
+fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: SmallAngle) -> Vec<Id> {
     let l = values.len() / 2;
     if l == 0 {
         return values.to_vec();
     }
     match method {
-        Small::Taylor1 => {
+        SmallAngle::Taylor1 => {
             let band = Band::new(g, values, powers.beta, |_| true);
             band.map(|m| band.add_generator(g, m, values, band.at(m)))
         }
-        Small::Taylor15 => {
+        SmallAngle::Taylor15 => {
             let band = Band::new(g, values, powers.beta, |_| true);
             band.map(|m| {
                 let half = &tables::ddy_diag(l, m) / &Exact::int(2);
@@ -166,14 +172,14 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> V
                 band.add_generator(g, m, values, start)
             })
         }
-        Small::Taylor2 => {
+        SmallAngle::Taylor2 => {
             let half = g.scale(&Exact::ratio(1, 2), powers.beta);
             let first = Band::new(g, values, half, |_| true);
             let inner = first.map(|m| first.add_generator(g, m, values, first.at(m)));
             let second = Band::new(g, values, powers.beta, |_| true);
             second.map(|m| second.add_generator(g, m, &inner, second.at(m)))
         }
-        Small::Lf3 | Small::Lf5 => {
+        SmallAngle::Lf3 | SmallAngle::Lf5 => {
             let mut x = values.to_vec();
             for shear in parity_shears(l, method) {
                 let [first, third] = &shear.series;
@@ -190,7 +196,7 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> V
             }
             x
         }
-        Small::Exact => {
+        SmallAngle::Exact => {
             let phases = powers.exact.as_ref().expect("a spec with exact bands takes the cosine and the sine");
             y_band(g, values, phases)
         }
@@ -198,22 +204,24 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: Small) -> V
 }
 
 impl Powers {
-    fn of_angle(g: &mut Graph, beta: Id) -> Self {
+    /// β and its square, from β.
+    pub fn of_angle(g: &mut Graph, beta: Id) -> Self {
         Self { beta, square: g.mul(beta, beta), exact: None }
     }
 
     /// β = sin β (1 + sin²β / 6) and its square, to the fifth order; what the exact bands need up to the last of them.
-    fn of_phase(g: &mut Graph, phase: Phase, methods: &[Small]) -> Self {
+    pub fn of_phase(g: &mut Graph, phase: Phase, methods: &[SmallAngle]) -> Self {
         let square = g.mul(phase.sin, phase.sin);
         let factor = g.affine(&Exact::ratio(1, 6), square, &Exact::one());
         let beta = g.mul(phase.sin, factor);
         let factor = g.affine(&Exact::ratio(1, 3), square, &Exact::one());
-        let exact = methods.iter().rposition(|method| *method == Small::Exact);
+        let exact = methods.iter().rposition(|method| *method == SmallAngle::Exact);
         Self { beta, square: g.mul(square, factor), exact: exact.map(|last| y_phases(g, phase, last + 1)) }
     }
 }
 
-fn small_rotation(g: &mut Graph, c: &[Id], order: usize, powers: &Powers, methods: &[Small]) -> Vec<Id> {
+/// Rotates every band about y, `methods[l − 1]` for band l.
+pub fn small_rotation(g: &mut Graph, c: &[Id], order: usize, powers: &Powers, methods: &[SmallAngle]) -> Vec<Id> {
     each_band(g, c, order, |g, l, band| match l {
         0 => band.to_vec(),
         _ => {
@@ -224,53 +232,14 @@ fn small_rotation(g: &mut Graph, c: &[Id], order: usize, powers: &Powers, method
     })
 }
 
-fn angle(builder: &mut Builder) -> Id {
-    builder.param("beta", Shape::Scalar, Kind::Scalar, "the angle about y in radians, small")[0]
-}
-
-/// About y by β, `methods[l − 1]` for band l: the kernels `taylor1`, `taylor15`, `taylor2`, `lf3` and their mixtures.
-pub fn about_y(order: usize, methods: &[Small]) -> Kernel {
-    let mut builder = Builder::new();
-    let beta = angle(&mut builder);
-    let c = signal(&mut builder, order);
-    let g = &mut builder.graph;
-    let powers = Powers::of_angle(g, beta);
-    let out = small_rotation(g, &c, order, &powers, methods);
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
-}
-
-/// The y rotation of `rotate_small` alone, from (cos β, sin β).
-pub fn small_y(order: usize, methods: &[Small]) -> Kernel {
-    let mut builder = Builder::new();
-    let cs = builder.param("cs", Shape::Pair, Kind::Scalar, "(cos β, sin β)");
-    let c = signal(&mut builder, order);
-    let g = &mut builder.graph;
-    let powers = Powers::of_phase(g, phases(&cs)[0], methods);
-    let out = small_rotation(g, &c, order, &powers, methods);
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
-}
-
-/// Rz(α) Ry(β) Rz(γ) with a small β, `methods[l − 1]` for band l.
-pub fn small_zyz(order: usize, methods: &[Small]) -> Kernel {
-    let mut builder = Builder::new();
-    let cs = builder.param("cs", Shape::Pairs(2), Kind::Scalar, "(cos, sin) of α and γ in Rz(α) Ry(β) Rz(γ)");
-    let beta = angle(&mut builder);
-    let c = signal(&mut builder, order);
-    let g = &mut builder.graph;
-    let both = phases(&cs);
-    let powers = Powers::of_angle(g, beta);
-    let out = between_z(g, &c, order, [both[0], both[1]], &powers, methods);
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
-}
-
-/// Rz(α), the small rotation, Rz(γ).
-fn between_z(
+/// Rz(α), the rotation about y by a small angle, Rz(γ).
+pub fn between_z(
     g: &mut Graph,
     c: &[Id],
     order: usize,
     [alpha, gamma]: [Phase; 2],
     powers: &Powers,
-    methods: &[Small],
+    methods: &[SmallAngle],
 ) -> Vec<Id> {
     let alpha = multiples(g, alpha, order - 1);
     let gamma = multiples(g, gamma, order - 1);
@@ -279,40 +248,17 @@ fn between_z(
     each_band(g, &tilted, order, |g, _, band| z_band(g, band, &alpha))
 }
 
-/// The kernel `rotate_small`: from a unit quaternion whose y angle is small, `methods[l − 1]` for band l.
-pub fn small_rotate(order: usize, methods: &[Small]) -> Kernel {
-    let mut builder = Builder::new();
-    let q = quaternion(&mut builder);
-    let c = signal(&mut builder, order);
-    let out = small_from_quaternion(&mut builder.graph, &q, &c, order, methods);
-    builder.finish(out, Shape::Array(order * order), "the rotated coefficients")
+/// The methods of the bands, repetitions left out.
+pub fn names(methods: &[SmallAngle]) -> String {
+    let mut names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
+    names.dedup();
+    names.join(", ")
 }
 
-fn small_from_quaternion(g: &mut Graph, q: &[Id], c: &[Id], order: usize, methods: &[Small]) -> Vec<Id> {
-    let [alpha, beta, gamma] = phases_of_quaternion(g, q);
-    let powers = Powers::of_phase(g, beta, methods);
-    between_z(g, c, order, [alpha, gamma], &powers, methods)
-}
-
-/// The kernel `rotate_adaptive` as three of the same parameters: the two numbers of which the first must not be above the
-/// second for the small rotation, sin²(β/2) and its limit; the small rotation; the exact one.
-pub fn adaptive(order: usize, methods: &[Small]) -> [Kernel; 3] {
-    type Part<'a> = &'a dyn Fn(&mut Graph, [&[Id]; 3]) -> Vec<Id>;
-    let make = |f: Part<'_>, shape: Shape| {
-        let mut builder = Builder::new();
-        let q = quaternion(&mut builder);
-        let doc = "sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (√2 + 2 r/R) \
-                   for a radiance cache of error a whose record has the radius R and is used at the distance r";
-        let limit = builder.param("limit", Shape::Scalar, Kind::Scalar, doc);
-        let c = signal(&mut builder, order);
-        let out = f(&mut builder.graph, [&q, &limit, &c]);
-        builder.finish(out, shape, "the rotated coefficients")
-    };
-    let condition = |g: &mut Graph, [q, limit, _]: [&[Id]; 3]| {
-        vec![inner(g, &[q[0], q[1]], &[q[0], q[1]]), g.mul(limit[0], limit[0])]
-    };
-    let small = |g: &mut Graph, [q, _, c]: [&[Id]; 3]| small_from_quaternion(g, q, c, order, methods);
-    let exact = |g: &mut Graph, [q, _, c]: [&[Id]; 3]| from_quaternion(g, q, c, order);
-    let all = Shape::Array(order * order);
-    [make(&condition, Shape::Pair), make(&small, all), make(&exact, all)]
+/// The methods of the bands, and where they come from.
+pub fn sources(methods: &[SmallAngle]) -> String {
+    let names = names(methods);
+    format!(
+        "bands from 1: {names}; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears"
+    )
 }

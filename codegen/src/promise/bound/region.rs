@@ -2,6 +2,7 @@
 //! trigonometric polynomial in the angles of its domain, for fixed relative roundings; such a polynomial of degree d stays
 //! below its largest value at N equidistant points divided by cos(πd/N) (M. Riesz). So a grid proves a bound for all angles.
 
+// Names a family: a lifted rotation's couplings are sums over frequencies whose factors it alone has.
 use crate::families::lifted;
 use crate::math::exact::Exact;
 use crate::promise::bound::roundoff::INPUT;
@@ -11,7 +12,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 /// What a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Domain {
+pub enum Region {
     /// There is no parameter.
     Nothing,
     /// One unit phase.
@@ -122,7 +123,7 @@ fn plus(a: Enclosure, b: Enclosure) -> Enclosure {
     (a.0 + b.0, a.1 + b.1 + THIN)
 }
 
-impl Domain {
+impl Region {
     /// The degrees of a root in the domain's angles.
     pub fn degree(self, root: Root) -> Degree {
         match (self, root) {
@@ -268,7 +269,7 @@ impl Domain {
         (grid, factor)
     }
 
-    /// Whether the angle from z stays where sine and cosine are monotone, which [`Domain::Cap`] needs.
+    /// Whether the angle from z stays where sine and cosine are monotone, which [`Region::Cap`] needs.
     pub fn is_valid(self) -> bool {
         !matches!(self, Self::Cap(most) if most > FRAC_PI_2)
     }

@@ -1,0 +1,442 @@
+//! What a family of kernels says of itself, in one record: its names, its sentence, its orders and forms, what its error is
+//! measured by and proven from, what the planner may take it for, its rows of the catalogue. And the spec, which names
+//! one kernel of a family. It knows no family.
+
+use crate::families::parts::small_angle::SmallAngle;
+use crate::ir::code::{Branch, Code};
+use crate::ir::kernel::Kernel;
+use crate::ir::listing::Listing;
+use crate::ir::program::LoopKernel;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::ops::RangeInclusive;
+
+/// The smallest order of a kernel.
+pub const MIN_ORDER: usize = 2;
+/// The largest order of an unrolled kernel: beyond it, text grows past what shader compilers take.
+pub const MAX_ORDER: usize = 16;
+/// The largest order of a kernel in f16.
+pub const MAX_HALF_ORDER: usize = 10;
+/// The largest order of a kernel in loop form.
+pub const MAX_LOOP_ORDER: usize = 64;
+
+/// The largest angle in degrees that an approximate rotation is meant for: "up to 25 degrees" in Křivánek et al. 2005.
+pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
+
+/// [`SMALL_ANGLE_DEGREES`] in radians.
+pub fn small_angle() -> f64 {
+    SMALL_ANGLE_DEGREES.to_radians()
+}
+
+/// What families are listed under: the files of the catalogue and the table of the README follow it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Group {
+    /// The basis, and sums over it.
+    Evaluate,
+    /// Exact rotations.
+    Rotate,
+    /// The rotation of z to a normal, from the normal.
+    Tilt,
+    /// Rotations by a small angle.
+    SmallAngle,
+    /// The sparse zonal factorisation.
+    Factorise,
+    /// What rotations are made of: about one axis.
+    Piece,
+}
+
+impl Group {
+    /// All groups, in order.
+    pub const ALL: [Self; 6] =
+        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Evaluate => "evaluate",
+            Self::Rotate => "rotate",
+            Self::Tilt => "tilt",
+            Self::SmallAngle => "small",
+            Self::Factorise => "factorise",
+            Self::Piece => "pieces",
+        }
+    }
+}
+
+/// What a rounding error is measured against.
+#[derive(Clone, Copy, Debug)]
+pub enum Measure {
+    /// Each band's error against the band's norm in the signal.
+    Bands,
+    /// The value's error against the norm of all coefficients.
+    Whole,
+    /// The error itself: there is no signal.
+    Absolute,
+    /// The error of each band of the signal that this kernel rotates by the result, for two results may mean the same: there
+    /// is no signal.
+    Through(fn(usize) -> Kernel),
+}
+
+/// How a rounding bound is proven, where the measure and the parameters' domains do not say it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// Values, sums or bands, as the measure says.
+    Auto,
+    /// A constant map that mixes bands.
+    Mixed,
+    /// Lobes that are turned: stages of three scalars are directions.
+    Lobes,
+    /// Not at all: the measured worst case times a margin is promised.
+    Nothing,
+}
+
+/// What the planner is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Job {
+    /// The shortest rotation from z to a normal.
+    Tilt,
+    /// A rotation about y.
+    Y,
+    /// A rotation about z, y and z: any one, its y angle bounded.
+    Zyz,
+    /// A rotation by a quaternion whose y angle is bounded.
+    Quaternion,
+}
+
+/// A job that a family does, or is weighed for only to say why it does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Does {
+    /// The job.
+    pub job: Job,
+    /// Whether it takes other parameters than the job has, such as a quaternion where there is a normal.
+    pub otherwise: bool,
+    /// What bars it.
+    pub barred: Option<&'static str>,
+}
+
+impl Does {
+    /// A job that is done with the job's own parameters.
+    pub const fn job(job: Job) -> Self {
+        Self { job, otherwise: false, barred: None }
+    }
+
+    /// A job that is done with other parameters.
+    pub const fn otherwise(job: Job) -> Self {
+        Self { job, otherwise: true, barred: None }
+    }
+
+    /// A job that is not done, and why.
+    pub const fn barred(job: Job, why: &'static str) -> Self {
+        Self { job, otherwise: true, barred: Some(why) }
+    }
+}
+
+/// How a rotation's small angle reaches it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AngleAs {
+    /// β itself.
+    Angle,
+    /// Its cosine and sine: β = sin β (1 + sin²β/6), to the fifth order.
+    Phase,
+    /// A normal, as the tilt has it: the same series, multiplied out in the shears.
+    Normal,
+}
+
+/// Where a spec says the methods of the bands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spelled {
+    /// In the family's place if all bands have one, as in `lf3:5`; after the family's name else.
+    AsFamily,
+    /// In the method's place, as in `rotate:5:lf3`.
+    AsMethod,
+    /// After the order; left out where they are the family's usual ones, as in `tilt:5`.
+    AsOption,
+}
+
+/// What a family whose bands are each rotated in a way of their own says of that.
+#[derive(Clone, Copy, Debug)]
+pub struct ByBand {
+    /// Where a spec says the methods.
+    pub spelled: Spelled,
+    /// How the angle is given.
+    pub given: AngleAs,
+    /// The methods that a band may have.
+    pub in_band: fn(usize) -> &'static [SmallAngle],
+    /// What is wrong where a band has another one, and what to do.
+    pub rule: [&'static str; 2],
+    /// The y rotation, or the tilt towards x, alone.
+    pub plane: fn(usize, &[SmallAngle]) -> Kernel,
+}
+
+impl ByBand {
+    /// Whether a band may be rotated exactly.
+    pub fn takes_exact(&self) -> bool {
+        (self.in_band)(1).contains(&SmallAngle::Exact)
+    }
+
+    /// One method for all bands: from band 3 on where bands may be exact.
+    pub fn alone(&self, method: SmallAngle, order: usize) -> Vec<SmallAngle> {
+        match self.takes_exact() {
+            true => method.from_band_3(order),
+            false => vec![method; order - 1],
+        }
+    }
+}
+
+/// The loop form of a family.
+#[derive(Clone, Copy, Debug)]
+pub struct Looped {
+    /// What has one, as a spec begins.
+    pub name: &'static str,
+    /// Whether a spec of the family has one.
+    pub has: fn(&Spec) -> bool,
+    /// It, at an order.
+    pub kernel: fn(usize) -> LoopKernel,
+}
+
+/// A family of kernels.
+pub struct Family {
+    /// What a spec begins with: `rotate`.
+    pub name: &'static str,
+    /// The method that a spec names after the order, `zxzxz`; empty for a family without methods.
+    pub method: &'static str,
+    /// What its functions are called after `sh<order>_`: `rotate_zxzxz`. It neither ends in a digit nor holds `__`.
+    pub stem: &'static str,
+    /// Whether its name without a method means it, at an order and for one channel or three.
+    pub usual: fn(usize, bool) -> bool,
+    /// What it is listed under.
+    pub group: Group,
+    /// What a kernel does, in a sentence, and where it comes from.
+    pub what: fn(&Spec) -> String,
+    /// The orders of its unrolled kernels.
+    pub orders: RangeInclusive<usize>,
+    /// What is wrong with an order outside of them, and what to do.
+    pub outside: fn(usize) -> [String; 2],
+    /// Whether it works in f16: not where a quaternion's or a normal's angles are kept defined by a number that f16 does not
+    /// hold, and where lobes are inverted.
+    pub half: bool,
+    /// Whether it takes some bands only.
+    pub some_bands: bool,
+    /// Its loop form.
+    pub looped: Option<Looped>,
+    /// What it says where each band has a method of its own.
+    pub by_band: Option<ByBand>,
+    /// An unrolled kernel; of a branch, the way that is taken where the condition does not hold.
+    pub kernel: fn(&Spec) -> Kernel,
+    /// The two ways of a kernel that has a branch, and what decides between them.
+    pub branch: Option<fn(&Spec) -> Branch>,
+    /// What its error is measured against.
+    pub measure: Measure,
+    /// How its error is proven.
+    pub proof: Proof,
+    /// The largest y angle in radians, if it does not take every angle.
+    pub max_angle: fn(&Spec) -> Option<f64>,
+    /// What the planner may take it for, at an order and for one channel or three.
+    pub does: fn(usize, bool) -> Vec<Does>,
+    /// The non-zero entries of its sparse matrix in the bands from 2 on, where that is what its papers count.
+    pub nonzeros: Option<fn(usize) -> usize>,
+    /// Its rows of the catalogue at an order.
+    pub shown: fn(usize) -> Vec<Spec>,
+}
+
+impl Family {
+    /// A family that says nothing: what most records leave as it is.
+    pub const PLAIN: Self = Self {
+        name: "",
+        method: "",
+        stem: "",
+        usual: |_, _| true,
+        group: Group::Piece,
+        what: |_| String::new(),
+        orders: MIN_ORDER..=MAX_ORDER,
+        outside: |order| {
+            let help = format!("unrolled kernels have orders {MIN_ORDER} to {MAX_ORDER}");
+            [format!("order {order} is too long unrolled"), help]
+        },
+        half: true,
+        some_bands: false,
+        looped: None,
+        by_band: None,
+        kernel: |spec| unreachable!("`{}` has no kernel", spec.family.name),
+        branch: None,
+        measure: Measure::Bands,
+        proof: Proof::Auto,
+        max_angle: |spec| spec.is_approximate().then(small_angle),
+        does: |_, _| vec![],
+        nonzeros: None,
+        shown: |_| vec![],
+    };
+
+    /// Whether it has a signal, which may be RGB.
+    pub fn has_signal(&self) -> bool {
+        matches!(self.measure, Measure::Bands | Measure::Whole)
+    }
+
+    fn key(&self) -> (&str, &str) {
+        (self.name, self.method)
+    }
+}
+
+impl fmt::Debug for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.name, self.method)
+    }
+}
+
+impl PartialEq for Family {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for Family {}
+
+impl Hash for Family {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key().hash(state);
+    }
+}
+
+impl PartialOrd for Family {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Family {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+/// Unrolled or a loop over tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Form {
+    /// Straight lines, every index a constant.
+    Unrolled,
+    /// Tables and a loop.
+    Loop,
+}
+
+/// What to generate. A spec names exactly one function in each language.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Spec {
+    /// The order n: bands 0 to n − 1, n² coefficients.
+    pub order: usize,
+    /// What it does.
+    pub family: &'static Family,
+    /// A method for each band from 1, where the family takes them.
+    pub methods: Vec<SmallAngle>,
+    /// The bands that exist; the others are zero and not stored. All of them where the family does not take some only.
+    pub bands: Vec<usize>,
+    /// Whether the signal has three channels that share the parameters.
+    pub rgb: bool,
+    /// Unrolled or a loop.
+    pub form: Form,
+    /// Whether it works in f16 instead of f32: WGSL only, with `enable f16`.
+    pub half: bool,
+}
+
+impl Spec {
+    /// A spec of all bands, one channel, unrolled; `lf3` where bands have methods.
+    pub fn new(family: &'static Family, order: usize) -> Self {
+        let methods = family.by_band.map_or_else(Vec::new, |by_band| by_band.alone(SmallAngle::Lf3, order));
+        Self { order, family, methods, bands: (0..order).collect(), rgb: false, form: Form::Unrolled, half: false }
+    }
+
+    /// The spec for three channels.
+    #[must_use]
+    pub fn rgb(mut self) -> Self {
+        self.rgb = true;
+        self
+    }
+
+    /// The spec with one method for all bands, from band 3 on where bands may be exact.
+    ///
+    /// # Panics
+    ///
+    /// If the family's bands have no methods.
+    #[must_use]
+    pub fn by(self, method: SmallAngle) -> Self {
+        let by_band = self.family.by_band.expect("the family's bands have methods");
+        Self { methods: by_band.alone(method, self.order), ..self }
+    }
+
+    /// The spec with a method for each band from 1.
+    #[must_use]
+    pub fn by_band(self, methods: Vec<SmallAngle>) -> Self {
+        Self { methods, ..self }
+    }
+
+    /// The spec in loop form.
+    #[must_use]
+    pub fn looped(self) -> Self {
+        Self { form: Form::Loop, ..self }
+    }
+
+    /// The spec with its RGB twin.
+    pub fn both(self) -> Vec<Self> {
+        vec![self.clone(), self.rgb()]
+    }
+
+    /// How many channels the signal has.
+    pub fn channels(&self) -> usize {
+        if self.rgb { 3 } else { 1 }
+    }
+
+    /// Whether a kernel in f16 exists.
+    pub fn takes_half(&self) -> bool {
+        self.family.half && self.form == Form::Unrolled && self.order <= MAX_HALF_ORDER
+    }
+
+    /// Whether all bands exist.
+    pub fn is_whole(&self) -> bool {
+        self.bands.len() == self.order
+    }
+
+    /// Whether it is a rotation that errs by more than rounding.
+    pub fn is_approximate(&self) -> bool {
+        self.methods.iter().any(|method| *method != SmallAngle::Exact)
+    }
+
+    /// The largest y angle in radians that the kernel is meant for, if it does not take every angle.
+    pub fn max_angle(&self) -> Option<f64> {
+        (self.family.max_angle)(self)
+    }
+
+    /// [`Spec::max_angle`] in degrees, cut off after two decimals.
+    pub fn max_degrees(&self) -> Option<f64> {
+        self.max_angle().map(crate::ir::domain::degrees)
+    }
+
+    /// Its operations, in the form that it names.
+    pub fn code(&self) -> Code {
+        match (self.form, self.family.looped, self.family.branch) {
+            (Form::Loop, Some(looped), _) => Code::Loop((looped.kernel)(self.order)),
+            (_, _, Some(branch)) => Code::Branch(Box::new(branch(self))),
+            _ => Code::Straight(Listing::new(&self.kernel())),
+        }
+    }
+
+    /// Its unrolled kernel: the twin of a loop, the way of a branch that is taken where the condition does not hold.
+    pub fn kernel(&self) -> Kernel {
+        (self.family.kernel)(self)
+    }
+
+    /// The spec of the kernel itself, without what only its text depends on: the number of channels.
+    pub fn base(&self) -> Self {
+        Self { rgb: false, ..self.clone() }
+    }
+
+    /// The bands, as a sentence names them.
+    pub fn which_bands(&self) -> String {
+        let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
+        match self.is_whole() {
+            true => format!("of order {}", self.order),
+            false => format!("of the bands {}", bands.join(", ")),
+        }
+    }
+}

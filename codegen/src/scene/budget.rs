@@ -1,0 +1,40 @@
+//! How a scene says what error a rotation may have: of which signal, and in which precision.
+
+use serde::{Deserialize, Serialize};
+
+/// Which numbers a kernel works in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// f32.
+    #[default]
+    F32,
+    /// f16, in WGSL alone.
+    F16,
+    /// f16 where the error that is allowed has room for its rounding.
+    Auto,
+}
+
+/// What an error is the error of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Norm {
+    /// The worst signal of the worst band.
+    #[default]
+    Max,
+    /// A random signal of the worst band, in the root mean square.
+    Mean,
+    /// The worst signal whose bands have given energies, against all of it.
+    Signal,
+}
+
+impl Norm {
+    /// What an error in it is the error of.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Max => "of the worst band's norm",
+            Self::Mean => "of the worst band's norm, in the root mean square over signals",
+            Self::Signal => "of the norm of a signal with the environment's energies",
+        }
+    }
+}
