@@ -1,13 +1,16 @@
-//! The checked-in set: every family at every order from 2 to 10, as files in three languages, with a table of costs.
+//! The checked-in set: every family at every order from 2 to 10, as a file an order, a
+//! group and a language, with a table of costs and a list of all kernels.
 
 use crate::emit::dialect::Target;
 use crate::emit::validate::validate;
 use crate::emit::{Function, Module, support};
 use crate::families::all::ALL;
-use crate::families::family::Spec;
+use crate::families::family::{Group, Spec};
 use crate::files::File;
-use crate::generate::{GenerateError, Row, build, file};
+use crate::generate::{GenerateError, Row, build};
+use fnv::FnvHasher;
 use rayon::prelude::*;
+use std::hash::Hasher;
 use std::ops::RangeInclusive;
 
 /// The orders of the checked-in set.
@@ -15,6 +18,12 @@ pub const ORDERS: RangeInclusive<usize> = 2..=10;
 
 /// The table of costs in the checked-in set.
 pub const COSTS: &str = "COSTS.md";
+
+/// The list of kernels in the checked-in set.
+pub const MANIFEST: &str = "MANIFEST.tsv";
+
+/// What may lie beside the generated files: the set is a package.
+pub const BESIDE: [&str; 4] = ["Cargo.toml", "README.md", "LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Every spec of the checked-in set, sorted by order, then as families are listed.
 pub fn standard() -> Vec<Spec> {
@@ -47,42 +56,104 @@ pub fn markdown(rows: &[Row]) -> String {
     text
 }
 
+/// The functions of an order and a group, as one module.
+fn module(order: usize, group: Group, functions: &[Function]) -> Option<Module> {
+    let belongs = |function: &&Function| function.spec.order == order && function.spec.family.group == group;
+    let functions: Vec<Function> = functions.iter().filter(belongs).cloned().collect();
+    (!functions.is_empty()).then(|| Module {
+        name: format!("sh{order}_{}", group.name()),
+        origin: format!("the standard catalogue, order {order}: {}", group.what()),
+        functions,
+        constants: vec![],
+    })
+}
+
 /// Every file of `generated/`.
 ///
 /// # Errors
 ///
 /// If a kernel is too long or its text is refused: a fault of zonal.
 pub fn files() -> Result<Vec<File>, GenerateError> {
-    let specs = standard();
-    let functions = build(&specs);
-    let shaders: Result<Vec<Vec<File>>, GenerateError> = functions
-        .par_iter()
-        .map(|function| {
-            let (stem, order) = (function.spec.stem(), function.spec.order);
-            let module = Module {
-                name: function.shader_name(),
-                origin: format!("`{}`", function.spec),
-                functions: vec![function.clone()],
-                constants: vec![],
-            };
-            [Target::Wgsl, Target::Glsl]
-                .into_iter()
-                .map(|target| {
-                    let extension = target.extension();
-                    file(&module, target, format!("{target}/sh{order}/{stem}.{extension}"))
-                })
-                .collect()
-        })
+    let functions = build(&standard());
+    let orders: Vec<usize> = ORDERS.rev().collect();
+    let modules: Vec<Module> = orders
+        .iter()
+        .flat_map(|&order| Group::ALL.into_iter().filter_map(move |group| Some((order, group))))
+        .filter_map(|(order, group)| module(order, group, &functions))
         .collect();
-    let mut files: Vec<File> = shaders?.into_iter().flatten().collect();
-    let rust: Result<Vec<File>, GenerateError> =
-        ORDERS.collect::<Vec<_>>().into_par_iter().map(|order| rust_file(order, &functions)).collect();
+    let tasks: Vec<(&Module, Target)> =
+        modules.iter().flat_map(|module| [Target::Wgsl, Target::Glsl].map(|target| (module, target))).collect();
+    // Each kernel is validated by itself: naga takes far longer for all of them in one file.
+    functions.par_iter().with_max_len(1).try_for_each(|function| {
+        [Target::Wgsl, Target::Glsl].into_iter().try_for_each(|target| {
+            let text = alone(function, target)?;
+            validate(target, &function.shader_name(), &text).map_err(GenerateError::from)
+        })
+    })?;
+    let shader = |(module, target): &(&Module, Target)| -> Result<File, GenerateError> {
+        let path = format!("{target}/{}.{}", module.name, target.extension());
+        Ok(File { path, text: module.shader(*target)? })
+    };
+    let shaders: Result<Vec<File>, GenerateError> = tasks.par_iter().with_max_len(1).map(shader).collect();
+    let rust: Result<Vec<File>, GenerateError> = orders.par_iter().map(|&order| rust_file(order, &functions)).collect();
+    let mut files = shaders?;
     files.extend(rust?);
-    files.extend(rust_frame(&functions));
+    files.extend(rust_frame(&modules));
     let rows: Vec<Row> = functions.iter().map(Row::of).collect();
     files.push(File { path: COSTS.to_owned(), text: markdown(&rows) });
+    files.push(File { path: MANIFEST.to_owned(), text: manifest(&functions)? });
     files.sort();
     Ok(files)
+}
+
+/// The text of one kernel alone, as `zonal show` prints it.
+///
+/// # Errors
+///
+/// If a kernel is too long for a language.
+pub fn alone(function: &Function, target: Target) -> Result<String, GenerateError> {
+    let module = Module::of(function);
+    Ok(match target {
+        Target::Rust => {
+            module.check_rust()?;
+            module.rust_alone()
+        }
+        _ => module.shader(target)?,
+    })
+}
+
+/// A line a kernel: what it is, what it costs, how exact it is, and a hash of its text in each language, so that a review
+/// sees which kernels changed.
+fn manifest(functions: &[Function]) -> Result<String, GenerateError> {
+    let hash = |text: &str| {
+        let mut hasher = FnvHasher::default();
+        hasher.write(text.as_bytes());
+        format!("{:016x}", hasher.finish())
+    };
+    let line = |function: &Function| -> Result<String, GenerateError> {
+        let row = Row::of(function);
+        let (cost, accuracy) = (row.cost, &row.accuracy);
+        let method = accuracy.method.last().map_or("-".to_owned(), |(degrees, error)| format!("{error:e}@{degrees}"));
+        let numbers = [cost.total, cost.mul, cost.add, cost.fma, cost.special];
+        let footprint = [row.footprint.constants, row.footprint.live];
+        let mut cells = vec![row.spec.clone(), row.name.clone(), function.spec.family.group.name().to_owned()];
+        cells.extend(numbers.into_iter().chain(footprint).map(|number| number.to_string()));
+        cells.push(format!("{:e}", accuracy.rounding_f32));
+        cells.push(if accuracy.proven { "proven" } else { "measured" }.to_owned());
+        cells.push(method);
+        for target in Target::ALL {
+            cells.push(hash(&alone(function, target)?));
+        }
+        Ok(cells.join("\t") + "\n")
+    };
+    let lines: Result<Vec<String>, GenerateError> = functions.par_iter().map(line).collect();
+    let targets = Target::ALL.map(Target::name).join("\t");
+    let head = format!(
+        "# @generated by zonal from the standard catalogue; do not edit, generate it again. A line a kernel; the last \
+         columns\n# are the FNV-1a hash, 64 bits, of what `zonal show SPEC --target LANGUAGE` prints.\n\
+         spec\tname\tgroup\ttotal\tmul\tadd\tfma\tspecial\tconstants\tlive\trounding\tby\tmethod\t{targets}\n"
+    );
+    Ok(head + &lines?.concat())
 }
 
 fn rust_file(order: usize, functions: &[Function]) -> Result<File, GenerateError> {
@@ -98,42 +169,58 @@ fn rust_file(order: usize, functions: &[Function]) -> Result<File, GenerateError
     Ok(File { path, text })
 }
 
-/// The module that ties the orders together, what they stand on, and the shaders as text.
-fn rust_frame(functions: &[Function]) -> Vec<File> {
+/// The crate's root that ties the orders together, what they stand on, and the shaders as text.
+fn rust_frame(modules: &[Module]) -> Vec<File> {
     let head = "// @generated by zonal from the standard catalogue; do not edit, generate it again.\n\n";
-    let mut root = format!("{head}pub mod real;\n#[cfg(feature = \"shaders\")]\npub mod shaders;\n");
+    let mut root = format!(
+        "{head}//! Spherical-harmonics kernels of the orders 2 to 10, generated, generic over [`real::Real`] and\n\
+         //! [`real::Signal`]; their WGSL and GLSL in `shaders`. The crate `zonal` is a thin API over them.\n\
+         #![cfg_attr(not(feature = \"std\"), no_std)]\n\n\
+         #[cfg(not(any(feature = \"std\", feature = \"libm\")))]\n\
+         compile_error!(\"square roots are needed: turn on the feature `std`, or `libm` where there is no standard library\");\n\n\
+         #[rustfmt::skip]\npub mod real;\n\
+         #[cfg(feature = \"shaders\")]\n#[rustfmt::skip]\npub mod shaders;\n"
+    );
     for order in ORDERS {
         root += &format!(
-            "/// Kernels of order {order}: bands 0 to {}, {} coefficients.\npub mod sh{order};\n",
+            "/// Kernels of order {order}: bands 0 to {}, {} coefficients.\n#[rustfmt::skip]\npub mod sh{order};\n",
             order - 1,
             order * order
         );
     }
+    root += "\n#[doc = include_str!(\"../COSTS.md\")]\npub mod costs {}\n";
     let mut shaders = format!(
-        "{head}//! The shader texts of the standard catalogue.\n\n\
-         /// A kernel's text in both shader languages.\n\
+        "{head}//! The shader texts of the standard catalogue: a file an order and a group, as they lie in `wgsl/` and `glsl/`.\n\n\
+         /// The kernels of an order and a group in both shader languages.\n\
          #[derive(Clone, Copy, Debug, PartialEq, Eq)]\n\
-         pub struct Shader {{\n\
-         \x20   /// The spec that makes it.\n    pub spec: &'static str,\n\
-         \x20   /// The function's name.\n    pub name: &'static str,\n\
+         pub struct Shaders {{\n\
+         \x20   /// The order.\n    pub order: usize,\n\
+         \x20   /// The group.\n    pub group: &'static str,\n\
          \x20   /// WGSL.\n    pub wgsl: &'static str,\n\
-         \x20   /// GLSL for 4.50, 3.30 and ES 3.00, without a version of its own.\n    pub glsl: &'static str,\n}}\n"
+         \x20   /// GLSL for 4.50, 3.30 and ES 3.00, without a version of its own.\n    pub glsl: &'static str,\n\
+         \x20   /// The specs of its kernels and the names of their functions.\n    \
+         pub kernels: &'static [(&'static str, &'static str)],\n}}\n"
     );
     let mut all = String::new();
-    for function in functions {
-        let (spec, name) = (&function.spec, function.shader_name());
-        let (order, stem) = (spec.order, spec.stem());
-        let constant = name.to_uppercase();
+    for module in modules.iter().rev() {
+        let Some(Function { spec, .. }) = module.functions.first() else { continue };
+        let (name, constant) = (&module.name, module.name.to_uppercase());
+        let (order, group) = (spec.order, spec.family.group);
+        let kernel =
+            |function: &Function| format!("        (\"{}\", \"{}\"),\n", function.spec, function.shader_name());
+        let kernels: String = module.functions.iter().map(kernel).collect();
         shaders += &format!(
-            "\n/// `{spec}`.\npub const {constant}: Shader = Shader {{\n    spec: \"{spec}\",\n    name: \"{name}\",\n    \
-             wgsl: include_str!(\"../wgsl/sh{order}/{stem}.wgsl\"),\n    \
-             glsl: include_str!(\"../glsl/sh{order}/{stem}.glsl\"),\n}};\n"
+            "\n/// Order {order}: {}.\npub const {constant}: Shaders = Shaders {{\n    order: {order},\n    \
+             group: \"{}\",\n    wgsl: include_str!(\"../wgsl/{name}.wgsl\"),\n    \
+             glsl: include_str!(\"../glsl/{name}.glsl\"),\n    kernels: &[\n{kernels}    ],\n}};\n",
+            group.what(),
+            group.name()
         );
         all += &format!("    {constant},\n");
     }
-    shaders += &format!("\n/// All of them, by order.\npub const ALL: &[Shader] = &[\n{all}];\n");
+    shaders += &format!("\n/// All of them.\npub const ALL: &[Shaders] = &[\n{all}];\n");
     let real = format!("{head}//! What the kernels are generic over.\n\n{}", support::real(support::Std::ByFeature));
-    [("rust/mod.rs", root), ("rust/shaders.rs", shaders), ("rust/real.rs", real)]
+    [("rust/lib.rs", root), ("rust/shaders.rs", shaders), ("rust/real.rs", real)]
         .map(|(path, text)| File { path: path.to_owned(), text })
         .to_vec()
 }

@@ -4,8 +4,8 @@
 
 use core::fmt::Debug;
 
-use crate::generated::real::{Channels, Real, Signal};
-use crate::generated::{sh2, sh3, sh4, sh5, sh6, sh7, sh8, sh9, sh10};
+use zonal_kernels::real::{Channels, Real, Signal};
+use zonal_kernels::{sh2, sh3, sh4, sh5, sh6, sh7, sh8, sh9, sh10};
 
 mod sealed {
     pub trait Sealed {}

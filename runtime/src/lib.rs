@@ -63,18 +63,12 @@
 compile_error!("zonal needs square roots: turn on its feature `std`, or `libm` where there is no standard library");
 
 mod coefficients;
-#[rustfmt::skip]
-#[path = "../generated/rust/mod.rs"]
-mod generated;
 mod rotation;
 
 pub use coefficients::{Coefficients, Element, Scalar, Zonal};
-pub use generated::*;
 pub use glam;
 pub use rotation::Rotation;
-
-#[doc = include_str!("../generated/COSTS.md")]
-pub mod costs {}
+pub use zonal_kernels::*;
 
 /// All n² harmonics at a direction of unit length, bands ascending, m from −l to l.
 ///

@@ -1,7 +1,7 @@
 //! The checked-in set: the same bytes every time, fresh in the repository, no dearer than the ledger says.
 
 use std::collections::BTreeMap;
-use zonal_codegen::catalog::{files, standard};
+use zonal_codegen::catalog::{BESIDE, files, standard};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::zhf;
 use zonal_codegen::files::{Difference, File, differences};
@@ -13,7 +13,7 @@ fn the_catalogue_is_deterministic_and_fresh() {
     let first = files().expect("the catalogue is valid");
     let second = files().expect("the catalogue is valid");
     assert_eq!(first, second, "twice the same bytes");
-    let found = differences(&repository("generated"), &first).expect("generated/ can be read");
+    let found = differences(&repository("generated"), &first, &BESIDE).expect("generated/ can be read");
     let list: Vec<String> = found.iter().map(Difference::to_string).collect();
     assert!(
         list.is_empty(),
@@ -29,11 +29,11 @@ fn stale_missing_and_orphaned_files_are_found() {
     let wanted = [file("wgsl/a.wgsl", "a"), file("wgsl/b.wgsl", "b"), file("c.md", "c")];
     assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 3);
     assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 0, "unchanged files stay");
-    assert_eq!(differences(&folder, &wanted).expect("readable"), []);
+    assert_eq!(differences(&folder, &wanted, &[]).expect("readable"), []);
     std::fs::write(folder.join("wgsl/a.wgsl"), "changed").expect("writable");
     std::fs::remove_file(folder.join("c.md")).expect("removable");
     std::fs::write(folder.join("wgsl/d.wgsl"), "d").expect("writable");
-    let found = differences(&folder, &wanted).expect("readable");
+    let found = differences(&folder, &wanted, &[]).expect("readable");
     assert_eq!(
         found,
         [
@@ -42,7 +42,7 @@ fn stale_missing_and_orphaned_files_are_found() {
             Difference::Orphaned("wgsl/d.wgsl".into())
         ]
     );
-    assert_eq!(zonal_codegen::files::remove_orphans(&folder, &wanted).expect("removable"), 1);
+    assert_eq!(zonal_codegen::files::remove_orphans(&folder, &wanted, &[]).expect("removable"), 1);
     std::fs::remove_dir_all(&folder).expect("removable");
 }
 

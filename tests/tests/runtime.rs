@@ -306,8 +306,15 @@ fn bands_do_not_mix() {
 
 #[test]
 fn shader_texts_are_the_files() {
-    for shader in zonal::shaders::ALL {
-        assert!(shader.wgsl.contains(&format!("fn {}(", shader.name)), "{}", shader.spec);
-        assert!(shader.glsl.contains(&format!(" {}(", shader.name)), "{}", shader.spec);
+    let mut specs = std::collections::BTreeSet::new();
+    for file in zonal::shaders::ALL {
+        for (spec, name) in file.kernels {
+            assert!(file.wgsl.contains(&format!("fn {name}(")), "{spec}");
+            assert!(file.glsl.contains(&format!(" {name}(")), "{spec}");
+            assert!(spec.split(':').nth(1) == Some(&file.order.to_string()), "{spec} in order {}", file.order);
+            assert!(specs.insert(*spec), "{spec} stands twice");
+        }
     }
+    let standard: Vec<String> = zonal_codegen::catalog::standard().iter().map(ToString::to_string).collect();
+    assert!(standard.len() == specs.len() && standard.iter().all(|spec| specs.contains(spec.as_str())));
 }

@@ -224,7 +224,7 @@ pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
     let bar = progress("generating and validating the catalogue");
     let all = catalog::files()?;
     drop(bar);
-    let found = files::differences(folder, &all)?;
+    let found = files::differences(folder, &all, &catalog::BESIDE)?;
     if check {
         if found.is_empty() {
             return out(&format!("{} files are as they should be\n", all.len()));
@@ -243,7 +243,7 @@ pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
         }
     }
     let changed = files::write(folder, &all)?;
-    let removed = files::remove_orphans(folder, &all)?;
+    let removed = files::remove_orphans(folder, &all, &catalog::BESIDE)?;
     out(&format!(
         "{} files in `{}`, all validated: {changed} changed, {removed} removed, in {:.1} s\n",
         all.len(),

@@ -416,6 +416,16 @@ impl Constants {
 }
 
 impl Module {
+    /// The module of one function.
+    pub fn of(function: &Function) -> Self {
+        Self {
+            name: function.shader_name(),
+            origin: format!("`{}`", function.spec),
+            functions: vec![function.clone()],
+            constants: vec![],
+        }
+    }
+
     /// The text of the module in a shader language.
     ///
     /// # Errors

@@ -52,15 +52,27 @@ impl Group {
     pub const ALL: [Self; 6] =
         [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece];
 
-    /// Its name in files.
+    /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Evaluate => "evaluate",
-            Self::Rotate => "rotate",
-            Self::Tilt => "tilt",
-            Self::SmallAngle => "small",
-            Self::Factorise => "factorise",
+            Self::Evaluate => "evaluation",
+            Self::Rotate => "rotation",
+            Self::Tilt => "tilting",
+            Self::SmallAngle => "small_angles",
+            Self::Factorise => "factorisation",
             Self::Piece => "pieces",
+        }
+    }
+
+    /// What its kernels do, in a sentence without its stop.
+    pub fn what(self) -> &'static str {
+        match self {
+            Self::Evaluate => "the basis, and sums over it",
+            Self::Rotate => "exact rotations, and what is done once for many of them",
+            Self::Tilt => "the shortest rotation of z to a normal",
+            Self::SmallAngle => "rotations by a small angle, approximately",
+            Self::Factorise => "the sparse zonal factorisation",
+            Self::Piece => "what rotations are made of, about one axis",
         }
     }
 }
