@@ -1,6 +1,6 @@
 //! The checked-in set: every family at every order from 2 to 10, as files in three languages, with a table of costs.
 
-use crate::emit::dialect::Target;
+use crate::emit::language::{GLSL, RUST, Target, WGSL};
 use crate::emit::validate::validate;
 use crate::emit::{Function, Module, support};
 use crate::families::spec::{Family, Form, Method, Spec};
@@ -133,18 +133,11 @@ pub fn files() -> Result<Vec<File>, GenerateError> {
         .par_iter()
         .map(|function| {
             let (stem, order) = (function.spec.stem(), function.spec.order);
-            let module = Module {
-                name: function.shader_name(),
-                origin: format!("`{}`", function.spec),
-                functions: vec![function.clone()],
-                constants: vec![],
-            };
-            [Target::Wgsl, Target::Glsl]
+            let module = Module::of(function.clone());
+            // Names a language: the checked-in set is these, whichever others zonal knows.
+            [&WGSL, &GLSL]
                 .into_iter()
-                .map(|target| {
-                    let extension = target.extension();
-                    file(&module, target, format!("{target}/sh{order}/{stem}.{extension}"))
-                })
+                .map(|target: Target| file(&module, target, format!("{target}/sh{order}/{stem}.{}", target.extension)))
                 .collect()
         })
         .collect();
@@ -164,11 +157,12 @@ fn rust_file(order: usize, functions: &[Function]) -> Result<File, GenerateError
         name: format!("sh{order}"),
         origin: format!("the standard catalogue, order {order}"),
         functions: functions.iter().filter(|function| function.spec.order == order).cloned().collect(),
-        constants: vec![],
+        ..Module::default()
     };
     let path = format!("rust/sh{order}.rs");
-    let text = module.rust_file();
-    validate(Target::Rust, &path, &text)?;
+    let text = module.rust_file()?;
+    // Names a language: the crate of the checked-in set is Rust.
+    validate(&RUST, &path, &text)?;
     Ok(File { path, text })
 }
 
