@@ -13,7 +13,7 @@
 //!
 //! Then `include!(concat!(env!("OUT_DIR"), "/kernels.rs"));` in a module of its own, and `include_str!` for the shaders.
 
-use crate::emit::dialect::Target;
+use crate::emit::language::{self, Arrays, Target};
 use crate::files::{self, Difference, File, FileError};
 use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
@@ -60,6 +60,7 @@ pub struct Builder {
     origin: Origin,
     kernels: Vec<Wanted>,
     targets: Vec<Target>,
+    arrays: Option<Arrays>,
 }
 
 fn located(source: &str, text: &str) -> Located<String> {
@@ -68,7 +69,7 @@ fn located(source: &str, text: &str) -> Located<String> {
 
 impl Builder {
     fn from_origin(origin: Origin) -> Self {
-        Self { origin, kernels: vec![], targets: vec![] }
+        Self { origin, kernels: vec![], targets: vec![], arrays: None }
     }
 
     /// An empty builder whose files are called `name`.
@@ -106,16 +107,23 @@ impl Builder {
         self
     }
 
+    /// Sets how kernels take and return arrays; without it, as the scene says, or as each language does by itself.
+    #[must_use]
+    pub fn arrays(mut self, arrays: Arrays) -> Self {
+        self.arrays = Some(arrays);
+        self
+    }
+
     fn resolved(&self) -> Result<Scene, Diagnostic> {
         let mut scene = match &self.origin {
             Origin::File(path) => Scene::read(path)?,
             Origin::Scene(scene) => (**scene).clone(),
         };
         scene.kernels.extend(self.kernels.iter().cloned());
+        scene.arrays = self.arrays.or(scene.arrays);
         if !self.targets.is_empty() {
             scene.targets.clone_from(&self.targets);
-            scene.targets.sort();
-            scene.targets.dedup();
+            language::sort(&mut scene.targets);
         }
         Ok(scene)
     }
@@ -194,7 +202,7 @@ pub fn files_of(plan: &Plan) -> Result<Vec<File>, Error> {
     let name = &plan.scene;
     let mut files = Vec::new();
     for &target in &plan.targets {
-        let path = format!("{name}.{}", target.extension());
+        let path = format!("{name}.{}", target.extension);
         let file = generate::file(&plan.module, target, path).map_err(|error| located_limit(plan, error))?;
         files.push(file);
     }
@@ -229,7 +237,7 @@ mod tests {
         let plan = Builder::new("a").spec("eval:2").spec("eval:3").plan().expect("valid");
         let limit = |spec: &str| Limit {
             spec: spec.to_owned(),
-            target: Target::Wgsl,
+            target: &language::WGSL,
             why: "6000 statements, and 5000 is the most".to_owned(),
             help: "take a lower order".to_owned(),
         };

@@ -1,6 +1,6 @@
 //! From specs to text that is checked: kernels built, each once whatever its channels, printed and validated.
 
-use crate::emit::dialect::Target;
+use crate::emit::language::Target;
 use crate::emit::validate::{Invalid, validate};
 use crate::emit::{Function, Limit, Module};
 use crate::families::family::Spec;
@@ -37,13 +37,7 @@ pub fn build(specs: &[Spec]) -> Vec<Function> {
 
 /// Prints and validates one module in one language.
 pub fn file(module: &Module, target: Target, path: String) -> Result<File, GenerateError> {
-    let text = match target {
-        Target::Rust => {
-            module.check_rust()?;
-            module.rust_alone()
-        }
-        _ => module.shader(target)?,
-    };
+    let text = module.text(target)?;
     validate(target, &path, &text)?;
     Ok(File { path, text })
 }

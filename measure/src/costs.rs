@@ -4,7 +4,7 @@ use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::EVAL;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
@@ -51,13 +51,8 @@ fn of(spec: &Spec) -> Costs {
     let listing = Listing::new(&spec.kernel());
     let Cost { mul, fma, special, total, .. } = listing.cost(1);
     let footprint = listing.footprint();
-    let module = Module {
-        name: function.shader_name(),
-        origin: format!("`{spec}`"),
-        functions: vec![function],
-        constants: vec![],
-    };
-    let bytes = |target| module.shader(target).map_or(0, |text| text.len());
+    let module = Module::of(function);
+    let bytes = |target| module.text(target).map_or(0, |text| text.len());
     Costs {
         spec: spec.to_string(),
         order: spec.order,
@@ -67,8 +62,8 @@ fn of(spec: &Spec) -> Costs {
         special,
         constants: footprint.constants,
         live: footprint.live,
-        wgsl: bytes(Target::Wgsl),
-        glsl: bytes(Target::Glsl),
+        wgsl: bytes(&WGSL),
+        glsl: bytes(&GLSL),
     }
 }
 

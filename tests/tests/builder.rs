@@ -1,7 +1,7 @@
 //! The builder: the same files as the command line, pure until it writes, errors that say where.
 
 use zonal_codegen::builder::{Builder, Error};
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{ALL, RUST};
 use zonal_codegen::emit::validate::validate;
 use zonal_codegen::files::Difference;
 use zonal_tests::command::Folder;
@@ -20,13 +20,13 @@ fn specs_become_files() {
     let files = builder.generate().expect("valid");
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(paths, ["kernels.wgsl", "kernels.glsl", "kernels.rs", "kernels.md"]);
-    for (target, file) in Target::ALL.into_iter().zip(&files) {
+    for (target, file) in ALL.into_iter().zip(&files) {
         validate(target, &file.path, &file.text).expect("valid");
     }
     assert!(files[0].text.contains("fn turn(") && files[0].text.contains("fn sh3_eval_rgb("));
     assert!(files[3].text.contains("| `rotate:3:rgb` | `turn`"), "{}", files[3].text);
     assert_eq!(files, builder.generate().expect("valid"), "twice the same bytes");
-    let rust = builder.target(Target::Rust).generate().expect("valid");
+    let rust = builder.target(&RUST).generate().expect("valid");
     assert_eq!((rust.len(), &rust[0]), (2, &files[2]));
 }
 

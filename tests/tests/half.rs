@@ -4,7 +4,7 @@ use half::f16;
 use std::path::PathBuf;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Module;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{GLSL, RUST, WGSL};
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::{build, file};
 use zonal_codegen::ir::eval::{Contraction, Number};
@@ -23,7 +23,7 @@ fn halves() -> Vec<Spec> {
 
 fn text(spec: &Spec) -> String {
     let module = Module { functions: build(std::slice::from_ref(spec)), origin: spec.to_string(), ..Module::default() };
-    file(&module, Target::Wgsl, spec.name()).unwrap_or_else(|error| panic!("{spec}: {error}")).text
+    file(&module, &WGSL, spec.name()).unwrap_or_else(|error| panic!("{spec}: {error}")).text
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn what_f16_cannot_do_is_refused() {
         let error = text.parse::<Spec>().expect_err(text).to_string();
         assert!(error.contains("does not work in f16") && error.contains("need f32"), "{text}: {error}");
     }
-    for target in [Target::Glsl, Target::Rust] {
+    for target in [&GLSL, &RUST] {
         let module = Module { functions: build(&[spec("tilt:4:f16")]), ..Module::default() };
         let error = file(&module, target, "a".to_owned()).expect_err("only WGSL has f16").to_string();
         assert!(error.contains("only WGSL has f16"), "{error}");

@@ -5,8 +5,10 @@ use serde_json::Value as Json;
 use std::path::Path;
 use std::process::Command;
 use zonal_codegen::builder::Builder;
-use zonal_codegen::emit::dialect::{Dialect, Target};
-use zonal_codegen::emit::loop_body::{MAX_TABLE, print, too_long};
+use zonal_codegen::emit::dialect::Dialect;
+use zonal_codegen::emit::language::shader::MAX_TABLE;
+use zonal_codegen::emit::language::{GLSL, RUST, Target, WGSL};
+use zonal_codegen::emit::loop_body::{print, too_long};
 use zonal_codegen::families::SmallAngle;
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::about_y::about_y;
@@ -17,7 +19,8 @@ use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Kernel, Shape};
 use zonal_codegen::ir::listing::{Cost, Listing};
-use zonal_codegen::ir::program::{Int, LoopKernel, Num, NumOp, Stmt, Table};
+use zonal_codegen::ir::op::Op;
+use zonal_codegen::ir::program::{Int, LoopKernel, Num, Stmt, Table};
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::promise::samples::Random;
 use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
@@ -230,7 +233,7 @@ fn tables_have_the_size_they_promise() {
         assert_eq!(lengths(&basis_loop(order)), [pairs, pairs, order - 1]);
         let kernel = rotate_loop(order);
         assert_eq!(lengths(&kernel), [order * (order * order + 2) / 3 - 1]);
-        let refused = too_long(&kernel).map(|table| table.name);
+        let refused = too_long(&kernel, &WGSL).map(|table| table.name);
         assert_eq!(refused, (order > 36).then_some("J"), "up to {MAX_TABLE} entries");
     }
 }
@@ -267,16 +270,16 @@ fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
     let body = print(kernel, dialect, &name.to_uppercase());
     let params: Vec<String> = kernel.params.iter().map(|param| dialect.parameter(param)).collect();
     let params = params.join(", ");
-    let result = dialect.type_of(kernel.result, kernel.result_kind);
-    let head = match dialect.target {
-        Target::Wgsl => format!("fn {name}({params}) -> {result} {{"),
-        Target::Glsl => format!("{result} {name}({params}) {{"),
-        Target::Rust => format!("pub fn {name}<T: Real, V: Signal<T>>({params}) -> {result} {{"),
+    let result = dialect.type_of(kernel.result, kernel.result_kind).text;
+    let head = match dialect.language.name {
+        "wgsl" => format!("fn {name}({params}) -> {result} {{"),
+        "glsl" => format!("{result} {name}({params}) {{"),
+        _ => format!("pub fn {name}<T: Real, V: Signal<T>>({params}) -> {result} {{"),
     };
     let lines: Vec<String> = body.lines.iter().map(|line| format!("    {line}")).collect();
-    let tail = match dialect.target {
-        Target::Rust => body.result,
-        _ => format!("return {};", body.result),
+    let tail = match dialect.language.statements.tail {
+        true => body.result,
+        false => format!("return {};", body.result),
     };
     format!("{}\n{head}\n{}\n    {tail}\n}}\n", body.tables.join("\n"), lines.join("\n"))
 }
@@ -295,12 +298,9 @@ fn argument(shape: Shape, kind: Kind, channels: &[Vec<f32>]) -> Value {
 
 /// Runs a kernel's text and the interpreter on the same numbers.
 fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
-    let dialect = Dialect { target, rgb, half: false };
+    let dialect = Dialect { rgb, ..Dialect::new(target) };
     let text = text(kernel, dialect, "kernel");
-    let language = match target {
-        Target::Wgsl => Language::Wgsl,
-        _ => Language::Glsl,
-    };
+    let language = if target == &WGSL { Language::Wgsl } else { Language::Glsl };
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
     let program = Program::<f32>::new(&Listing::from(kernel));
     let channels = if rgb { 3 } else { 1 };
@@ -344,7 +344,7 @@ fn shader_text_does_what_the_interpreter_does() {
     for (name, make) in LOOPS {
         for order in [2, 3, 5, 10] {
             let kernel = make(order);
-            for target in [Target::Wgsl, Target::Glsl] {
+            for target in [&WGSL, &GLSL] {
                 compare(name, &kernel, target, false);
                 if kernel.result_kind == Kind::Signal {
                     compare(name, &kernel, target, true);
@@ -373,7 +373,7 @@ fn every_operation_is_printed_as_it_is_run() {
             body: vec![
                 Stmt::Int("at", index),
                 Stmt::Set("y", -(y() - (x() - (y() + Num::Tiny))) * (-(x() * x()) + y())),
-                Stmt::Set("y", y() + Num::Op(NumOp::Recip, vec![y() * y() + Exact::one()])),
+                Stmt::Set("y", y() + Num::of(Op::Recip(y() * y() + Exact::one()))),
                 Stmt::store("r", "k", -(x() * Exact::int(-2)) * (y() * y() + Exact::one()).rsqrt()),
                 Stmt::Set("y", y() * (Num::item("r", "k") * Num::item("T", "at")) + Exact::int(-1)),
                 Stmt::Advance("k"),
@@ -385,7 +385,7 @@ fn every_operation_is_printed_as_it_is_run() {
     kernel.params[0].name = "v";
     kernel.tables = vec![Table { name: "T", values, doc: "one line\nand another".to_owned() }];
     kernel.body = body;
-    for target in [Target::Wgsl, Target::Glsl] {
+    for target in [&WGSL, &GLSL] {
         compare("everything", &kernel, target, false);
     }
 }
@@ -393,7 +393,7 @@ fn every_operation_is_printed_as_it_is_run() {
 #[test]
 fn taylor15_reads_the_same_in_every_language() {
     let kernel = taylor15_loop(2);
-    let body = |target| print(&kernel, Dialect { target, rgb: true, half: false }, "SH_TAYLOR");
+    let body = |target| print(&kernel, Dialect { rgb: true, ..Dialect::new(target) }, "SH_TAYLOR");
     let wgsl = [
         "var r: array<vec3<f32>, 4>;",
         "let half_square = 0.5 * beta * beta;",
@@ -404,13 +404,13 @@ fn taylor15_reads_the_same_in_every_language() {
         "}",
         "r[3] = c[3] * (1.0 + half_square * SH_TAYLOR_DDY_DIAG[3]) + c[2] * SH_TAYLOR_DY_SUB_DIAG[3] * beta;",
     ];
-    assert_eq!(body(Target::Wgsl).lines, wgsl);
+    assert_eq!(body(&WGSL).lines, wgsl);
     let glsl = wgsl.map(|line| {
         line.replace("var r: array<vec3<f32>, 4>", "vec3 r[4]")
             .replace("let half", "float half")
             .replace("var i", "int i")
     });
-    assert_eq!(body(Target::Glsl).lines, glsl);
+    assert_eq!(body(&GLSL).lines, glsl);
     let rust = [
         "let mut r = [V::zero(); 4];",
         "let half_square = T::lit(0.5) * beta * beta;",
@@ -422,14 +422,14 @@ fn taylor15_reads_the_same_in_every_language() {
         "r[3] = (c[2] * T::lit(SH_TAYLOR_DY_SUB_DIAG[3]))\
          .fma(beta, c[3] * half_square.fma(T::lit(SH_TAYLOR_DDY_DIAG[3]), T::lit(1.0)));",
     ];
-    assert_eq!(body(Target::Rust).lines, rust);
+    assert_eq!(body(&RUST).lines, rust);
     assert_eq!(
-        body(Target::Rust).tables[0],
+        body(&RUST).tables[0],
         "// dD/dbeta at 0, from m - 1 to m\n#[allow(clippy::approx_constant)]\n\
          static SH_TAYLOR_DY_SUB_DIAG: [f64; 4] = [\n    0.0, 0.0, 0.0, -1.0\n];"
     );
     assert_eq!(
-        body(Target::Wgsl).tables[1],
+        body(&WGSL).tables[1],
         "// the diagonal of the second derivative of D at 0\n\
          const SH_TAYLOR_DDY_DIAG = array<f32, 4>(\n    0.0, 0.0, -1.0, -1.0\n);"
     );
@@ -440,7 +440,7 @@ fn taylor15_reads_the_same_in_every_language() {
 #[test]
 fn a_tall_rotation_is_exact_where_its_angles_are() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tall");
-    Builder::new("tall").spec("rotate:64:loop").target(Target::Rust).write(&folder).expect("is written");
+    Builder::new("tall").spec("rotate:64:loop").target(&RUST).write(&folder).expect("is written");
     let program = folder.join("program");
     let rustc = Command::new("rustc")
         .args(["--edition=2024", "-Copt-level=1", "-o"])

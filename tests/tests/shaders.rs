@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use zonal_codegen::catalog::standard;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{GLSL, Target, WGSL};
 use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::generate::build;
 use zonal_codegen::ir::code::Code;
@@ -15,15 +15,6 @@ use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
 
 /// How many inputs each kernel is run on; the first are the extremes.
 const CASES: usize = 20;
-
-fn module(function: &Function) -> Module {
-    Module {
-        name: function.shader_name(),
-        origin: format!("`{}`", function.spec),
-        functions: vec![function.clone()],
-        constants: vec![],
-    }
-}
 
 /// An argument from one list of numbers a channel.
 fn argument(param: &Param, channels: &[Vec<f32>]) -> Value {
@@ -63,7 +54,7 @@ fn channels_of(value: &Value, shape: Shape, kind: Kind, channels: usize) -> Vec<
 }
 
 fn check(function: &Function, target: Target, language: Language) {
-    let text = module(function).shader(target).expect("the catalogue fits its targets");
+    let text = Module::of(function.clone()).text(target).expect("the catalogue fits its targets");
     let name = function.shader_name();
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));
     assert_eq!(shader.functions(), std::slice::from_ref(&name), "{target}");
@@ -132,10 +123,10 @@ fn check_all(target: Target, language: Language) {
 
 #[test]
 fn every_wgsl_function_computes_what_the_interpreter_does() {
-    check_all(Target::Wgsl, Language::Wgsl);
+    check_all(&WGSL, Language::Wgsl);
 }
 
 #[test]
 fn every_glsl_function_computes_what_the_interpreter_does() {
-    check_all(Target::Glsl, Language::Glsl);
+    check_all(&GLSL, Language::Glsl);
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use zonal_codegen::builder;
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::files::{self, Difference, File};
 use zonal_codegen::generate::{self, Row};
@@ -48,7 +48,7 @@ pub fn generate(path: Option<PathBuf>, folder: Option<PathBuf>) -> Result<(), Fa
     let changed = files::write(&folder, &files)?;
     drop(bar);
 
-    let targets: Vec<&str> = plan.targets.iter().map(|target| target.name()).collect();
+    let targets: Vec<&str> = plan.targets.iter().map(|target| target.name).collect();
     let mut text = format!("{}: for {}\n", plan.scene, targets.join(", "));
     if let Some(environment) = &plan.environment {
         text += &format!("\n  {}: {}\n", environment.name, environment.summary());
@@ -151,13 +151,19 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
     out(&table(&lines))
 }
 
-pub fn show(spec: &str, target: &str) -> Result<(), Failure> {
+pub fn show(spec: &str, target: &str, arrays: Option<&str>) -> Result<(), Failure> {
     let spec = spec_of(spec)?;
-    let target: Target = target.parse().map_err(|message: String| Diagnostic::nowhere(message, ""))?;
+    let target = language::named(target).map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let bar = progress("building and measuring");
     let functions = generate::build(std::slice::from_ref(&spec));
-    let module = Module { name: spec.name(), origin: format!("`{spec}`"), functions, constants: vec![] };
-    let file = generate::file(&module, target, format!("{}.{}", spec.name(), target.extension()))?;
+    let module = Module {
+        name: spec.name(),
+        origin: format!("`{spec}`"),
+        functions,
+        arrays: arrays.and_then(Arrays::named),
+        ..Module::default()
+    };
+    let file = generate::file(&module, target, format!("{}.{}", spec.name(), target.extension))?;
     drop(bar);
     out(&file.text)
 }

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 use zonal_codegen::builder::Error;
 use zonal_codegen::drawn::draw;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::text::family_names;
 use zonal_codegen::scene::diagnostic::Diagnostic;
@@ -67,8 +67,11 @@ enum Command {
         /// What to print, as in `rotate:5:rgb`.
         spec: String,
         /// The language.
-        #[arg(long, default_value = "wgsl", value_parser = Target::ALL.map(Target::name))]
+        #[arg(long, default_value = "wgsl", value_parser = language::ALL.map(|language| language.name))]
         target: String,
+        /// How it takes and returns arrays, if the language knows more than one way.
+        #[arg(long, value_parser = Arrays::ALL.map(|(_, name)| name))]
+        arrays: Option<String>,
     },
     /// Projects an environment map and says what each order leaves out.
     Project {
@@ -204,7 +207,7 @@ pub fn main() -> ExitCode {
         Command::Generate { scene, out } => commands::generate(scene, out),
         Command::Plan { scene, json, plot } => commands::plan(scene, json, plot),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
-        Command::Show { spec, target } => commands::show(&spec, &target),
+        Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
         Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Explore { out, port, no_serve } => explore::explore(out, port, !no_serve),

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::catalog;
     use crate::emit::Module;
-    use crate::emit::dialect::Target;
+    use crate::emit::language;
     use crate::emit::validate::validate;
     use crate::families::text::family_names;
     use crate::generate;
@@ -71,11 +71,8 @@ mod tests {
             let accuracy = &functions[0].built.accuracy;
             assert!(accuracy.proven && accuracy.measured_f32 <= accuracy.rounding_f32, "{accuracy:?}");
             let module = Module { name: "toy".to_owned(), functions, ..Module::default() };
-            for target in Target::ALL {
-                let printed = match target {
-                    Target::Rust => module.rust_alone(),
-                    _ => module.shader(target).unwrap(),
-                };
+            for target in language::ALL {
+                let printed = module.text(target).unwrap();
                 assert!(printed.contains("Rotates order 4 about y by way of z: a toy."), "{target}");
                 assert!(printed.contains("for every angle (proven for"), "{target}");
                 validate(target, "toy", &printed).unwrap();

@@ -1,7 +1,8 @@
 //! The interpreter: runs a [`Listing`] in f16, f32 or f64, operation by operation, so that what the printers write can be
 //! checked against it bit for bit.
 
-use crate::ir::listing::{Listing, Op, Operand, Sign};
+use crate::ir::listing::{Listing, Operand};
+use crate::ir::op::{Op, Sign};
 use crate::math::exact::Exact;
 use half::f16;
 use std::fmt::Debug;
@@ -132,26 +133,7 @@ impl<T: Number> Program<T> {
     pub fn run(&self, inputs: &[&[T]], contraction: Contraction) -> Vec<T> {
         let mut values: Vec<T> = Vec::with_capacity(self.listing.steps.len());
         for step in &self.listing.steps {
-            let get = |operand| self.get(operand, &values, inputs);
-            let value = match step.op {
-                Op::Neg(a) => -get(a),
-                Op::Add(a, b) => get(a) + get(b),
-                Op::Sub(a, b) => get(a) - get(b),
-                Op::Mul(a, b) => get(a) * get(b),
-                Op::Recip(a) => T::ONE / get(a),
-                Op::Rsqrt(a) => T::ONE / get(a).root(),
-                Op::Fma(a, b, c, sign) => {
-                    let (a, b, c) = (get(a), get(b), get(c));
-                    match (contraction, sign) {
-                        (Contraction::Fused, Sign::Plus) => a.fused(b, c),
-                        (Contraction::Fused, Sign::MinusAddend) => a.fused(b, -c),
-                        (Contraction::Fused, Sign::MinusProduct) => (-a).fused(b, c),
-                        (Contraction::Separate, Sign::Plus) => a * b + c,
-                        (Contraction::Separate, Sign::MinusAddend) => a * b - c,
-                        (Contraction::Separate, Sign::MinusProduct) => c - a * b,
-                    }
-                }
-            };
+            let value = apply(step.op.map(|operand| self.get(operand, &values, inputs)), contraction);
             values.push(value);
         }
         self.listing.outputs.iter().map(|&operand| self.get(operand, &values, inputs)).collect()
@@ -164,5 +146,25 @@ impl<T: Number> Program<T> {
             Operand::Tiny => T::TINY,
             Operand::Input { param, index } => inputs[param][index],
         }
+    }
+}
+
+/// Does one operation.
+fn apply<T: Number>(op: Op<T>, contraction: Contraction) -> T {
+    match op {
+        Op::Neg(a) => -a,
+        Op::Add(a, b) => a + b,
+        Op::Sub(a, b) => a - b,
+        Op::Mul(a, b) => a * b,
+        Op::Fma(a, b, c, sign) => match (contraction, sign) {
+            (Contraction::Fused, Sign::Plus) => a.fused(b, c),
+            (Contraction::Fused, Sign::MinusAddend) => a.fused(b, -c),
+            (Contraction::Fused, Sign::MinusProduct) => (-a).fused(b, c),
+            (Contraction::Separate, Sign::Plus) => a * b + c,
+            (Contraction::Separate, Sign::MinusAddend) => a * b - c,
+            (Contraction::Separate, Sign::MinusProduct) => c - a * b,
+        },
+        Op::Recip(a) => T::ONE / a,
+        Op::Rsqrt(a) => T::ONE / a.root(),
     }
 }

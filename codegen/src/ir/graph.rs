@@ -1,6 +1,7 @@
 //! The expression graph: nodes that are simplified and shared as they are made, so that a kernel is never larger than
 //! its recurrence asks. It knows arithmetic and nothing of harmonics, text or targets.
 
+use crate::ir::op::Op;
 use crate::math::exact::Exact;
 use std::collections::HashMap;
 
@@ -17,7 +18,8 @@ pub enum Kind {
     Signal,
 }
 
-/// One operation. Signs stand outside of products: `Neg` is never a factor, and of two summands at most the second.
+/// A leaf, or one operation. Signs stand outside of products: a negation is never a factor, and of two summands at most
+/// the second is one. Neither a difference nor a multiply-add is ever made here.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A constant, exact until it is printed.
@@ -31,16 +33,8 @@ pub enum Node {
         /// Which of its components, in flat order.
         index: u32,
     },
-    /// −a.
-    Neg(Id),
-    /// a + b.
-    Add(Id, Id),
-    /// a · b; a signal, if there is one, comes first, else a constant.
-    Mul(Id, Id),
-    /// 1 / a.
-    Recip(Id),
-    /// 1 / √a.
-    Rsqrt(Id),
+    /// An operation on nodes; of the factors of a product a signal, if there is one, comes first, else a constant.
+    Op(Op<Id>),
 }
 
 /// A set of nodes in which equal nodes are one node.
@@ -100,6 +94,14 @@ impl Graph {
         id
     }
 
+    /// # Panics
+    ///
+    /// If the operation does not take operands of these kinds.
+    fn apply(&mut self, op: Op<Id>) -> Id {
+        let kind = op.map(|id| self.kind(id)).kind().unwrap_or_else(|fault| panic!("{fault}"));
+        self.push(Node::Op(op), kind)
+    }
+
     fn exact(&self, id: Id) -> Option<&Exact> {
         match self.node(id) {
             Node::Const(value) => Some(value),
@@ -125,15 +127,12 @@ impl Graph {
     /// −a.
     pub fn neg(&mut self, a: Id) -> Id {
         match self.node(a) {
-            Node::Neg(inner) => *inner,
+            Node::Op(Op::Neg(inner)) => *inner,
             Node::Const(value) => {
                 let value = -value.clone();
                 self.constant(value)
             }
-            _ => {
-                let kind = self.kind(a);
-                self.push(Node::Neg(a), kind)
-            }
+            _ => self.apply(Op::Neg(a)),
         }
     }
 
@@ -142,7 +141,7 @@ impl Graph {
         match self.exact(a) {
             Some(value) if value.signum() < 0 => {
                 let magnitude = self.constant(value.abs());
-                self.push(Node::Neg(magnitude), Kind::Scalar)
+                self.apply(Op::Neg(magnitude))
             }
             _ => a,
         }
@@ -160,15 +159,14 @@ impl Graph {
             _ => {}
         }
         let (a, b) = (self.summand(a), self.summand(b));
-        let kind = self.kind(a).max(self.kind(b));
         match (self.node(a), self.node(b)) {
-            (&Node::Neg(x), &Node::Neg(y)) => {
+            (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
                 let sum = self.add(x, y);
                 self.neg(sum)
             }
-            (Node::Neg(_), _) => self.push(Node::Add(b, a), kind),
-            (_, Node::Neg(_)) => self.push(Node::Add(a, b), kind),
-            _ => self.push(Node::Add(a.min(b), a.max(b)), kind),
+            (Node::Op(Op::Neg(_)), _) => self.apply(Op::Add(b, a)),
+            (_, Node::Op(Op::Neg(_))) => self.apply(Op::Add(a, b)),
+            _ => self.apply(Op::Add(a.min(b), a.max(b))),
         }
     }
 
@@ -180,11 +178,11 @@ impl Graph {
 
     /// a · b.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
-        if let Node::Neg(inner) = *self.node(a) {
+        if let Node::Op(Op::Neg(inner)) = *self.node(a) {
             let product = self.mul(inner, b);
             return self.neg(product);
         }
-        if let Node::Neg(inner) = *self.node(b) {
+        if let Node::Op(Op::Neg(inner)) = *self.node(b) {
             let product = self.mul(a, inner);
             return self.neg(product);
         }
@@ -198,8 +196,7 @@ impl Graph {
                     (_, Kind::Signal) => (b, a),
                     _ => (a.min(b), a.max(b)),
                 };
-                let kind = self.kind(first);
-                self.push(Node::Mul(first, second), kind)
+                self.apply(Op::Mul(first, second))
             }
         }
     }
@@ -218,11 +215,11 @@ impl Graph {
         }
         match self.node(a).clone() {
             Node::Const(value) => self.constant(factor * &value),
-            Node::Neg(inner) => {
+            Node::Op(Op::Neg(inner)) => {
                 let product = self.scale(factor, inner);
                 self.neg(product)
             }
-            Node::Mul(x, y) => {
+            Node::Op(Op::Mul(x, y)) => {
                 let (constant, other) = match (self.exact(x), self.exact(y)) {
                     (Some(value), None) => (value.clone(), y),
                     (None, Some(value)) => (value.clone(), x),
@@ -237,8 +234,8 @@ impl Graph {
     fn scaled(&mut self, factor: &Exact, a: Id) -> Id {
         let constant = self.constant(factor.clone());
         match self.kind(a) {
-            Kind::Signal => self.push(Node::Mul(a, constant), Kind::Signal),
-            Kind::Scalar => self.push(Node::Mul(constant, a), Kind::Scalar),
+            Kind::Signal => self.apply(Op::Mul(a, constant)),
+            Kind::Scalar => self.apply(Op::Mul(constant, a)),
         }
     }
 
@@ -271,15 +268,15 @@ impl Graph {
 
     /// 1 / a.
     pub fn recip(&mut self, a: Id) -> Id {
-        if let Node::Neg(inner) = *self.node(a) {
+        if let Node::Op(Op::Neg(inner)) = *self.node(a) {
             let positive = self.recip(inner);
             return self.neg(positive);
         }
-        self.push(Node::Recip(a), Kind::Scalar)
+        self.apply(Op::Recip(a))
     }
 
     /// 1 / √a.
     pub fn rsqrt(&mut self, a: Id) -> Id {
-        self.push(Node::Rsqrt(a), Kind::Scalar)
+        self.apply(Op::Rsqrt(a))
     }
 }

@@ -3,6 +3,8 @@
 
 use crate::ir::graph::{Graph, Id, Kind, Node};
 use crate::ir::kernel::{Kernel, Param, Shape};
+pub use crate::ir::op::Sign;
+use crate::ir::op::{self, Price};
 use crate::math::exact::Exact;
 use std::collections::HashMap;
 
@@ -24,60 +26,8 @@ pub enum Operand {
     },
 }
 
-/// How the two parts of a fused operation are signed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Sign {
-    /// a · b + c.
-    Plus,
-    /// a · b − c.
-    MinusAddend,
-    /// c − a · b.
-    MinusProduct,
-}
-
-/// One operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Op {
-    /// −a.
-    Neg(Operand),
-    /// a + b.
-    Add(Operand, Operand),
-    /// a − b.
-    Sub(Operand, Operand),
-    /// a · b; a signal comes first.
-    Mul(Operand, Operand),
-    /// a · b and c, signed as said; a signal comes first in the product.
-    Fma(Operand, Operand, Operand, Sign),
-    /// 1 / a.
-    Recip(Operand),
-    /// 1 / √a.
-    Rsqrt(Operand),
-}
-
-impl Op {
-    /// The same operation on other operands.
-    pub fn map(self, mut of: impl FnMut(Operand) -> Operand) -> Self {
-        match self {
-            Self::Neg(a) => Self::Neg(of(a)),
-            Self::Add(a, b) => Self::Add(of(a), of(b)),
-            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
-            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
-            Self::Fma(a, b, c, sign) => Self::Fma(of(a), of(b), of(c), sign),
-            Self::Recip(a) => Self::Recip(of(a)),
-            Self::Rsqrt(a) => Self::Rsqrt(of(a)),
-        }
-    }
-
-    /// The operands, in the order in which they are written.
-    pub fn operands(&self) -> impl Iterator<Item = Operand> + use<> {
-        let (a, b, c) = match *self {
-            Self::Neg(a) | Self::Recip(a) | Self::Rsqrt(a) => (a, None, None),
-            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) => (a, Some(b), None),
-            Self::Fma(a, b, c, _) => (a, Some(b), Some(c)),
-        };
-        std::iter::once(a).chain(b).chain(c)
-    }
-}
+/// An operation of a listing.
+pub type Op = op::Op<Operand>;
 
 /// A step: an operation, the kind of its value, and how often it is used.
 #[derive(Clone, Copy, Debug)]
@@ -159,7 +109,7 @@ struct Layout<'a> {
 /// The node below a negation, and whether there was one.
 fn unsigned(graph: &Graph, id: Id) -> (Id, bool) {
     match *graph.node(id) {
-        Node::Neg(inner) => (inner, true),
+        Node::Op(op::Op::Neg(inner)) => (inner, true),
         _ => (id, false),
     }
 }
@@ -182,13 +132,12 @@ impl<'a> Layout<'a> {
             stack.push((id, true));
             let operands: Vec<Id> = match *graph.node(id) {
                 Node::Const(_) | Node::Tiny | Node::Input { .. } => vec![],
-                Node::Neg(a) | Node::Recip(a) | Node::Rsqrt(a) => vec![a],
-                Node::Add(a, b) | Node::Mul(a, b) => vec![a, b],
+                Node::Op(op) => op.operands().collect(),
             };
             for &operand in operands.iter().rev() {
                 stack.push((operand, false));
             }
-            if !matches!(graph.node(id), Node::Neg(_)) {
+            if !matches!(graph.node(id), Node::Op(op::Op::Neg(_))) {
                 for &operand in &operands {
                     layout.users.entry(unsigned(graph, operand).0).or_default().push(id);
                 }
@@ -206,14 +155,18 @@ impl<'a> Layout<'a> {
             .order
             .iter()
             .copied()
-            .filter(|id| matches!(self.graph.node(*id), Node::Mul(..)) && !kept.contains(id) && place.contains_key(id))
+            .filter(|id| {
+                matches!(self.graph.node(*id), Node::Op(op::Op::Mul(..)))
+                    && !kept.contains(id)
+                    && place.contains_key(id)
+            })
             .collect();
         products.sort_by_key(|id| self.users[id].len());
         let mut fused: HashMap<Id, Id> = HashMap::new();
         for product in products {
             let users = &self.users[&product];
             let free = users.iter().enumerate().all(|(i, user)| {
-                matches!(self.graph.node(*user), Node::Add(..))
+                matches!(self.graph.node(*user), Node::Op(op::Op::Add(..)))
                     && !fused.contains_key(user)
                     && !users[..i].contains(user)
             });
@@ -261,15 +214,11 @@ impl Listing {
                 Node::Tiny => Operand::Tiny,
                 &Node::Input { param, index } => Operand::Input { param: param as usize, index: index as usize },
                 // A negation is a step only where nothing else can carry the sign.
-                Node::Neg(_) if !outputs.contains(&id) => continue,
-                node => {
-                    let op = match *node {
-                        Node::Neg(a) => Op::Neg(operands[&a]),
-                        Node::Recip(a) => Op::Recip(operands[&a]),
-                        Node::Rsqrt(a) => Op::Rsqrt(operands[&a]),
-                        Node::Mul(a, b) => Op::Mul(operands[&a], operands[&b]),
-                        Node::Add(a, b) => Self::sum(graph, &operands, fused.get(&id).copied(), a, b),
-                        _ => unreachable!("leaves are handled above"),
+                Node::Op(op::Op::Neg(_)) if !outputs.contains(&id) => continue,
+                Node::Op(op) => {
+                    let op = match *op {
+                        op::Op::Add(a, b) => Self::sum(graph, &operands, fused.get(&id).copied(), a, b),
+                        op => op.map(|id| operands[&id]),
                     };
                     listing.steps.push(Step { op, kind: graph.kind(id), uses: 0 });
                     Operand::Step(listing.steps.len() - 1)
@@ -293,7 +242,7 @@ impl Listing {
                 true => Op::Sub(operands[&x], operands[&y]),
             };
         };
-        let &Node::Mul(p, q) = graph.node(product) else {
+        let &Node::Op(op::Op::Mul(p, q)) = graph.node(product) else {
             unreachable!("only products are fused");
         };
         let (p, q) = (operands[&p], operands[&q]);
@@ -325,12 +274,12 @@ impl Listing {
                 Kind::Scalar => 1,
                 Kind::Signal => channels,
             };
-            match step.op {
-                Op::Neg(_) => {}
-                Op::Add(..) | Op::Sub(..) => cost.add += times,
-                Op::Mul(..) => cost.mul += times,
-                Op::Fma(..) => cost.fma += times,
-                Op::Recip(_) | Op::Rsqrt(_) => cost.special += times,
+            match step.op.price() {
+                Price::Free => {}
+                Price::Add => cost.add += times,
+                Price::Mul => cost.mul += times,
+                Price::Fma => cost.fma += times,
+                Price::Special => cost.special += times,
             }
         }
         cost.total = cost.mul + cost.add + cost.fma;

@@ -7,4 +7,5 @@ pub mod eval;
 pub mod graph;
 pub mod kernel;
 pub mod listing;
+pub mod op;
 pub mod program;

@@ -4,7 +4,8 @@
 
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
-use crate::ir::listing::{Listing, Op, Operand, Sign, Step};
+use crate::ir::listing::{Listing, Operand, Step};
+use crate::ir::op::{Op, Sign, Takes};
 use crate::math::exact::Exact;
 use std::collections::HashMap;
 use std::ops;
@@ -39,25 +40,6 @@ pub enum Int {
     Op(IntOp, Box<[Int; 2]>),
 }
 
-/// An operation on floats.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NumOp {
-    /// −a.
-    Neg,
-    /// a + b.
-    Add,
-    /// a − b.
-    Sub,
-    /// a · b; a signal comes first.
-    Mul,
-    /// a · b and c, signed as said; a signal comes first in the product.
-    Fma(Sign),
-    /// 1 / a.
-    Recip,
-    /// 1 / √a.
-    Rsqrt,
-}
-
 /// A float.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Num {
@@ -69,8 +51,8 @@ pub enum Num {
     Name(Name),
     /// An item of a parameter, a table or an array; of a vector, at a literal place.
     Item(Name, Int),
-    /// An operation on one to three floats.
-    Op(NumOp, Vec<Num>),
+    /// An operation on floats.
+    Op(Box<Op<Num>>),
 }
 
 /// A statement.
@@ -168,29 +150,42 @@ impl Num {
         Self::Item(name, index.into())
     }
 
-    /// 1 / √self.
+    /// Returns an operation as a float.
+    pub fn of(op: Op<Self>) -> Self {
+        Self::Op(Box::new(op))
+    }
+
+    /// Returns 1 / √self.
     #[must_use]
     pub fn rsqrt(self) -> Self {
-        Self::Op(NumOp::Rsqrt, vec![self])
+        Self::of(Op::Rsqrt(self))
+    }
+
+    /// Returns the factors of a product, or the number itself.
+    fn factors(self) -> Result<(Self, Self), Self> {
+        match self {
+            Self::Op(op) => match *op {
+                Op::Mul(a, b) => Ok((a, b)),
+                op => Err(Self::of(op)),
+            },
+            other => Err(other),
+        }
     }
 
     /// A sum takes a product into one operation, the second one if there are two.
     fn sum(self, other: Self, minus: bool) -> Self {
-        let (product_last, product_first, plain) = match minus {
-            false => (Sign::Plus, Sign::Plus, NumOp::Add),
-            true => (Sign::MinusProduct, Sign::MinusAddend, NumOp::Sub),
+        let (product_last, product_first) = match minus {
+            false => (Sign::Plus, Sign::Plus),
+            true => (Sign::MinusProduct, Sign::MinusAddend),
         };
-        match (self, other) {
-            (c, Self::Op(NumOp::Mul, mut ab)) => {
-                ab.push(c);
-                Self::Op(NumOp::Fma(product_last), ab)
-            }
-            (Self::Op(NumOp::Mul, mut ab), c) => {
-                ab.push(c);
-                Self::Op(NumOp::Fma(product_first), ab)
-            }
-            (a, b) => Self::Op(plain, vec![a, b]),
-        }
+        Self::of(match other.factors() {
+            Ok((a, b)) => Op::Fma(a, b, self, product_last),
+            Err(other) => match (self.factors(), minus) {
+                (Ok((a, b)), _) => Op::Fma(a, b, other, product_first),
+                (Err(this), false) => Op::Add(this, other),
+                (Err(this), true) => Op::Sub(this, other),
+            },
+        })
     }
 }
 
@@ -198,7 +193,7 @@ impl ops::Neg for Num {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Self::Op(NumOp::Neg, vec![self])
+        Self::of(Op::Neg(self))
     }
 }
 
@@ -249,7 +244,7 @@ operators! {
     Int Rem rem: |a, b| Int::op(IntOp::Rem, a, b);
     Num Add add: |a: Num, b| a.sum(b, false);
     Num Sub sub: |a: Num, b| a.sum(b, true);
-    Num Mul mul: |a, b| Num::Op(NumOp::Mul, vec![a, b]);
+    Num Mul mul: |a, b| Num::of(Op::Mul(a, b));
 }
 
 impl Stmt {
@@ -363,7 +358,7 @@ impl Trace {
     }
 
     fn num(&mut self, value: &Num) -> (Operand, Kind) {
-        let (op, args) = match value {
+        let op = match value {
             Num::Const(value) => {
                 self.constants.push(value.clone());
                 return (Operand::Const(self.constants.len() - 1), Kind::Scalar);
@@ -371,23 +366,14 @@ impl Trace {
             Num::Tiny => return (Operand::Tiny, Kind::Scalar),
             Num::Name(name) => return self.item(name, 0),
             Num::Item(name, index) => return self.item(name, self.int(index)),
-            Num::Op(op, args) => (*op, args),
+            Num::Op(op) => op.each().map(|arg| self.num(arg)),
         };
-        let values: Vec<(Operand, Kind)> = args.iter().map(|arg| self.num(arg)).collect();
-        let kind = values.iter().map(|(_, kind)| *kind).max().unwrap_or(Kind::Scalar);
-        let product = matches!(op, NumOp::Mul | NumOp::Fma(_));
-        assert!(!product || values[1].1 == Kind::Scalar, "a signal is the second factor of {value:?}");
-        let of = |i: usize| values[i].0;
-        let op = match op {
-            NumOp::Neg => Op::Neg(of(0)),
-            NumOp::Add => Op::Add(of(0), of(1)),
-            NumOp::Sub => Op::Sub(of(0), of(1)),
-            NumOp::Mul => Op::Mul(of(0), of(1)),
-            NumOp::Fma(sign) => Op::Fma(of(0), of(1), of(2), sign),
-            NumOp::Recip => Op::Recip(of(0)),
-            NumOp::Rsqrt => Op::Rsqrt(of(0)),
-        };
-        self.steps.push(Step { op, kind, uses: 0 });
+        if op.takes() == Takes::Products {
+            let second = op.operands().nth(1).map(|(_, kind)| kind);
+            assert!(second == Some(Kind::Scalar), "a signal is the second factor of {value:?}");
+        }
+        let kind = op.map(|(_, kind)| kind).kind().unwrap_or_else(|fault| panic!("{fault}: {value:?}"));
+        self.steps.push(Step { op: op.map(|(operand, _)| operand), kind, uses: 0 });
         (Operand::Step(self.steps.len() - 1), kind)
     }
 }

@@ -17,8 +17,9 @@
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.
 
 use super::normal_map::LEAST_Z;
-use crate::emit::dialect::{Dialect, Target, shader_literal};
-use crate::emit::{Function, Limit, Module, docs, results};
+use crate::emit::dialect::Dialect;
+use crate::emit::language::{GLSL, Target, WGSL, shader};
+use crate::emit::{Function, Limit, Module, docs};
 use crate::families::about_y::SMALL_ZYZ;
 use crate::families::axis::ROTATE_Z;
 use crate::families::text::{hint, usual};
@@ -26,7 +27,7 @@ use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
 use crate::generate;
 use crate::ir::graph::Kind;
-use crate::ir::kernel::{Param, Shape};
+use crate::ir::kernel::Param;
 use crate::ir::listing::Cost;
 use crate::promise::law;
 use serde::{Deserialize, Serialize};
@@ -178,12 +179,12 @@ fn render(template: &str, context: &Context) -> String {
 }
 
 fn number(x: f64) -> String {
-    shader_literal(x as f32)
+    shader::literal_of(x as f32)
 }
 
 fn kernels(functions: Vec<Function>, name: String, target: Target) -> Result<String, Limit> {
     let specs: Vec<String> = functions.iter().map(|function| format!("`{}`", function.spec)).collect();
-    Module { name, origin: specs.join(", "), functions, constants: vec![] }.shader(target)
+    Module { name, origin: specs.join(", "), functions, ..Module::default() }.text(target)
 }
 
 impl Shading {
@@ -241,8 +242,7 @@ impl Shading {
     ///
     /// If a kernel is too long for compilers.
     pub fn text(&self, functions: &[Function], target: Target) -> Result<String, Limit> {
-        let template = if target == Target::Glsl { "picture/shade.glsl" } else { "picture/shade.wgsl" };
-        Ok(render(template, &self.context(functions, target)?))
+        Ok(render(&format!("picture/shade.{target}"), &self.context(functions, target)?))
     }
 
     /// [`Shading::text`] in WGSL, its kernels built for it alone.
@@ -251,7 +251,7 @@ impl Shading {
     ///
     /// If a kernel is too long for compilers.
     pub fn wgsl(&self) -> Result<String, Limit> {
-        self.text(&generate::build(&self.specs()), Target::Wgsl)
+        self.text(&generate::build(&self.specs()), &WGSL)
     }
 
     /// [`Shading::text`] in GLSL ES 3.00, its kernels built for it alone.
@@ -260,7 +260,7 @@ impl Shading {
     ///
     /// If a kernel is too long for compilers.
     pub fn glsl_fragment(&self) -> Result<String, Limit> {
-        self.text(&generate::build(&self.specs()), Target::Glsl)
+        self.text(&generate::build(&self.specs()), &GLSL)
     }
 }
 
@@ -289,7 +289,7 @@ pub fn wgsl_gbuffer() -> String {
 ///
 /// If the kernel is too long for compilers.
 pub fn check(function: &Function, target: Target) -> Result<String, Limit> {
-    let dialect = Dialect { target, rgb: false, half: false };
+    let dialect = Dialect::new(target);
     let mut places = 0..;
     let mut next = || {
         let place = places.next().unwrap_or(0);
@@ -297,13 +297,7 @@ pub fn check(function: &Function, target: Target) -> Result<String, Limit> {
     };
     let mut argument = |param: &Param| {
         let items: Vec<String> = (0..param.shape.len()).map(|_| next()).collect();
-        match param.shape {
-            Shape::Scalar => items[0].clone(),
-            shape => {
-                let (open, lines, close) = results(dialect, shape, Kind::Scalar, &items);
-                format!("{open}{}{close}", lines.join(" "))
-            }
-        }
+        dialect.argument(param.shape, Kind::Scalar, &items)
     };
     let params = function.built.code.params();
     let arguments: Vec<String> = params.iter().map(&mut argument).collect();
@@ -330,10 +324,10 @@ mod tests {
             for (method, isotropic) in Method::ALL.into_iter().flat_map(|method| [(method, true), (method, false)]) {
                 let shading = Shading { order, method, isotropic };
                 let text = shading.wgsl().expect("fits");
-                validate(Target::Wgsl, &format!("{shading:?}"), &text).unwrap_or_else(|error| panic!("{error}"));
+                validate(&WGSL, &format!("{shading:?}"), &text).unwrap_or_else(|error| panic!("{error}"));
             }
         }
-        validate(Target::Wgsl, "gbuffer", &wgsl_gbuffer()).unwrap_or_else(|error| panic!("{error}"));
+        validate(&WGSL, "gbuffer", &wgsl_gbuffer()).unwrap_or_else(|error| panic!("{error}"));
     }
 
     #[test]
@@ -341,8 +335,8 @@ mod tests {
         let shading = |method, isotropic| Shading { order: 5, method, isotropic };
         let specs: Vec<Spec> = Method::ALL.into_iter().flat_map(|method| shading(method, true).specs()).collect();
         for function in generate::build(&specs) {
-            let text = check(&function, Target::Wgsl).expect("fits");
-            validate(Target::Wgsl, &function.spec.to_string(), &text).unwrap_or_else(|error| panic!("{error}"));
+            let text = check(&function, &WGSL).expect("fits");
+            validate(&WGSL, &function.spec.to_string(), &text).unwrap_or_else(|error| panic!("{error}"));
         }
     }
 

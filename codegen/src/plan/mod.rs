@@ -4,7 +4,7 @@
 
 pub mod mixtures;
 
-use crate::emit::dialect::Target;
+use crate::emit::language::{self, Target};
 use crate::emit::names::{self, Use};
 use crate::emit::{Constants, Function, Module};
 use crate::families::basis;
@@ -146,7 +146,7 @@ pub struct Plan {
 }
 
 fn names_of<S: serde::Serializer>(targets: &[Target], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(targets.iter().map(|target| target.name()))
+    serializer.collect_seq(targets.iter().map(|target| target.name))
 }
 
 /// An order that a scene writes, as a number.
@@ -390,14 +390,17 @@ fn check_angle(wanted: &Wanted, spec: &Spec) -> Result<(), Diagnostic> {
 
 /// Refuses f16 where a language is wanted that has none.
 fn check_half(scene: &Scene, place: &Place) -> Result<(), Diagnostic> {
-    match scene.targets[..] == [Target::Wgsl] {
-        true => Ok(()),
-        false => Err(Diagnostic::at(place, "only WGSL has f16", "write `targets = [\"wgsl\"]`, or leave f16 out")),
+    if scene.targets.iter().all(|target| target.half.is_some()) {
+        return Ok(());
     }
+    let names: Vec<String> =
+        language::ALL.iter().filter(|target| target.half.is_some()).map(|target| format!("\"{target}\"")).collect();
+    let message = format!("{} f16", language::only(|target| target.half.is_some()));
+    Err(Diagnostic::at(place, message, format!("write `targets = [{}]`, or leave f16 out", names.join(", "))))
 }
 
-fn check_name(name: &Located<String>, purpose: Use) -> Result<(), Diagnostic> {
-    match names::fault(&name.value, purpose) {
+fn check_name(name: &Located<String>, purpose: Use, targets: &[Target]) -> Result<(), Diagnostic> {
+    match names::fault(&name.value, purpose, targets) {
         Some((message, help)) => Err(Diagnostic::at(&name.place, message, help)),
         None => Ok(()),
     }
@@ -419,7 +422,7 @@ fn check_collisions(module: &Module, places: &[Place]) -> Result<(), Diagnostic>
         }
         shader.push(name);
         let order = function.spec.order;
-        let (generic, rgb) = function.rust_names();
+        let (generic, rgb) = function.generic_names();
         let shared = function.name.is_none().then(|| function.spec.base());
         for (name, owner) in std::iter::once((generic, shared)).chain(rgb.map(|rgb| (rgb, None))) {
             match rust.insert((order, name.clone()), owner.clone()) {
@@ -438,17 +441,17 @@ impl Plan {
     ///
     /// If a spec, a name or a map is at fault, a method cannot take its angle, or no method keeps an error.
     pub fn new(scene: &Scene) -> Result<Self, Diagnostic> {
-        check_name(&scene.name, Use::Stem)?;
+        check_name(&scene.name, Use::Stem, &scene.targets)?;
         if scene.kernels.is_empty() && scene.rotations.is_empty() && scene.environment.is_none() {
             let help = "add a `[[kernel]]` with its `spec`, a `[[rotation]]` or an `[environment]`";
             return Err(Diagnostic::at(&scene.name.place, "the scene asks for nothing", help));
         }
         let own_names = scene.kernels.iter().filter_map(|wanted| wanted.name.as_ref());
         for name in own_names.chain(scene.rotations.iter().filter_map(|rotation| rotation.name.as_ref())) {
-            check_name(name, Use::Item)?;
+            check_name(name, Use::Item, &scene.targets)?;
         }
         if let Some(environment) = &scene.environment {
-            check_name(&environment.name, Use::Item)?;
+            check_name(&environment.name, Use::Item, &scene.targets)?;
         }
         let mut environment = environment::plan(scene)?;
         let parsed: Result<Vec<(Spec, bool)>, _> =
@@ -469,6 +472,7 @@ impl Plan {
                 origin: format!("the scene `{}`", scene.name.value),
                 functions: vec![],
                 constants: environment.iter().map(EnvironmentPlan::constants).collect(),
+                arrays: scene.arrays,
             },
             environment,
             kernels: vec![],
@@ -658,7 +662,6 @@ impl EnvironmentPlan {
 mod environment {
     use super::{Diagnostic, EnvironmentPlan, Scene};
     #[cfg(feature = "picture")]
-    use crate::emit::dialect::Target;
     use crate::environment::{Map, MapError};
     use crate::families::family::MIN_ORDER;
     #[cfg(feature = "picture")]
@@ -699,7 +702,7 @@ mod environment {
         let held = energy.iter().sum::<f64>() / signal.energy();
         #[cfg(feature = "picture")]
         let requirement = scene.brdf.filter(|_| wanted.signal == Light::Radiance).map(|brdf| {
-            let half = scene.targets[..] == [Target::Wgsl];
+            let half = scene.targets.iter().all(|target| target.half.is_some());
             Requirement::new(&signal, &brdf, wanted.budget, max_order, half)
         });
         #[cfg(feature = "picture")]
@@ -825,7 +828,7 @@ impl fmt::Display for EnvironmentPlan {
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let targets: Vec<&str> = self.targets.iter().map(|target| target.name()).collect();
+        let targets: Vec<&str> = self.targets.iter().map(|target| target.name).collect();
         writeln!(f, "# {}\n\nTargets: {}.\n", self.scene, targets.join(", "))?;
         if let Some(environment) = &self.environment {
             writeln!(f, "{environment}")?;

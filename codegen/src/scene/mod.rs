@@ -5,6 +5,8 @@
 //! ```toml
 //! name = "glossy"                     # the stem of the files
 //! targets = ["wgsl", "glsl", "rust"]  # all three if left out
+//! arrays = "value"                    # if left out; or "struct" or "reference": how kernels take and return arrays, for
+//!                                     # languages that know more than one way, which is GLSL alone
 //! output = "zonal-out/glossy"         # this if left out; below the folder that zonal runs in
 //!
 //! [environment]                       # optional: a map's coefficients as constants
@@ -58,7 +60,7 @@ pub mod diagnostic;
 #[cfg(feature = "picture")]
 pub mod picture;
 
-use crate::emit::dialect::Target;
+use crate::emit::language::{self, Arrays, Target};
 pub use crate::families::family::Job;
 use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::families::text::hint;
@@ -172,6 +174,8 @@ pub struct Scene {
     pub name: Located<String>,
     /// The languages, each once, in their own order.
     pub targets: Vec<Target>,
+    /// How kernels take and return arrays, if it is said.
+    pub arrays: Option<Arrays>,
     /// The output folder, relative.
     pub output: String,
     /// The environment.
@@ -196,6 +200,7 @@ pub struct Scene {
 struct Manifest {
     name: Spanned<String>,
     targets: Option<Spanned<Vec<Spanned<String>>>>,
+    arrays: Option<Spanned<String>>,
     output: Option<Spanned<String>>,
     environment: Option<EnvironmentTable>,
     #[serde(default)]
@@ -350,7 +355,8 @@ impl Scene {
         Self {
             output: format!("zonal-out/{}", name.value),
             name,
-            targets: Target::ALL.to_vec(),
+            targets: language::ALL.to_vec(),
+            arrays: None,
             environment: None,
             kernels: vec![],
             rotations: vec![],
@@ -403,6 +409,9 @@ impl Scene {
         scene.maps = maps;
         if let Some(targets) = manifest.targets {
             scene.targets = self::targets(&locate, targets)?;
+        }
+        if let Some(text) = manifest.arrays {
+            scene.arrays = Some(arrays(&locate.at(text), &scene.targets)?);
         }
         if let Some(output) = manifest.output {
             let output = locate.at(output);
@@ -470,8 +479,8 @@ fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<
     let mut targets: Vec<Target> = Vec::new();
     for text in list.value {
         let Located { value, place } = locate.at(text);
-        let Ok(target) = value.parse() else {
-            let help = hint(&value, &Target::ALL.map(Target::name));
+        let Ok(target) = language::named(&value) else {
+            let help = hint(&value, &language::names());
             return Err(Diagnostic::at(&place, format!("`{value}` is no target"), help));
         };
         if targets.contains(&target) {
@@ -479,8 +488,26 @@ fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<
         }
         targets.push(target);
     }
-    targets.sort();
+    language::sort(&mut targets);
     Ok(targets)
+}
+
+fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnostic> {
+    let Located { value, place } = text;
+    let Some(arrays) = Arrays::named(value) else {
+        let help = hint(value, &Arrays::ALL.map(|(_, name)| name));
+        return Err(Diagnostic::at(place, format!("`{value}` is no way to pass arrays"), help));
+    };
+    match targets.iter().find(|target| !target.arrays.contains(&arrays)) {
+        None => Ok(arrays),
+        Some(target) => {
+            let able = language::ALL.iter().filter(|target| target.arrays.contains(&arrays));
+            let able: Vec<String> = able.map(|target| format!("\"{target}\"")).collect();
+            let message = format!("{} does not pass arrays as `{value}`", target.title);
+            let help = format!("leave it out, or write `targets = [{}]`", able.join(", "));
+            Err(Diagnostic::at(place, message, help))
+        }
+    }
 }
 
 fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String>) -> Result<Environment, Diagnostic> {

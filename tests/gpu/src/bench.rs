@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::dialect::Dialect;
+use zonal_codegen::emit::language::{Arrays, GLSL, Target, WGSL};
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 
@@ -26,7 +27,26 @@ pub enum Mode {
     Catalogue,
     /// A kernel of each family with a constant that is wrong.
     Mutated,
+    /// Kernels of every shape of array, passed in each way that a language knows besides its own.
+    Arrays,
 }
+
+/// The kernels that are run with their arrays in structs and by reference.
+pub const ARRAYS: [&str; 13] = [
+    "basis:4",
+    "eval:4",
+    "eval:4:rgb",
+    "rotate:3",
+    "rotate:4:rgb",
+    "rotate:4:angles",
+    "angles:4",
+    "tilt:4",
+    "tilt:4:rgb",
+    "rotate_adaptive:4",
+    "zhf:3:rgb",
+    "taylor15:4:loop:rgb",
+    "rotate:4:loop",
+];
 
 /// What was measured of one text in one column.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +55,7 @@ pub struct Row {
     pub spec: String,
     /// The driver and the language.
     pub column: String,
-    /// What was corrupted, if anything was.
+    /// What is other about the text than in the catalogue: what was corrupted, or how arrays are passed.
     pub change: String,
     /// The largest error.
     pub error: f64,
@@ -122,8 +142,11 @@ fn corrupted(text: &str) -> Vec<(String, String)> {
     if changed.is_empty() { sign().into_iter().collect() } else { changed }
 }
 
-/// The specs to run: all, or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
+/// The specs to run: all, or those of [`ARRAYS`], or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
 fn specs(mode: Mode) -> Vec<Spec> {
+    if mode == Mode::Arrays {
+        return ARRAYS.map(|spec| spec.parse().expect("the list holds specs")).to_vec();
+    }
     let mut specs = standard();
     if mode == Mode::Mutated {
         specs.retain(|spec| !spec.rgb);
@@ -139,6 +162,23 @@ fn functions(mode: Mode) -> Vec<Function> {
     // The longest first, so that the threads end together.
     functions.sort_by_key(|function| std::cmp::Reverse(function.built.code.cost(function.spec.channels()).total));
     functions
+}
+
+/// The texts to run of a function in a language, each with what is other about it.
+fn texts(function: &Function, target: Target, mode: Mode) -> Vec<(String, Dialect, String)> {
+    let own = wrap::dialect(function, target, None);
+    let others = || target.arrays.iter().filter(|&&arrays| arrays != own.arrays);
+    let passed = |arrays: &Arrays| {
+        let dialect = wrap::dialect(function, target, Some(*arrays));
+        (arrays.name().to_owned(), dialect, wrap::file(function, dialect))
+    };
+    match mode {
+        Mode::Catalogue => vec![(String::new(), own, wrap::file(function, own))],
+        Mode::Mutated => {
+            corrupted(&wrap::file(function, own)).into_iter().map(|(change, text)| (change, own, text)).collect()
+        }
+        Mode::Arrays => others().map(passed).collect(),
+    }
 }
 
 /// The most threads and browsers at once.
@@ -158,16 +198,12 @@ pub fn run(mode: Mode, print: impl Fn(&dyn fmt::Display) + Sync) -> Result<(), S
         COLUMNS.iter().for_each(|column| print(&format!("{}\t{}", column.name(), devices.name(*column))));
         while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
             let cases = Cases::new(function);
-            for target in [Target::Wgsl, Target::Glsl] {
-                let file = wrap::file(function, target);
-                let texts = match mode {
-                    Mode::Catalogue => vec![(String::new(), file)],
-                    Mode::Mutated => corrupted(&file),
-                };
+            for target in [&WGSL, &GLSL] {
+                let texts = texts(function, target, mode);
                 for column in COLUMNS.into_iter().filter(|column| column.target == target) {
-                    for (change, text) in &texts {
+                    for (change, dialect, text) in &texts {
                         let start = Instant::now();
-                        let text = column.wrapped(function, text);
+                        let text = column.wrapped(function, *dialect, text);
                         let got = devices.run(column.driver, &cases.job(function, target, &text));
                         let got = got.map_err(|error| format!("{} of `{}`: {error}", column.name(), function.spec))?;
                         print(&Row {

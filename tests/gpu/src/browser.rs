@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::Target;
 
 /// A browser with the bench's page.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl Browser {
     /// The browser's version and what computes a language.
     pub fn name(&self, target: Target) -> String {
         let word = |key: &str| self.about[key].as_str().unwrap_or("unknown").to_owned();
-        format!("Chromium {}, {}", word("version"), word(target.name()))
+        format!("Chromium {}, {}", word("version"), word(target.name))
     }
 
     fn answer(&mut self) -> Result<(Value, Vec<u8>), String> {
@@ -70,7 +70,7 @@ impl Browser {
     pub fn run(&mut self, job: &Job<'_>) -> Result<Vec<f32>, String> {
         let Job { target, text, inputs, count, takes, gives } = *job;
         let head = json!({
-            "language": target.name(), "text": text, "count": count, "inputs": takes, "outputs": gives,
+            "language": target.name, "text": text, "count": count, "inputs": takes, "outputs": gives,
         });
         let (head, body): (String, &[u8]) = (head.to_string(), bytemuck::cast_slice(inputs));
         let lengths = [head.len(), body.len()].map(|length| (length as u32).to_le_bytes()).concat();

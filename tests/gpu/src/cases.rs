@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::Target;
 use zonal_codegen::families::family::{Measure, Proof};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};

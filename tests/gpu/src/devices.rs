@@ -6,7 +6,8 @@ use crate::job::Job;
 use crate::system::VULKAN;
 use crate::wrap;
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::dialect::Dialect;
+use zonal_codegen::emit::language::{GLSL, Target, WGSL};
 
 /// A driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,13 +30,13 @@ pub struct Column {
 }
 
 /// Every driver and language.
-pub const COLUMNS: [Column; 6] = [
-    Column { driver: Driver::Vulkan(0), target: Target::Wgsl },
-    Column { driver: Driver::Vulkan(0), target: Target::Glsl },
-    Column { driver: Driver::Vulkan(1), target: Target::Wgsl },
-    Column { driver: Driver::Vulkan(1), target: Target::Glsl },
-    Column { driver: Driver::WebGpu, target: Target::Wgsl },
-    Column { driver: Driver::WebGl, target: Target::Glsl },
+pub static COLUMNS: [Column; 6] = [
+    Column { driver: Driver::Vulkan(0), target: &WGSL },
+    Column { driver: Driver::Vulkan(0), target: &GLSL },
+    Column { driver: Driver::Vulkan(1), target: &WGSL },
+    Column { driver: Driver::Vulkan(1), target: &GLSL },
+    Column { driver: Driver::WebGpu, target: &WGSL },
+    Column { driver: Driver::WebGl, target: &GLSL },
 ];
 
 impl Driver {
@@ -52,14 +53,14 @@ impl Driver {
 impl Column {
     /// Its head in the table.
     pub fn name(self) -> String {
-        format!("{} {}", self.driver.name(), self.target.name().to_uppercase())
+        format!("{} {}", self.driver.name(), self.target.name.to_uppercase())
     }
 
     /// The shader around a function's file.
-    pub fn wrapped(self, function: &Function, text: &str) -> String {
+    pub fn wrapped(self, function: &Function, dialect: Dialect, text: &str) -> String {
         match self.driver {
-            Driver::WebGl => wrap::pixels(function, text),
-            _ => wrap::compute(function, self.target, text),
+            Driver::WebGl => wrap::pixels(function, dialect, text),
+            _ => wrap::compute(function, dialect, text),
         }
     }
 }

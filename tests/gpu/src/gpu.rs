@@ -4,7 +4,7 @@ use crate::job::Job;
 use crate::wrap::{GROUP, VECTOR};
 use std::borrow::Cow;
 use wgpu::util::DeviceExt;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::GLSL;
 
 /// A device and its queue.
 #[derive(Debug)]
@@ -47,13 +47,13 @@ impl Gpu {
     ///
     /// If the device fails.
     pub fn run(&self, job: &Job<'_>) -> Result<Vec<f32>, String> {
-        let source = match job.target {
-            Target::Glsl => wgpu::ShaderSource::Glsl {
+        let source = match job.target == &GLSL {
+            true => wgpu::ShaderSource::Glsl {
                 shader: Cow::Borrowed(job.text),
                 stage: wgpu::naga::ShaderStage::Compute,
                 defines: &[],
             },
-            _ => wgpu::ShaderSource::Wgsl(Cow::Borrowed(job.text)),
+            false => wgpu::ShaderSource::Wgsl(Cow::Borrowed(job.text)),
         };
         let device = &self.device;
         let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);

@@ -1,6 +1,6 @@
 //! What a device is asked to do.
 
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::Target;
 
 /// One shader text over many cases, whose numbers are vectors of four, one case after the other.
 #[derive(Clone, Copy, Debug)]

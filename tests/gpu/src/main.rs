@@ -6,7 +6,8 @@ fn main() -> Result<(), String> {
     let mode = match std::env::args().nth(1).as_deref() {
         Some("catalogue") => Mode::Catalogue,
         Some("mutated") => Mode::Mutated,
-        _ => return Err("say `catalogue` or `mutated`".to_owned()),
+        Some("arrays") => Mode::Arrays,
+        _ => return Err("say `catalogue`, `mutated` or `arrays`".to_owned()),
     };
     run(mode, |line| println!("{line}"))
 }

@@ -2,10 +2,11 @@
 //! calls it once a thread with numbers from a buffer, a fragment shader that calls it for a row of pixels with numbers
 //! from a texture, and one for compilers that only look.
 
-use zonal_codegen::emit::dialect::{Dialect, Target};
+use zonal_codegen::emit::dialect::Dialect;
+use zonal_codegen::emit::language::{Arrays, GLSL, Target};
 use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::ir::graph::Kind;
-use zonal_codegen::ir::kernel::{Param, Shape};
+use zonal_codegen::ir::kernel::Param;
 
 /// How many cases one workgroup of a compute shader computes.
 pub const GROUP: usize = 64;
@@ -17,18 +18,18 @@ pub const VECTOR: usize = 4;
 /// # Panics
 ///
 /// If the function does not fit its target: the catalogue's all do.
-pub fn file(function: &Function, target: Target) -> String {
-    let module = Module {
-        name: function.shader_name(),
-        origin: format!("`{}`", function.spec),
-        functions: vec![function.clone()],
-        constants: vec![],
-    };
-    module.shader(target).unwrap_or_else(|limit| panic!("{limit}"))
+pub fn file(function: &Function, dialect: Dialect) -> String {
+    let module = Module { arrays: Some(dialect.arrays), ..Module::of(function.clone()) };
+    module.text(dialect.language).unwrap_or_else(|limit| panic!("{limit}"))
 }
 
-fn dialect(function: &Function, target: Target) -> Dialect {
-    Dialect { target, rgb: function.spec.rgb, half: function.spec.half }
+/// How a function is printed in a language that passes arrays in one way, or in its own.
+///
+/// # Panics
+///
+/// If the language cannot.
+pub fn dialect(function: &Function, target: Target, arrays: Option<Arrays>) -> Dialect {
+    function.dialect(target, arrays).unwrap_or_else(|limit| panic!("{limit}"))
 }
 
 /// How many channels a number of this kind has in the function's text.
@@ -51,49 +52,32 @@ pub fn output_vectors(function: &Function) -> usize {
     (shape.len() * channels(function, kind)).div_ceil(VECTOR)
 }
 
-/// A value of this shape, made of numbers that `next` names one after the other.
-fn value(dialect: Dialect, shape: Shape, kind: Kind, next: &mut impl FnMut() -> String) -> String {
-    let of = |shape: Shape| dialect.type_of(shape, kind);
-    let (items, part) = match shape {
-        Shape::Scalar if kind == Kind::Signal && dialect.rgb => (3, None),
-        Shape::Scalar => return next(),
-        Shape::Array(n) => (n, Some(Shape::Scalar)),
-        Shape::Pairs(n) => (n, Some(Shape::Pair)),
-        Shape::Vectors(n) => (n, Some(Shape::Vec3)),
-        plain => (plain.len(), None),
-    };
-    let parts: Vec<String> = (0..items)
-        .map(|_| match part {
-            Some(part) => value(dialect, part, kind, next),
-            None => next(),
-        })
-        .collect();
-    format!("{}({})", of(shape), parts.join(", "))
-}
-
 /// A call of a function on one case, whose numbers are the vectors `in0_`, `in1_`, …: all parameters one after the
 /// other, the channels of a number together.
 struct Call {
-    /// The type of its result.
-    result: String,
-    /// The call.
-    call: String,
+    /// The statements that make it and name what it gives `result`.
+    statements: String,
     /// The components of `result`, four to a vector, padded with zeros.
     vectors: Vec<String>,
 }
 
 impl Call {
-    fn new(function: &Function, target: Target) -> Self {
-        let dialect = dialect(function, target);
+    fn new(function: &Function, dialect: Dialect) -> Self {
         let letter = |place: usize| [".x", ".y", ".z", ".w"][place % VECTOR];
         let mut places = 0..;
         let mut next = || {
             let place = places.next().expect("there is always a next number");
             format!("in{}_{}", place / VECTOR, letter(place))
         };
-        let params = function.built.code.params();
-        let arguments: Vec<String> =
-            params.iter().map(|param| value(dialect, param.shape, param.kind, &mut next)).collect();
+        let mut number = |kind: Kind| match kind == Kind::Signal && dialect.rgb {
+            true => format!("{}({}, {}, {})", dialect.number(kind), next(), next(), next()),
+            false => next(),
+        };
+        let mut argument = |param: &Param| {
+            let numbers: Vec<String> = (0..param.shape.len()).map(|_| number(param.kind)).collect();
+            dialect.argument(param.shape, param.kind, &numbers)
+        };
+        let arguments: Vec<String> = function.built.code.params().iter().map(&mut argument).collect();
         let (shape, kind) = function.built.code.result();
         let channels = channels(function, kind);
         let number = |place: usize| match (place / channels < shape.len(), channels) {
@@ -104,12 +88,21 @@ impl Call {
             }
         };
         let vector = |i: usize| format!("vec4({})", [0, 1, 2, 3].map(|j| number(VECTOR * i + j)).join(", "));
-        Self {
-            result: dialect.type_of(shape, kind),
-            call: format!("{}({})", function.shader_name(), arguments.join(", ")),
-            vectors: (0..output_vectors(function)).map(vector).collect(),
-        }
+        let vectors = (0..output_vectors(function)).map(vector).collect();
+        Self { statements: call(function, dialect, arguments), vectors }
     }
+}
+
+/// The statements that call a function and name what it gives `result`.
+fn call(function: &Function, dialect: Dialect, mut arguments: Vec<String>) -> String {
+    let (name, (shape, kind)) = (function.shader_name(), function.built.code.result());
+    let (statements, passed) = (dialect.language.statements, dialect.passed(shape, kind));
+    if dialect.is_written(shape) {
+        arguments.push("result".to_owned());
+        return format!("{}\n    {name}({});", (statements.variable)(&passed, "result"), arguments.join(", "));
+    }
+    let start = (statements.declare)(&passed.text, "result", false);
+    format!("{start} = {name}({});", arguments.join(", "))
 }
 
 /// One line a vector.
@@ -121,67 +114,65 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 ///
 /// One dispatch takes all cases: a dispatch a case with constant indices compiles no faster on lavapipe (36 s of processor
 /// time for 128 texts either way, 2048 cases each) and runs slower on SwiftShader, and there every further case costs.
-pub fn compute(function: &Function, target: Target, text: &str) -> String {
-    let Call { result, call, vectors } = Call::new(function, target);
+pub fn compute(function: &Function, dialect: Dialect, text: &str) -> String {
+    let Call { statements, vectors } = Call::new(function, dialect);
     let (takes, gives) = (input_vectors(function), vectors.len());
-    let define = if target == Target::Glsl { "vec4" } else { "let" };
+    let glsl = dialect.language == &GLSL;
+    let define = if glsl { "vec4" } else { "let" };
     let reads = lines(takes, |i| format!("{define} in{i}_ = inputs[at * {takes}u + {i}u];"));
     let writes = lines(gives, |i| {
         let vector = &vectors[i];
-        match target {
-            Target::Glsl => format!("outputs[at * {gives}u + {i}u] = {vector};"),
-            _ => format!("outputs[at * {gives}u + {i}u] = vec4<f32>{};", &vector["vec4".len()..]),
+        match glsl {
+            true => format!("outputs[at * {gives}u + {i}u] = {vector};"),
+            false => format!("outputs[at * {gives}u + {i}u] = vec4<f32>{};", &vector["vec4".len()..]),
         }
     });
-    match target {
-        Target::Glsl => format!(
+    match glsl {
+        true => format!(
             "#version 450\n{text}\n\
              layout(local_size_x = {GROUP}) in;\n\
              layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ vec4 inputs[]; }};\n\
              layout(std430, set = 0, binding = 1) buffer Outputs {{ vec4 outputs[]; }};\n\
-             void main() {{\n    uint at = gl_GlobalInvocationID.x;\n{reads}    {result} result = {call};\n{writes}}}\n"
+             void main() {{\n    uint at = gl_GlobalInvocationID.x;\n{reads}    {statements}\n{writes}}}\n"
         ),
-        _ => format!(
+        false => format!(
             "{text}\n\
              @group(0) @binding(0) var<storage, read> inputs: array<vec4<f32>>;\n\
              @group(0) @binding(1) var<storage, read_write> outputs: array<vec4<f32>>;\n\
              @compute @workgroup_size({GROUP})\n\
              fn main(@builtin(global_invocation_id) thread: vec3<u32>) {{\n    let at = thread.x;\n{reads}    \
-             let result = {call};\n{writes}}}\n"
+             {statements}\n{writes}}}\n"
         ),
     }
 }
 
 /// The function's GLSL file and a fragment shader for WebGL2 that calls it: a row of pixels is a case, whose inputs are a
 /// row of a texture; a pixel gives one vector of the result.
-pub fn pixels(function: &Function, text: &str) -> String {
-    let Call { result, call, vectors } = Call::new(function, Target::Glsl);
+pub fn pixels(function: &Function, dialect: Dialect, text: &str) -> String {
+    let Call { statements, vectors } = Call::new(function, dialect);
     let reads = lines(input_vectors(function), |i| format!("vec4 in{i}_ = texelFetch(inputs, ivec2({i}, at.y), 0);"));
     let gives = vectors.len();
     format!(
         "#version 300 es\nprecision highp float;\nprecision highp int;\n{text}\n\
          uniform highp sampler2D inputs;\nout vec4 colour;\n\
-         void main() {{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n{reads}    {result} result = {call};\n    \
+         void main() {{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n{reads}    {statements}\n    \
          vec4 outputs[{gives}] = vec4[{gives}](\n        {}\n    );\n    colour = outputs[at.x];\n}}\n",
         vectors.join(",\n        ")
     )
 }
 
 /// A fragment shader in a version of GLSL, from the function's file: the arguments are uniforms, the result is a colour.
-pub fn fragment(function: &Function, version: &str, text: &str) -> String {
-    let dialect = dialect(function, Target::Glsl);
+pub fn fragment(function: &Function, dialect: Dialect, version: &str, text: &str) -> String {
     let (shape, kind) = function.built.code.result();
     let params = function.built.code.params();
     let uniforms: String = params.iter().map(|param| format!("uniform {};\n", dialect.parameter(param))).collect();
-    let arguments: Vec<&str> = params.iter().map(|param| param.name).collect();
+    let arguments: Vec<String> = params.iter().map(|param| param.name.to_owned()).collect();
     let last = dialect.component("result", shape, shape.len() - 1);
     let precision = if version.ends_with("es") { "precision highp float;\n" } else { "" };
     format!(
         "#version {version}\n{precision}{text}\n{uniforms}out vec4 colour;\n\
-         void main() {{\n    {} result = {}({});\n    colour = vec4({last}{});\n}}\n",
-        dialect.type_of(shape, kind),
-        function.shader_name(),
-        arguments.join(", "),
+         void main() {{\n    {}\n    colour = vec4({last}{});\n}}\n",
+        call(function, dialect, arguments),
         if channels(function, kind) == 3 { ", 1.0" } else { "" }
     )
 }

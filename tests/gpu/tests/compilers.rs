@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{Arrays, GLSL, WGSL};
 use zonal_codegen::generate::build;
 use zonal_gpu_tests::system::compile;
 use zonal_gpu_tests::wrap;
@@ -56,9 +56,23 @@ fn glslang(files: &[PathBuf]) -> Result<(), String> {
 #[test]
 fn glslang_accepts_every_glsl_text_in_every_version() {
     for version in VERSIONS {
-        let write =
-            |function: &Function| wrap::fragment(function, version, &wrap::file(function, Target::Glsl)).into_bytes();
+        let write = |function: &Function| fragment(function, version, None);
         all_compile(&format!("glsl {version}"), "frag", write, glslang);
+    }
+}
+
+/// A fragment shader around a function that passes arrays in one way.
+fn fragment(function: &Function, version: &str, arrays: Option<Arrays>) -> Vec<u8> {
+    let dialect = wrap::dialect(function, &GLSL, arrays);
+    wrap::fragment(function, dialect, version, &wrap::file(function, dialect)).into_bytes()
+}
+
+#[test]
+fn glslang_accepts_arrays_in_structs_and_by_reference() {
+    for arrays in [Arrays::Struct, Arrays::Reference] {
+        // The version that allows least.
+        let write = |function: &Function| fragment(function, VERSIONS[0], Some(arrays));
+        all_compile(arrays.name(), "frag", write, glslang);
     }
 }
 
@@ -77,7 +91,8 @@ fn glslang_refuses_one_bad_file_among_good_ones() {
 
 /// The SPIR-V that naga makes of a compute shader around a function.
 fn spirv(function: &Function) -> Vec<u8> {
-    let text = wrap::compute(function, Target::Wgsl, &wrap::file(function, Target::Wgsl));
+    let dialect = wrap::dialect(function, &WGSL, None);
+    let text = wrap::compute(function, dialect, &wrap::file(function, dialect));
     let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)

@@ -5,7 +5,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use zonal_codegen::catalog::standard;
-use zonal_gpu_tests::bench::Row;
+use zonal_codegen::emit::language::{Arrays, GLSL};
+use zonal_gpu_tests::bench::{ARRAYS, Row};
 use zonal_gpu_tests::devices::COLUMNS;
 use zonal_gpu_tests::report::{self, Measured};
 
@@ -61,4 +62,21 @@ fn a_corrupted_constant_is_noticed_on_every_driver() {
         assert_eq!(ran, families, "{}", column.name());
     }
     assert!(!measured.rows.iter().any(Row::agrees), "{}", listed(&measured, Row::agrees));
+}
+
+#[test]
+fn arrays_in_structs_and_by_reference_give_the_same_on_every_driver() {
+    let measured = measure("arrays");
+    let wanted: BTreeSet<(String, String)> = ARRAYS
+        .iter()
+        .flat_map(|spec| {
+            [Arrays::Struct, Arrays::Reference].map(|arrays| ((*spec).to_owned(), arrays.name().to_owned()))
+        })
+        .collect();
+    for column in COLUMNS.iter().filter(|column| column.target == &GLSL) {
+        let rows = measured.rows.iter().filter(|row| row.column == column.name());
+        let ran: BTreeSet<(String, String)> = rows.map(|row| (row.spec.clone(), row.change.clone())).collect();
+        assert_eq!(ran, wanted, "{}", column.name());
+    }
+    assert!(measured.rows.iter().all(Row::agrees), "{}", listed(&measured, |row| !row.agrees()));
 }

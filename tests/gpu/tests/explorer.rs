@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
 use zonal_codegen::catalog::ORDERS;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::WGSL;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 use zonal_codegen::picture::shade::{Method, Shading};
@@ -54,7 +54,7 @@ fn the_explorer_shows_what_the_kernels_do() {
     let cases: Vec<(&_, Cases)> = functions.iter().map(|function| (function, Cases::new(function))).collect();
     let mut checks = Vec::new();
     for (function, cases) in &cases {
-        let job = cases.job(function, Target::Wgsl, "");
+        let job = cases.job(function, &WGSL, "");
         let (rows, name) = (job.count.min(ROWS), function.shader_name());
         let inputs = &job.inputs[..rows * (job.inputs.len() / job.count)];
         std::fs::write(work.path(&format!("{name}.in")), bytemuck::cast_slice(inputs)).expect("written");

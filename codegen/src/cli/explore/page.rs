@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::dialect::Target;
+use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::emit::validate::validate;
 use zonal_codegen::environment::Map;
 use zonal_codegen::families::Spec;
@@ -142,7 +142,7 @@ fn specs() -> Vec<Spec> {
 fn shaders(functions: &[Function]) -> Result<Vec<Asset>, Failure> {
     let both = |stem: String, wgsl: String, glsl: String| -> Result<[Asset; 2], generate::GenerateError> {
         let paths = [format!("shaders/{stem}.wgsl"), format!("shaders/{stem}.frag")];
-        validate(Target::Wgsl, &paths[0], &wgsl)?;
+        validate(&WGSL, &paths[0], &wgsl)?;
         let [first, second] = paths;
         Ok([(first, wgsl.into_bytes()), (second, glsl.into_bytes())])
     };
@@ -150,11 +150,11 @@ fn shaders(functions: &[Function]) -> Result<Vec<Asset>, Failure> {
         let Shading { order, method, isotropic } = shading;
         let kind = if isotropic { "isotropic" } else { "anisotropic" };
         let text = |target| shading.text(functions, target);
-        both(format!("{order}-{method}-{kind}"), text(Target::Wgsl)?, text(Target::Glsl)?)
+        both(format!("{order}-{method}-{kind}"), text(&WGSL)?, text(&GLSL)?)
     });
     let checks = functions.par_iter().map(|function| {
         let text = |target| shade::check(function, target);
-        both(format!("check-{}", function.shader_name()), text(Target::Wgsl)?, text(Target::Glsl)?)
+        both(format!("check-{}", function.shader_name()), text(&WGSL)?, text(&GLSL)?)
     });
     let all: Result<Vec<[Asset; 2]>, _> = shades.chain(checks).collect();
     let vertex = ("shaders/vertex.vert".to_owned(), shade::glsl_vertex().into_bytes());

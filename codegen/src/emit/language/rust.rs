@@ -1,0 +1,107 @@
+//! Rust, generic over the numbers of parameters and of the signal.
+
+use crate::emit::language::record::{
+    Arrays, Float, Generic, Language, MultiplyAdd, Spelling, Statements, Type, Types, Way, Words,
+};
+use crate::ir::kernel::Shape;
+use crate::ir::op::Op;
+use crate::math::exact::Exact;
+
+/// Rust, generic over the scalar and the signal.
+pub static RUST: Language = Language {
+    name: "rust",
+    title: "Rust",
+    extension: "rs",
+    single: Float { name: "T", literal, tiny: "T::TINY" },
+    half: None,
+    types: Types { vector: array, matrix: |of| array(&array(of, 3), 3), array },
+    arrays: &[Arrays::Value],
+    structure: |name, of| format!("pub struct {name} {{ pub at: {} }}", of.text),
+    parameter,
+    nothing: "()",
+    component: |place| ["[0]", "[1]", "[2]", "[3]"][place],
+    brackets: |_| ("[".to_owned(), "]"),
+    columns: true,
+    trailing_comma: true,
+    multiply_add: MultiplyAdd::Methods,
+    spelling,
+    statements: Statements {
+        int: "usize",
+        declare: |_, name, mutable| format!("let {}{name}", if mutable { "mut " } else { "" }),
+        variable: |of, name| match of.length {
+            Some(n) => format!("let mut {name} = [{}::zero(); {n}];", of.item),
+            None => format!("let mut {name} = {}::zero();", of.text),
+        },
+        each: |name, from, to, step| match step {
+            1 => format!("for {name} in {from}..{to} {{"),
+            _ => format!("for {name} in ({from}..{to}).step_by({step}) {{"),
+        },
+        at_most: |a, b| format!("if ({a}).at_most({b}) {{"),
+        tail: true,
+    },
+    // A constant would be copied wherever it is indexed.
+    table: |name, of| (format!("#[allow(clippy::approx_constant)]\nstatic {name}: {} = [", of.text), "];"),
+    constant: |name, of| (format!("pub const {name}: {} = [", of.text), "];"),
+    doc: "///",
+    max_statements: usize::MAX,
+    max_table: usize::MAX,
+    // rustc's stack does not take thousands of nested bindings.
+    chunk: Some(400),
+    generic: Some(Generic {
+        numbers: ["T", "V"],
+        bounds: ["<T: Real>", "<T: Real, V: Signal<T>>"],
+        arguments: ["::<T>", "::<T, V>"],
+        table: ("f64", |value| format!("{:?}", value.to_f64()), |item| format!("T::lit({item})")),
+        constant: "f32",
+        channels: "[T; 3]",
+    }),
+    template: include_str!("../../../templates/rust.tera"),
+    reserved: &[RESERVED],
+    refuses: |_| None,
+    check,
+};
+
+/// Keywords and reserved words, from the Rust reference.
+const RESERVED: Words = Words {
+    what: "reserved in Rust",
+    words: "Self abstract as async await become box break const continue crate do dyn else enum extern false \
+        final fn for gen if impl in let loop macro match mod move mut override priv pub ref return self static struct \
+        super trait true try type typeof unsafe unsized use virtual where while yield",
+};
+
+fn array(of: &str, n: usize) -> String {
+    format!("[{of}; {n}]")
+}
+
+/// Arrays of arrays and of signals are taken by reference.
+fn parameter(name: &str, of: &Type, way: Way) -> String {
+    match (way, of.shape) {
+        (Way::Out, _) => format!("{name}: &mut {}", of.text),
+        (Way::In, Shape::Array(_) | Shape::Pairs(_) | Shape::Mat3) => format!("{name}: &{}", of.text),
+        (Way::In, _) => format!("{name}: {}", of.text),
+    }
+}
+
+/// The nearest f64; both roundings where the f64 would not round to the nearest f32.
+fn literal(value: &Exact) -> String {
+    let (wide, narrow) = (value.to_f64(), value.to_f32());
+    match wide as f32 == narrow {
+        true => format!("T::lit({wide:?})"),
+        false => format!("T::lit2({narrow:?}, {wide:?})"),
+    }
+}
+
+fn spelling(op: &Op<()>) -> Spelling {
+    match op {
+        Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
+        Op::Recip(_) => Spelling::Call("T::recip"),
+        Op::Rsqrt(_) => Spelling::Call("T::rsqrt"),
+    }
+}
+
+fn check(text: &str) -> Result<(), String> {
+    syn::parse_file(text).map(|_| ()).map_err(|error| {
+        let start = error.span().start();
+        format!("{error} at line {}, column {}", start.line, start.column + 1)
+    })
+}

@@ -1,0 +1,84 @@
+//! WGSL, WebGPU's shading language.
+
+use crate::emit::language::expression::Binding;
+use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Spelling, Statements, Type, Types, Words};
+use crate::emit::language::shader;
+use crate::ir::op::Op;
+
+/// WebGPU's shading language.
+pub static WGSL: Language = Language {
+    name: "wgsl",
+    title: "WGSL",
+    extension: "wgsl",
+    single: Float { name: "f32", literal: shader::literal, tiny: "1e-15" },
+    half: Some(Float { name: "f16", literal: shader::half_literal, tiny: "1e-15" }),
+    types: Types {
+        vector: |of, n| format!("vec{n}<{of}>"),
+        matrix: |of| format!("mat3x3<{of}>"),
+        array: |of, n| format!("array<{of}, {n}>"),
+    },
+    arrays: &[Arrays::Value],
+    structure: |name, of| format!("struct {name} {{ at: {} }}", of.text),
+    parameter: |name, of, _| format!("{name}: {}", of.text),
+    nothing: "",
+    component: shader::component,
+    brackets: shader::constructor,
+    columns: false,
+    trailing_comma: false,
+    multiply_add: MultiplyAdd::Infix,
+    spelling,
+    statements: Statements {
+        int: "i32",
+        declare: |_, name, mutable| format!("{} {name}", if mutable { "var" } else { "let" }),
+        variable: |of, name| format!("var {name}: {};", of.text),
+        each: |name, from, to, step| format!("for (var {name} = {from}; {name} < {to}; {name} += {step}) {{"),
+        at_most: shader::at_most,
+        tail: false,
+    },
+    table,
+    constant: table,
+    doc: "//",
+    max_statements: shader::MAX_STATEMENTS,
+    max_table: shader::MAX_TABLE,
+    chunk: None,
+    generic: None,
+    template: include_str!("../../../templates/wgsl.tera"),
+    reserved: &[RESERVED, shader::FUNCTIONS],
+    refuses: |_| None,
+    check,
+};
+
+/// Keywords and reserved words, and the predeclared types whose names end in a letter, from the specification of WGSL.
+const RESERVED: Words = Words {
+    what: "reserved in WGSL",
+    words: "NULL Self abstract active alias alignas alignof array as asm asm_fragment async atomic attribute auto \
+        await become binding_array bitcast bool break case cast catch class co_await co_return co_yield coherent \
+        column_major common compile compile_fragment concept const const_assert const_cast consteval constexpr constinit \
+        continue continuing crate debugger decltype default delete demote demote_to_helper diagnostic discard do \
+        dynamic_cast else enable enum explicit export extends extern external fallthrough false filter final finally fn \
+        for friend from fxgroup get goto groupshared highp if impl implements import inline instanceof interface layout \
+        let loop lowp macro macro_rules match mediump meta mod module move mut mutable namespace new nil noexcept noinline \
+        nointerpolation non_coherent noncoherent noperspective null nullptr of operator override package packoffset \
+        partial partition pass patch pixelfragment precise precision premerge priv protected ptr pub public readonly ref regardless \
+        register reinterpret_cast require requires resource restrict return self set shared sizeof smooth snorm static \
+        static_assert static_cast std struct subroutine super switch target template this thread_local throw trait true \
+        try type typedef typeid typename typeof union unless unorm unsafe unsized use using var varying virtual volatile \
+        wgsl where while with writeonly yield",
+};
+
+fn spelling(op: &Op<()>) -> Spelling {
+    match op {
+        Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
+        Op::Recip(_) => Spelling::Own(|x| format!("1.0 / ({})", x[0].text), Binding::Product),
+        Op::Rsqrt(_) => Spelling::Call("inverseSqrt"),
+    }
+}
+
+fn table(name: &str, of: &Type) -> (String, &'static str) {
+    (format!("const {name} = {}(", of.text), ");")
+}
+
+fn check(text: &str) -> Result<(), String> {
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
+    shader::validate(&module, text)
+}

@@ -1,0 +1,118 @@
+//! What goes into one file: functions and constants, and why one of them cannot be printed.
+
+use crate::emit::dialect::Dialect;
+use crate::emit::language::{self, Arrays, Target};
+use crate::families::family::Spec;
+use crate::ir::graph::Kind;
+use crate::promise::built::Built;
+use std::sync::Arc;
+
+/// A function to print: a kernel, the spec it serves and its name.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// The kernel.
+    pub built: Arc<Built>,
+    /// The spec, its channels included.
+    pub spec: Spec,
+    /// A name that replaces the spec's own.
+    pub name: Option<String>,
+}
+
+/// Constants to print: coefficients of an environment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constants {
+    /// The name, in lower case.
+    pub name: String,
+    /// What they are.
+    pub doc: String,
+    /// RGB coefficients, index l(l+1)+m.
+    pub values: Vec<[f64; 3]>,
+}
+
+/// What goes into one file.
+#[derive(Clone, Debug, Default)]
+pub struct Module {
+    /// The name of the file without its extension.
+    pub name: String,
+    /// What made it: a spec or a scene.
+    pub origin: String,
+    /// The functions, in order.
+    pub functions: Vec<Function>,
+    /// The constants, in order.
+    pub constants: Vec<Constants>,
+    /// How the functions take and return arrays; a language's own way if it is left open.
+    pub arrays: Option<Arrays>,
+}
+
+/// Why a kernel cannot be printed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{spec}` cannot be printed for {target}: {why}; {help}")]
+pub struct Limit {
+    /// The kernel.
+    pub spec: String,
+    /// The language.
+    pub target: Target,
+    /// What stands in the way.
+    pub why: String,
+    /// What to do.
+    pub help: String,
+}
+
+impl Module {
+    /// Returns the module of one function, named as it is in a shader.
+    pub fn of(function: Function) -> Self {
+        let (name, origin) = (function.shader_name(), format!("`{}`", function.spec));
+        Self { name, origin, functions: vec![function], ..Self::default() }
+    }
+}
+
+impl Function {
+    /// Returns its name in a language whose functions are not generic.
+    pub fn shader_name(&self) -> String {
+        self.name.clone().unwrap_or_else(|| self.spec.name())
+    }
+
+    /// Returns the name of the function that is generic over the signal, and that of its RGB twin if the spec is RGB.
+    pub(crate) fn generic_names(&self) -> (String, Option<String>) {
+        match (&self.name, self.spec.rgb) {
+            (Some(name), false) => (name.clone(), None),
+            (Some(name), true) => (format!("{name}_channels"), Some(name.clone())),
+            (None, false) => (self.spec.stem(), None),
+            (None, true) => (self.spec.base().stem(), Some(self.spec.stem())),
+        }
+    }
+
+    /// Returns whether a parameter is the signal.
+    pub(crate) fn has_signal(&self) -> bool {
+        self.built.code.params().iter().any(|param| param.kind == Kind::Signal)
+    }
+
+    /// Returns how the function is printed in a language.
+    ///
+    /// # Errors
+    ///
+    /// If the language has no f16 and the function needs it, or cannot pass arrays as it is asked to.
+    pub fn dialect(&self, target: Target, arrays: Option<Arrays>) -> Result<Dialect, Limit> {
+        if self.spec.half && target.half.is_none() {
+            let why = format!("{} f16", language::only(|language| language.half.is_some()));
+            let names: Vec<String> = language::ALL
+                .iter()
+                .filter(|language| language.half.is_some())
+                .map(|language| format!("`{language}`"))
+                .collect();
+            let help = format!("leave `f16` out, or name {} as the only target", names.join(" or "));
+            return Err(self.limit(target, why, help));
+        }
+        if let Some(arrays) = arrays.filter(|arrays| !target.arrays.contains(arrays)) {
+            let why = format!("{} does not pass arrays as `{}`", target.title, arrays.name());
+            return Err(self.limit(target, why, "leave `arrays` out, or name another target".to_owned()));
+        }
+        let plain = Dialect::new(target);
+        let rgb = self.spec.rgb && target.generic.is_none();
+        Ok(Dialect { rgb, half: self.spec.half, arrays: arrays.unwrap_or(plain.arrays), ..plain })
+    }
+
+    pub(crate) fn limit(&self, target: Target, why: String, help: String) -> Limit {
+        Limit { spec: self.spec.to_string(), target, why, help }
+    }
+}
