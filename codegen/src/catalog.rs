@@ -82,7 +82,7 @@ fn of_order(order: usize) -> Vec<Spec> {
     }
     let mixed = Family::SmallY([vec![Small::Taylor15; 3], vec![Small::Taylor1]].concat());
     if order == 5 {
-        // Paper 000's own mixture.
+        // The mixture of Křivánek et al. 2005, section 4.1.
         specs.push(Spec::new(mixed, order));
     }
     for family in [Family::Basis, Family::Rotate(Method::Zyz), Family::SmallY(small(Small::Taylor15))] {

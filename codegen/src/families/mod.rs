@@ -33,7 +33,7 @@ fn turn(g: &mut Graph, a: Phase, b: Phase) -> Phase {
 }
 
 /// The multiples e^{ia}, e^{2ia}, …, e^{i·count·a} by complex products, which keep f32's accuracy where Chebyshev's
-/// recurrence does not (MATH: 4(n − 2) operations).
+/// recurrence does not: 4(n − 2) operations (docs/MATH.md#multiples-of-an-angle).
 pub fn multiples(g: &mut Graph, phase: Phase, count: usize) -> Vec<Phase> {
     let mut all = vec![phase];
     for _ in 1..count {

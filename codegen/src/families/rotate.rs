@@ -1,6 +1,6 @@
 //! Exact rotations. The default is z, y, z: the y rotation of a band splits into chains of even and odd m, each of which
-//! a constant orthogonal matrix turns into plane rotations by multiples of the angle (MATH section 10). Set-up from a
-//! quaternion takes no trigonometry and no branch.
+//! a constant orthogonal matrix turns into plane rotations by multiples of the angle
+//! (docs/MATH.md#the-exact-y-rotation). Set-up from a quaternion takes no trigonometry and no branch.
 
 use crate::families::{Phase, basis, cross, inner, multiples, orthogonal, phases};
 use crate::ir::graph::{Graph, Id, Kind};
@@ -79,8 +79,9 @@ pub fn half_tangent_of_quaternion(g: &mut Graph, q: &[Id]) -> Id {
     g.mul(b, r)
 }
 
-/// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch (MATH section 10): adding a tiny
-/// number to w and y keeps both phases defined where one of them has no meaning.
+/// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch
+/// (docs/MATH.md#set-up-from-a-quaternion): adding a tiny number to w and y keeps both phases defined where one of them
+/// has no meaning.
 pub fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
     let Halves { q: [x, y, z, w], a, b, ab, r } = Halves::new(g, q);
     let (wr, zr) = (g.mul(w, r), g.mul(z, r));
@@ -446,7 +447,8 @@ fn matrix_band_1(g: &mut Graph, band: &[Id], rows: &[[Id; 3]; 3]) -> Vec<Id> {
     vec![g.neg(y), z, g.neg(x)]
 }
 
-/// Rotates band 2 as a symmetric traceless tensor: 38 operations, no trigonometry (MATH section 4).
+/// Rotates band 2 as a symmetric traceless tensor: 38 operations, no trigonometry
+/// (docs/MATH.md#vectors-and-tensors).
 fn matrix_band_2(g: &mut Graph, band: &[Id], rows: &[[Id; 3]; 3]) -> Vec<Id> {
     let [xy, yz, zz, zx, xx] = [band[0], band[1], band[2], band[3], band[4]];
     let root3 = Exact::sqrt_ratio(3, 1);

@@ -15,7 +15,8 @@ pub const MAX_HALF_ORDER: usize = 10;
 /// The largest order of a kernel in loop form.
 pub const MAX_LOOP_ORDER: usize = 64;
 
-/// The largest angle in degrees that an approximate rotation is meant for: paper 000's "up to 25 degrees".
+/// The largest angle in degrees that an approximate rotation is meant for: the "up to 25 degrees" of
+/// Křivánek et al. 2005, section 3.2.
 pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
 
 /// The largest (n − 1) β in degrees that a lifted rotation takes: there the tangents of its shears reach √3, and f32 errs
