@@ -24,7 +24,7 @@ pub struct Costs {
     pub operations: usize,
     /// The same for three channels.
     pub operations_rgb: usize,
-    /// Multiplications and multiply-adds for one channel: what paper 003 counts.
+    /// Multiplications and multiply-adds for one channel: what Nowrouzezahrai et al. 2012 count.
     pub products: usize,
     /// Inverse square roots and reciprocals.
     pub special: usize,

@@ -1,7 +1,7 @@
-//! The error of an approximate rotation over the angle, as Figure 3 of paper 000 has it: D(β) is the difference of the
-//! approximate and the exact matrix, its largest singular value the largest error of any signal of norm one, the mean of
-//! its n² singular values what the paper calls the average error, their root mean square the rms error of a random
-//! signal, and |D L| / |L| the error of a lobe L.
+//! The error of an approximate rotation over the angle, as Figure 3 of Křivánek et al. 2005 has it: D(β) is the
+//! difference of the approximate and the exact matrix, its largest singular value the largest error of any signal of
+//! norm one, the mean of its n² singular values what the paper calls the average error, their root mean square the rms
+//! error of a random signal, and |D L| / |L| the error of a lobe L.
 
 use crate::methods::{METHODS, Method};
 use crate::stability::truth::norm;

@@ -1,5 +1,5 @@
-//! The sparse zonal factorisation of paper 003, its Tables I and II with ours beside: non-zeros of Â, conditions of Y,
-//! operations.
+//! The sparse zonal factorisation of Nowrouzezahrai et al. 2012, its Tables I and II with ours beside: non-zeros of Â,
+//! conditions of Y, operations (docs/MATH.md#zonal-factorisation).
 
 use crate::papers::TABLE_2;
 use crate::{Progress, each, significant};

@@ -1,5 +1,5 @@
-//! What paper 003 (Nowrouzezahrai, Simari and Fiume, "Sparse Zonal Harmonic Factorization for Efficient SH Rotation")
-//! prints: data to compare with, and what is wrong in it.
+//! What Nowrouzezahrai, Simari and Fiume (2012), "Sparse Zonal Harmonic Factorization for Efficient SH Rotation",
+//! print: data to compare with, and what is wrong in it (docs/MATH.md#errata-of-the-papers).
 
 /// Table I: the percentage of zeros in Â of the bands from 2 on.
 pub const SPARSITY: [usize; 17] = [64, 67, 62, 53, 49, 46, 42, 39, 38, 38, 37, 37, 36, 36, 36, 35, 35];
@@ -82,7 +82,7 @@ pub fn recomputed(printed: &Column, nonzeros: usize) -> Column {
     }
 }
 
-/// What is wrong in paper 003 and bears on the tables.
+/// What is wrong in print and bears on the tables.
 pub const ERRATA: [&str; 5] = [
     "Table II, standard rotation on a CPU: counted with 2N − 2 evaluations of the basis; the text says 2N − 1 directions. \
      The recomputed column has 2N − 1.",

@@ -66,7 +66,7 @@ fn error_over_angle(report: &Report, order: usize) -> File {
     file(&format!("error_order{order}"), &picture)
 }
 
-/// Figure 3 of paper 000 with LF3 beside.
+/// Figure 3 of Křivánek et al. 2005 with LF3 beside.
 fn figure_3(report: &Report) -> File {
     let panels = [(MAX, "largest"), (MEAN, "mean singular value"), (LOBE, "Phong lobe cos⁵, relative")]
         .into_iter()

@@ -61,8 +61,8 @@ fn errors(report: &Report) -> File {
     let mut parts = vec![
         "D(β) is the difference of the approximate and the exact rotation about y (for the tilt: of z towards x) by β. \
          *Max* is its largest singular value, the largest error of any signal of norm one; *mean singular value* the \
-         mean of all n² of them, which paper 000 calls the average error; *rms* their root mean square, which is the \
-         error of a random signal; the lobes are max(0, cos θ)⁵ and ²⁰ about z, their error relative to their norm."
+         mean of all n² of them, which Křivánek et al. 2005 call the average error; *rms* their root mean square, which \
+         is the error of a random signal; the lobes are max(0, cos θ)⁵ and ²⁰ about z, their error relative to their norm."
             .to_owned(),
         "![Error over the angle, order 5](error_order5.svg)".to_owned(),
         "![Error over the angle, order 8](error_order8.svg)".to_owned(),
@@ -70,7 +70,7 @@ fn errors(report: &Report) -> File {
          planner takes (`codegen/src/law.rs`), dashed in the plots."
             .to_owned(),
         table(&["method", "error"], laws),
-        "## Figure 3 of paper 000\n\nKřivánek et al. 2005 plot the largest error, the average error and that of a Phong \
+        "## Figure 3 of Křivánek et al. 2005\n\nThe paper plots the largest error, the average error and that of a Phong \
          lobe at the orders 5 and 8. The angle in degrees at which each error is reached, LF3 beside:\n\n\
          ![Figure 3](figure3.svg)"
             .to_owned(),
@@ -372,7 +372,7 @@ fn table_2(report: &Report) -> Vec<String> {
 
 fn factorisation(report: &Report) -> File {
     let mut parts = vec![
-        "Nowrouzezahrai, Simari and Fiume, \"Sparse Zonal Harmonic Factorization for Efficient SH Rotation\" (paper 003), \
+        "Nowrouzezahrai, Simari and Fiume, \"Sparse Zonal Harmonic Factorization for Efficient SH Rotation\" (2012), \
          Tables I and II, with the lobe sets and the kernels of this project beside."
             .to_owned(),
     ];
@@ -458,7 +458,7 @@ fn proven(report: &Report) -> File {
 
 fn index(report: &Report) -> File {
     let rows = [
-        ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of paper 000"),
+        ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of Křivánek et al. 2005"),
         ("[costs](costs.md)", "operations, constants, live values and bytes of every rotation"),
         (
             "[fronts](fronts.md)",
@@ -467,7 +467,7 @@ fn index(report: &Report) -> File {
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
-        ("[factorisation](factorisation.md)", "Tables I and II of paper 003, ours beside"),
+        ("[factorisation](factorisation.md)", "Tables I and II of Nowrouzezahrai et al. 2012, ours beside"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];

@@ -56,8 +56,8 @@ fn no_kernel_exceeded_its_bound() {
     }
 }
 
-/// The angles in degrees at which the errors of Figure 3 of paper 000 reach 1e-3, 1e-2 and 1e-1, found with 50 digits by
-/// other code from the paper's definitions: methods, then [max, mean singular value, rms, lobe cos⁵].
+/// The angles in degrees at which the errors of Figure 3 of Křivánek et al. 2005 reach 1e-3, 1e-2 and 1e-1, found with
+/// 50 digits by other code from the paper's definitions: methods, then [max, mean singular value, rms, lobe cos⁵].
 type Crossings = (&'static str, usize, [Option<[f64; 3]>; 4]);
 const FIGURE_3: [Crossings; 8] = [
     (

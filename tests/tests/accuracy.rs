@@ -28,7 +28,8 @@ fn every_kernel_keeps_its_rounding_bound() {
 
 #[test]
 fn method_errors_follow_their_laws() {
-    // MATH section 2: T1 = L²/2, T2 = L³/6, LF3 = L³/24 with L = lβ, the largest band's, for small L.
+    // docs/MATH.md#taylor-expansions and docs/MATH.md#three-shears: T1 = L²/2, T2 = L³/6, LF3 = L³/24 with L = lβ, the
+    // largest band's, for small L.
     let beta = 0.02;
     for order in [4usize, 6, 9] {
         let l = (order - 1) as f64;
@@ -49,7 +50,7 @@ fn method_errors_follow_their_laws() {
 
 #[test]
 fn method_errors_equal_the_measured_figure_3() {
-    // MATH section 2: degrees at which the largest error reaches 1e-2.
+    // docs/MATH.md#taylor-expansions: degrees at which the largest error reaches 1e-2.
     for (text, degrees) in [
         ("taylor1:5", 2.03),
         ("taylor15:5", 3.00),
@@ -61,7 +62,7 @@ fn method_errors_equal_the_measured_figure_3() {
         let error = method_errors(&zonal_tests::spec(text), &[f64::to_radians(degrees)])[0];
         assert!((error / 1e-2 - 1.0).abs() < 0.02, "{text} at {degrees}: {error:e}");
     }
-    // MATH section 9.3: the shears' and the tilt's error a band.
+    // docs/MATH.md#shears-of-the-tilt: the shears' and the tilt's error a band.
     for (text, degrees, error) in [("tilt:5", 10.0, 1.4e-2), ("tilt:8", 10.0, 8.1e-2), ("lf3:5", 5.0, 1.8e-3)] {
         let measured = method_errors(&zonal_tests::spec(text), &[f64::to_radians(degrees)])[0];
         assert!((measured / error - 1.0).abs() < 0.05, "{text} at {degrees}: {measured:e}");

@@ -274,7 +274,7 @@ fn a_wrong_sign_is_not_taken_for_a_phase() {
     }
 }
 
-/// What MATH section 11 reaches, from a quaternion and for the basis.
+/// What the first prover of this kind reached (docs/MATH.md#rounding-bounds), from a quaternion and for the basis.
 #[test]
 fn bounds_are_as_close_as_the_best_known() {
     for (text, most) in [

@@ -65,7 +65,8 @@ fn totals(text: impl Fn(usize) -> String, orders: std::ops::RangeInclusive<usize
     build(&specs).iter().map(|function| function.built.code.cost(function.spec.channels()).total).collect()
 }
 
-/// What MATH.md reaches, as the most that a kernel may cost.
+/// The least counts that were known when the kernels were begun, as the most that one may cost
+/// (docs/MATH.md#operations-of-the-exact-rotation).
 #[test]
 fn no_kernel_costs_more_than_the_best_known() {
     type Text = fn(usize) -> String;
@@ -88,7 +89,8 @@ fn no_kernel_costs_more_than_the_best_known() {
     assert!(nonzeros.iter().zip([9, 28, 67, 135, 231, 352]).all(|(got, most)| *got <= most), "{nonzeros:?}");
 }
 
-/// The sparse fixed rotations cost what their matrices' non-zeros say: paper 000's claim, corrected (MATH section 0).
+/// The sparse fixed rotations cost what their matrices' non-zeros say: the claim of Křivánek et al. 2005, section 3.1,
+/// corrected (docs/MATH.md#the-exchange-of-y-and-z).
 #[test]
 fn the_papers_baseline_costs_what_it_should() {
     // True cumulative non-zeros of x(±90°), orders 1 to 10, less the unit entries and the first product of each row.

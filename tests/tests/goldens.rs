@@ -127,7 +127,7 @@ fn rotations_from_a_matrix_meet_the_golden_matrices() {
         check_rotation(&format!("rotate:{order}:matrix"), order, matrix);
     }
     for order in 2..=10 {
-        // Lobes whose matrix has the condition 149 (MATH section 5) leave a few hundred roundings.
+        // Lobes whose matrix has the condition 149 leave a few hundred roundings (docs/MATH.md#the-search-for-lobes).
         let kernel = spec(&format!("zhf:{order}"));
         let wide = Runner::<f64>::new(&kernel);
         let c = signal(order, 5);
@@ -230,7 +230,7 @@ fn small_angle_rotations_meet_the_golden_values() {
         }
         let exact = Runner::<f64>::new(&spec("rotate_y:8")).run(&[vec![beta.cos(), beta.sin()], source.clone()]);
         assert!(band_error(&exact, &numbers(&case["exact"])) <= 1e-14, "exact at {beta}");
-        // Paper 000 mixes 1.5 for bands 1 to 3 with 1 for band 4.
+        // Křivánek et al. 2005, section 4.1, mix 1.5 for bands 1 to 3 with 1 for band 4.
         let mixed = Runner::<f64>::new(&spec("mix:5:taylor15+taylor15+taylor15+taylor1"));
         let got = mixed.run(&[vec![beta], source[..25].to_vec()]);
         let want = [&numbers(&case["taylor15"])[..16], &numbers(&case["taylor1"])[16..25]].concat();

@@ -68,7 +68,7 @@ fn rounding_in_f16_is_that_of_f32_times_what_the_formats_differ_by() {
     }
 }
 
-/// MATH section 6: the basis in f16 errs by 8e-4 at order 3 and 3.7e-3 at order 8 of a band's norm.
+/// docs/MATH.md#half-precision: the basis in f16 errs by 8e-4 at order 3 and 3.7e-3 at order 8 of a band's norm.
 #[test]
 fn the_basis_in_f16_errs_as_known() {
     let mut random = zonal_codegen::promise::samples::Random::new(8);

@@ -20,7 +20,7 @@ fn signal(random: &mut Random, order: usize) -> Vec<f64> {
 #[test]
 fn five_shears_follow_their_law_and_the_golden_ratio_is_their_best_split() {
     // The triangles of a frequency k err by e (kβ)³ with e = (7 − 3√5)/24; taking off the best linear part leaves a
-    // quarter of that for even bands, as for three shears (MATH section 9.1).
+    // quarter of that for even bands, as for three shears (docs/MATH.md#five-shears).
     let law = (7.0 - 3.0 * 5f64.sqrt()) / 96.0;
     let beta = 0.02;
     for order in [5usize, 7, 9] {
@@ -29,8 +29,8 @@ fn five_shears_follow_their_law_and_the_golden_ratio_is_their_best_split() {
         let ratio = error / (law * (l * beta).powi(3));
         assert!((ratio - 1.0).abs() < 0.03, "lf5:{order}: {ratio} of its law");
     }
-    // MATH section 9.3: coefficients fitted for each band by search err by so much in band 4 and band 7; ours are closed
-    // forms and may err by a quarter more.
+    // docs/MATH.md#five-shears: coefficients fitted for each band by search err by so much in band 4 and band 7; ours
+    // are closed forms and may err by a quarter more.
     for (order, degrees, fitted) in [(5, 10.0, 1.0e-3), (5, 15.0, 3.6e-3), (8, 10.0, 5.7e-3), (8, 25.0, 0.13)] {
         let error = method_errors(&spec(&format!("tilt:{order}:lf5")), &[f64::to_radians(degrees)])[0];
         let most = if degrees > 20.0 { 1.6 } else { 1.25 };
@@ -107,7 +107,7 @@ fn monomials_evaluate_to_what_harmonics_do() {
         }
         println!("order {order}: f64 {worst:e}, f32 {worst_narrow:e}");
         assert!(worst < 1e-13, "order {order}: {worst:e}");
-        // MATH section 12: 3.7e-7 at order 6 and 7e-7 at order 8 of the sup norm, doubling every two orders.
+        // docs/MATH.md#monomials: 3.7e-7 at order 6 and 7e-7 at order 8 of the sup norm, doubling every two orders.
         let most = if order <= 6 { 5e-7 } else { 3e-6 };
         assert!(worst_narrow < most, "order {order}: {worst_narrow:e}");
     }
@@ -180,8 +180,8 @@ fn the_adaptive_rotation_takes_one_of_two_ways() {
     }
 }
 
-/// Paper 000's Appendix B: a cache record may be used at the distance r from it, in the frame turned by b, while
-/// (2r/R) sin(b/2) + √(1 − cos b) is at most a; the paper found no exact inverse (MATH section 0 has it).
+/// Křivánek et al. 2005, appendix B: a cache record may be used at the distance r from it, in the frame turned by b,
+/// while (2r/R) sin(b/2) + √(1 − cos b) is at most a; the exact inverse is in docs/MATH.md#the-adaptive-rotation.
 #[test]
 fn the_limit_is_the_exact_inverse_of_the_caching_error() {
     for a in [0.05, 0.2, 0.368, 0.6, 1.0] {
@@ -197,8 +197,8 @@ fn the_limit_is_the_exact_inverse_of_the_caching_error() {
     }
 }
 
-/// Not on the front, and so no kernel: what minimax polynomials in the generator and four shears would give (MATH
-/// section 3 has the polynomials; the shears are ours). Their errors are those of 2 × 2 matrices, as the laws are.
+/// Not on the front, and so no kernel: what minimax polynomials in the generator and four shears would give
+/// (docs/MATH.md#three-shears). Their errors are those of 2 × 2 matrices, as the laws are.
 #[test]
 fn what_is_not_on_the_front_is_left_out() {
     use zonal_codegen::families::SmallAngle;
@@ -332,7 +332,7 @@ fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
         rows.push([n, planes.total - z, lifted.total - z, price(angles), price(shears)]);
     }
     println!("order, the y rotation by planes and lifted, the prices of their set-ups: {rows:?}");
-    // MATH section 4 has 12 36 78 147 237 358 for planes that are lifted themselves, n = 3 to 8.
+    // Planes that are lifted themselves take 12 36 78 147 237 358, n = 3 to 8 (docs/MATH.md#the-lifted-rotation).
     assert_eq!(rows.iter().map(|row| row[1]).collect::<Vec<_>>(), [15, 43, 89, 155, 243, 361, 511, 691]);
     assert_eq!(rows.iter().map(|row| row[2]).collect::<Vec<_>>(), [12, 30, 60, 105, 168, 252, 360, 495]);
     assert_eq!(rows.iter().map(|row| row[4]).collect::<Vec<_>>(), [42, 81, 138, 235, 374, 593, 882, 1311]);

@@ -160,7 +160,7 @@ fn normals_take_z_with_them() {
             let want = zonal::rotate(DQuat::from_rotation_arc(DVec3::Z, small), &c);
             let tilted = zonal::tilt(small, &c);
             assert!(band_error(&tilted[..9.min(N)], &want[..9.min(N)]) <= 2e-14, "bands 1 and 2 to {small}");
-            // (l b)³ / 24 is the error law of the shears, MATH section 9.1.
+            // (l b)³ / 24 is the error law of the shears, docs/MATH.md#three-shears.
             let law = (N.isqrt() as f64 * 0.05).powi(3) / 24.0;
             assert!(band_error(&tilted, &want) <= law, "order {} to {small}", N.isqrt());
         });

@@ -15,6 +15,7 @@
 //! but for rounding, so that a projection is the least-squares fit of the map, band energies obey Parseval's identity
 //! whatever the size of the map, and rounding is all that separates a uniform map from a single coefficient.
 //! (Sampling the harmonics at the centres of texels would change order 10 of a 256×128 map by about 1e-3 in rms.)
+//! docs/MATH.md#projection-of-maps has the integrals.
 
 use std::f64::consts::PI;
 use std::io::{Cursor, ErrorKind};

@@ -4,6 +4,7 @@
 //! constant factors. Given these sums, a band takes 3 l (l + 1) / 2 multiply-adds and no change of basis, where the
 //! rotation by planes takes two changes and four operations a plane. Making them is dearer than multiples of angles are,
 //! so that it pays for several signals that turn alike. The tangents bound β; see [`LIFTED_DEGREES`].
+//! docs/MATH.md#the-lifted-rotation derives it.
 
 use crate::families::family::{Does, Family, Group, Job, MAX_ORDER, Measure, Spec};
 use crate::families::parts::bands::{each_band, z_band};

@@ -36,8 +36,8 @@ fn kernel(order: usize, params: Vec<Param>, tables: Vec<Table>, mut body: Vec<St
     }
 }
 
-/// About y by a small β: paper 000's `shRotYdiff15` with its two tables, one loop over all bands, since the couplings
-/// between bands are zero.
+/// About y by a small β: `shRotYdiff15` of Křivánek et al. 2005 with its two tables, one loop over all bands, since
+/// the couplings between bands are zero.
 pub fn taylor15_loop(order: usize) -> LoopKernel {
     let last = order * order - 1;
     let c = |at: &Int| Num::item("c", at);

@@ -1,6 +1,6 @@
 //! Evaluation in monomials: Σ over m of Re or Im (x + iy)^m times a polynomial in z, by Horner's rule. A coefficient costs
 //! one operation a channel, which is the floor for n² free coefficients, and only the powers of x + iy are shared besides
-//! (MATH section 12). The coefficients are turned once, when they are stored, by `to_monomial`.
+//! (docs/MATH.md#monomials). The coefficients are turned once, when they are stored, by `to_monomial`.
 
 use crate::families::family::{Family, Group, Measure, Proof, Spec};
 use crate::families::parts::params::{direction, signal};

@@ -65,7 +65,8 @@ fn matrix_band_1(g: &mut Graph, band: &[Id], rows: &[[Id; 3]; 3]) -> Vec<Id> {
     vec![g.neg(y), z, g.neg(x)]
 }
 
-/// Rotates band 2 as a symmetric traceless tensor: 38 operations, no trigonometry (MATH section 4).
+/// Rotates band 2 as a symmetric traceless tensor: 38 operations, no trigonometry
+/// (docs/MATH.md#vectors-and-tensors).
 fn matrix_band_2(g: &mut Graph, band: &[Id], rows: &[[Id; 3]; 3]) -> Vec<Id> {
     let [xy, yz, zz, zx, xx] = [band[0], band[1], band[2], band[3], band[4]];
     let root3 = Exact::sqrt_ratio(3, 1);

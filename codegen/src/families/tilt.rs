@@ -1,6 +1,6 @@
 //! The tilt: the rotation that takes z to a normal by the shortest way, from the normal alone, with no trigonometry.
 //! Bands 1 and 2 are exact closed forms; from band 3 on three or five parity shears, regular at n = z and odd in (nx, ny), so
-//! that the inverse is the same code with −n (MATH section 9).
+//! that the inverse is the same code with −n (docs/MATH.md#the-tilt).
 
 use crate::families::family::{AngleAs, ByBand, Does, Family, Group, Job, Spec, Spelled, small_angle};
 use crate::families::parts::bands::each_band;

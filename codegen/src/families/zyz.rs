@@ -1,6 +1,6 @@
 //! The exact rotation by z, y, z: the y rotation of a band splits into chains of even and odd m, each of which a constant
-//! orthogonal matrix turns into plane rotations by multiples of the angle (MATH section 10). From a quaternion, from three
-//! angles, and from all their multiples, which `angles` makes once for many signals.
+//! orthogonal matrix turns into plane rotations by multiples of the angle (docs/MATH.md#the-exact-y-rotation). From a
+//! quaternion, from three angles, and from all their multiples, which `angles` makes once for many signals.
 
 use crate::families::family::{Does, Family, Group, Job, Looped, Measure, Spec};
 use crate::families::loops;

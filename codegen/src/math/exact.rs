@@ -1,4 +1,5 @@
-//! Numbers known exactly, which every table of this module is made of and every constant of a kernel starts as.
+//! Numbers known exactly, which every table of this module is made of and every constant of a kernel starts as
+//! (docs/MATH.md#exact-constants).
 //!
 //! An [`Exact`] is a finite sum of `q·√d·π^(k/2)·ln(1+√2)^j`, held in a canonical form, so that a zero, a one or
 //! a repeated constant is recognised without an epsilon. What no such sum can express (a quotient of sums, a root of

@@ -1,4 +1,5 @@
-//! The constants of the basis and of its rotations in closed form, each an exact surd.
+//! The constants of the basis and of its rotations in closed form, each an exact surd: docs/MATH.md#norms-and-recurrences,
+//! docs/MATH.md#the-generator and docs/MATH.md#the-exchange-of-y-and-z have the formulas.
 //!
 //! The basis is real and orthonormal, with the Condon-Shortley phase: band 1 is √(3/4π)·(-y, z, -x), and
 //! `y_l^m = √2 K_l^m (-1)^m P_l^(m)(z) Re (x+iy)^m` for m > 0, with Im and |m| for m < 0, without √2 for m = 0.

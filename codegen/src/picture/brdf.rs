@@ -1,6 +1,7 @@
 //! Analytic reflectances: their value for a view and a light direction, and, for a fixed view, the harmonics of what
 //! they make of the light, in f64. A table of the latter over all views is what a shader looks up. Everything is in the
 //! frame of the surface: z is its normal, x its tangent; nothing here knows of meshes, maps or kernels.
+//! docs/MATH.md#reflectances derives the integrals.
 //!
 //! # The reflectances
 //!

@@ -3,7 +3,8 @@
 //!
 //! Reflected light is Σ_i b_i(view) (D(R) L)_i. For a frame R that may be any, band l of it has the energy
 //! |b_l|² |L_l|² / (2l + 1), which falls with l much faster than the light's own where the reflectance is smooth; that is
-//! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget.
+//! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget
+//! (docs/MATH.md#the-order-that-a-budget-asks-for).
 
 use crate::environment::Projection;
 use crate::families::Spec;

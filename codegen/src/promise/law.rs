@@ -4,7 +4,7 @@
 //! parity shears both act on these planes alone. So the distance to the exact rotation is that of 2 × 2 matrices, in
 //! closed form: its largest singular value is the error of the worst signal, and its Frobenius norm over √(2l + 1) that of
 //! a random one, in the root mean square. Only Taylor 1.5 keeps the diagonal of A² and so mixes planes: its law is
-//! computed from its matrix (paper 000 says L²/4, which is what it starts with).
+//! computed from its matrix, about L²/4 at first. docs/MATH.md#error-laws has the derivation.
 
 use crate::families::family::{AngleAs, Spec};
 use crate::families::parts::small_angle::{SmallAngle, parity_shears};

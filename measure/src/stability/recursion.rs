@@ -1,6 +1,7 @@
 //! The recursion of Ivanic and Ruedenberg (J. Phys. Chem. 1996, with the correction of 1998), which makes each band of a
-//! rotation from the one below, and its derivative form (paper 000, Appendix A): what the exact rotation is compared with.
-//! It is written for harmonics without the Condon-Shortley phase; the signs are put in at the end.
+//! rotation from the one below, and its derivative form (Křivánek et al. 2005, appendix A): what the exact rotation is
+//! compared with (docs/MATH.md#stability). It is written for harmonics without the Condon-Shortley phase; the signs are
+//! put in at the end.
 
 use crate::numbers::Twin;
 use crate::stability::truth::{Rotation, Swap};

@@ -106,9 +106,9 @@ fn rotation(stability: &Stability) -> Vec<String> {
         ),
         format!(
             "The recursion of Ivanic and Ruedenberg makes each band's matrix from the one below. From order 48 to 64 it \
-             loses a digit every {} bands in f32 and every {} in f64. Its derivative form (paper 000, Appendix A) loses \
-             as much, but not at β = 0, where the paper uses it. The entries' errors, root mean square over the entries' \
-             own, by band:",
+             loses a digit every {} bands in f32 and every {} in f64. Its derivative form (Křivánek et al. 2005, appendix A) \
+             loses as much, but not at β = 0, where the paper uses it. The entries' errors, root mean square over the \
+             entries' own, by band:",
             short(lost("f32")),
             short(lost("f64"))
         ),

@@ -169,7 +169,8 @@ fn methods(seen: &Value) {
     // The first false colour is #000004.
     assert!(number(&seen["black"]) <= 4.0, "exact minus exact is not black but {}", seen["black"]);
     assert!(number(&seen["colourful"]["deviation"]) > 20.0, "the false colours are blank: {}", seen["colourful"]);
-    // Paper 000's claim, on this picture: turning approximately beats not turning, the more the better the method.
+    // The claim of Křivánek et al. 2005, on this picture: turning approximately beats not turning, the more the better
+    // the method.
     assert!(mean(Method::None) > 4.0 * mean(Method::Taylor15), "{} {}", mean(Method::None), mean(Method::Taylor15));
     assert!(mean(Method::Taylor15) > 2.0 * mean(Method::Tilt), "{} {}", mean(Method::Taylor15), mean(Method::Tilt));
     assert!(mean(Method::Taylor15) > 2.0 * mean(Method::Lf3));

@@ -1,4 +1,4 @@
-//! Rotations of one band, about z by a phase and about y exactly.
+//! Rotations of one band, about z by a phase and about y exactly (docs/MATH.md#the-exact-y-rotation).
 
 use crate::families::parts::orthogonal;
 use crate::families::parts::phases::{Euler, Phase, YPhases, euler, phases_of_quaternion};

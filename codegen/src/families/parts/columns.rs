@@ -1,6 +1,6 @@
 //! The basis by columns. For each m: the sectoral pair y_{m,±m}, then what lies above it as polynomials in z² times the pair
 //! of degree m (even l − m) or m + 1 (odd l − m). All normalisation is folded into the constants; nothing cancels near the
-//! poles (paper 000's and Sloan's recurrences, rearranged).
+//! poles. docs/MATH.md#the-basis has the formulas, a rearrangement of the usual recurrences.
 
 use crate::families::parts::phases::{Phase, turn};
 use crate::ir::graph::{Graph, Id};

@@ -1,5 +1,6 @@
 //! Constant orthogonal matrices applied with the fewest operations: dense, as plane rotations by shears, as Householder
-//! reflections, or, where the matrix is a symmetric involution, as three block shears (MATH sections 4 and 10).
+//! reflections, or, where the matrix is a symmetric involution, as three block shears
+//! (docs/MATH.md#orthogonal-blocks).
 
 use crate::ir::graph::{Graph, Id};
 use crate::math::exact::Exact;

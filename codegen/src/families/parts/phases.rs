@@ -24,7 +24,7 @@ pub fn turn(g: &mut Graph, a: Phase, b: Phase) -> Phase {
 }
 
 /// The multiples e^{ia}, e^{2ia}, …, e^{i·count·a} by complex products, which keep f32's accuracy where Chebyshev's
-/// recurrence does not (MATH: 4(n − 2) operations).
+/// recurrence does not: 4(n − 2) operations (docs/MATH.md#multiples-of-an-angle).
 pub fn multiples(g: &mut Graph, phase: Phase, count: usize) -> Vec<Phase> {
     let mut all = vec![phase];
     for _ in 1..count {
@@ -111,8 +111,9 @@ pub fn half_tangent_of_quaternion(g: &mut Graph, q: &[Id]) -> Id {
     g.mul(b, r)
 }
 
-/// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch (MATH section 10): adding a tiny
-/// number to w and y keeps both phases defined where one of them has no meaning.
+/// The phases of a unit quaternion (x, y, z, w), with neither trigonometry nor branch
+/// (docs/MATH.md#set-up-from-a-quaternion): adding a tiny number to w and y keeps both phases defined where one of them
+/// has no meaning.
 pub fn phases_of_quaternion(g: &mut Graph, q: &[Id]) -> [Phase; 3] {
     let Halves { q: [x, y, z, w], a, b, ab, r } = Halves::new(g, q);
     let (wr, zr) = (g.mul(w, r), g.mul(z, r));

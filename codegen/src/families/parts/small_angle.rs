@@ -1,5 +1,5 @@
-//! Rotations of one band about y by a small angle: Taylor expansions (paper 000) and three or five parity shears (LF3,
-//! LF5), which are cheaper and closer.
+//! Rotations of one band about y by a small angle: Taylor expansions (docs/MATH.md#taylor-expansions) and three or
+//! five parity shears (LF3, LF5), which are cheaper and closer (docs/MATH.md#parity-shears).
 
 use crate::families::parts::bands::{each_band, y_band, z_band};
 use crate::families::parts::phases::{Phase, YPhases, multiples, y_phases};
@@ -12,7 +12,7 @@ use crate::math::tables;
 pub enum SmallAngle {
     /// 1 + β A: error (lβ)²/2.
     Taylor1,
-    /// 1 + β A + β²/2 diag(A²): paper 000's `shRotYdiff15`, error about (lβ)²/4.
+    /// 1 + β A + β²/2 diag(A²): `shRotYdiff15` of Křivánek et al. 2005, error about (lβ)²/4.
     Taylor15,
     /// 1 + β A + β²/2 A²: error (lβ)³/6.
     Taylor2,
@@ -53,7 +53,8 @@ impl SmallAngle {
     }
 }
 
-/// The correction p of the shears' polynomials: the discrete minimax over the band's frequencies (MATH section 9.1).
+/// The correction p of the shears' polynomials: the discrete minimax over the band's frequencies
+/// (docs/MATH.md#three-shears).
 pub fn shear_correction(l: usize) -> Exact {
     let l = l as i64;
     match l % 2 {
@@ -73,7 +74,8 @@ pub struct ParityShear {
 /// The shears of LF3 and LF5, none for other methods. On the plane of a frequency k they multiply to 1 − e k³β³ off the
 /// diagonal, once first order is right; the term in β³ takes off the part of e k³ that is linear in k. For five shears
 /// β is split by the golden ratio, where both triangles have the same e = (7 − 3√5)/24; what is left to choose shifts
-/// β³ between the outer and the inner even shears, so that the two triangles err alike in (lβ)⁵ too.
+/// β³ between the outer and the inner even shears, so that the two triangles err alike in (lβ)⁵ too
+/// (docs/MATH.md#five-shears).
 pub fn parity_shears(l: usize, method: SmallAngle) -> Vec<ParityShear> {
     let p = shear_correction(l);
     let series: Vec<[Exact; 2]> = match method {

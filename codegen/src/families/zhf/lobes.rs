@@ -1,5 +1,6 @@
 //! Zonal harmonic factorization (Nowrouzezahrai, Simari and Fiume, "Sparse Zonal Harmonic Factorization for Efficient
-//! SH Rotation"): a band as a sum of 2l+1 rotated copies of its zonal harmonic, with few non-zeros in the change of basis.
+//! SH Rotation"): a band as a sum of 2l+1 rotated copies of its zonal harmonic, with few non-zeros in the change of basis
+//! (docs/MATH.md#zonal-factorisation).
 //!
 //! For lobe directions ω_d let `Y[d][m] = y_l^m(ω_d)` and `Â = Y⁻¹`, rows m, columns d (the paper's equations 10 and
 //! 11). A band's function is f(ω) = Σ_m c_m y_l^m(ω).

@@ -1,6 +1,6 @@
-//! Rotation by sparse zonal factorisation (paper 003): a band is a sum of 2l + 1 lobes, lobes turn by turning their
-//! directions. It takes far more operations than z, y, z when the lobes' basis values have to be computed, and few when
-//! a scene has the samples anyway.
+//! Rotation by sparse zonal factorisation (docs/MATH.md#zonal-factorisation): a band is a sum of 2l + 1 lobes, lobes
+//! turn by turning their directions. It takes far more operations than z, y, z when the lobes' basis values have to be
+//! computed, and few when a scene has the samples anyway.
 
 pub mod lobes;
 pub mod search;

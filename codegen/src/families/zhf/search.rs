@@ -1,5 +1,5 @@
-//! The search for lobe directions that make Â sparse (paper 003, section 5): simulated annealing over directions at the
-//! roots of Legendre functions and at fractions of a turn.
+//! The search for lobe directions that make Â sparse (Nowrouzezahrai et al. 2012, section 5): simulated annealing over
+//! directions at the roots of Legendre functions and at fractions of a turn (docs/MATH.md#the-search-for-lobes).
 //!
 //! A search is a sequence of tries that know nothing of each other: a try's number and the seed decide all that it does,
 //! with neither a transcendental function nor the order of threads in it. So a search gives the same sets on every

@@ -1,7 +1,7 @@
 //! The set-up of a rotation from a quaternion or a normal, analysed over boxes. A pair of components, (w, z), (y, x) or
 //! (x, y), enters by its angle alone: what is computed is homogeneous in the pair's length, and so is its error, as long
 //! as nothing underflows. So no pole is special, and the domain is one angle a pair. Boxes of angles are quartered until
-//! their bound is hardly above what is found at single angles.
+//! their bound is hardly above what is found at single angles (docs/MATH.md#phases-of-a-set-up).
 
 use crate::ir::listing::{Listing, Op, Operand};
 use crate::promise::bound::region::{Enclosure, Region, Root};

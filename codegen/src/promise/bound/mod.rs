@@ -1,6 +1,6 @@
-//! Proven bounds of the f32 rounding error of a kernel, in the measure of [`crate::promise::accuracy`] (MATH section
-//! 11). What is bounded is the distance between the kernel's f32 result and the same formula in exact arithmetic on the
-//! same f32 inputs.
+//! Proven bounds of the f32 rounding error of a kernel, in the measure of [`crate::promise::accuracy`]
+//! (docs/MATH.md#rounding-bounds). What is bounded is the distance between the kernel's f32 result and the same formula
+//! in exact arithmetic on the same f32 inputs.
 //!
 //! The domain is the kernel's documented one: unit vectors, quaternions, (cos, sin) pairs and rotation matrices whose
 //! components were rounded to f32; n.z ≥ 0 for an exact tilt; angles to [`Spec::max_angle`] for an approximate rotation and

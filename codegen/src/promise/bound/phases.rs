@@ -1,5 +1,6 @@
 //! The unit phases of a kernel: which pairs of scalars are e^{ikθ}, and how far their f32 values are off as complex
-//! numbers. Componentwise a chain of complex products would seem to lose half a bit a step; as complex numbers errors add.
+//! numbers. Componentwise a chain of complex products would seem to lose half a bit a step; as complex numbers errors add
+//! (docs/MATH.md#planes-as-complex-products).
 //!
 //! A complex product is off by K u of its size at most: K = √5 for separate arithmetic (Brent, Percival and Zimmermann
 //! 2007), 2 for fused (Jeannerod, Kornerup, Louvet and Muller 2017; whichever products are rounded, one of each part, they

@@ -1,6 +1,7 @@
 //! The parameters' domains as trigonometric grids. Everything that a section computes, its error included, is a
 //! trigonometric polynomial in the angles of its domain, for fixed relative roundings; such a polynomial of degree d stays
-//! below its largest value at N equidistant points divided by cos(πd/N) (M. Riesz). So a grid proves a bound for all angles.
+//! below its largest value at N equidistant points divided by cos(πd/N) (M. Riesz 1914). So a grid proves a bound for all
+//! angles (docs/MATH.md#grids-that-prove).
 
 // Names a family: a lifted rotation's couplings are sums over frequencies whose factors it alone has.
 use crate::families::lifted;
