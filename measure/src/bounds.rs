@@ -12,8 +12,9 @@ use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::promise::accuracy::{Meaning, Measure};
-use zonal_codegen::promise::bound::{self, Bound};
+use zonal_codegen::promise::bound::Bound;
 use zonal_codegen::promise::built::code;
+use zonal_codegen::promise::proofs;
 use zonal_codegen::promise::samples;
 
 /// How many inputs each kernel is measured over unless another number is asked for.
@@ -215,7 +216,7 @@ pub fn proven() -> Vec<Proven> {
     let specs: Vec<Spec> = catalog::standard().into_iter().filter(|spec| !spec.rgb).collect();
     let prove = |spec: &Spec| {
         let code = code(spec);
-        let bound = bound::of(spec, &code)?;
+        let bound = proofs::bound(spec, &code)?;
         let ways = match (code, &spec.family) {
             (Code::Straight(listing), _) => vec![(spec.clone(), listing)],
             (Code::Loop(kernel), _) => vec![(spec.clone(), Listing::from(&kernel))],

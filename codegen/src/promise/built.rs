@@ -6,7 +6,7 @@ use crate::ir::code::{Branch, Code};
 use crate::ir::kernel::Kernel;
 use crate::ir::listing::Listing;
 use crate::promise::accuracy::{Accuracy, round_up};
-use crate::promise::bound;
+use crate::promise::proofs;
 
 /// A kernel that is ready to print.
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ impl Built {
         let whole = self.accuracy.rounding_f32;
         match self.spec.max_angle() {
             Some(limit) if !self.spec.half => {
-                let within = bound::within(&self.spec, &self.code, Some(limit.min(max_angle)));
+                let within = proofs::bound_within(&self.spec, &self.code, Some(limit.min(max_angle)));
                 within.map_or(whole, |bound| round_up(bound.value()))
             }
             _ => whole,

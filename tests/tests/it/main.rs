@@ -14,6 +14,7 @@ mod laws;
 mod loops;
 mod methods;
 mod plans;
+mod proofs;
 mod properties;
 mod readme;
 mod requirements;
