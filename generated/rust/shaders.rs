@@ -17,39 +17,62 @@ pub struct Shaders {
     pub kernels: &'static [(&'static str, &'static str)],
 }
 
-/// Order 2: what rotations are made of, about one axis.
-pub const SH2_PIECES: Shaders = Shaders {
+/// Order 2: the basis, and sums over it.
+pub const SH2_EVALUATION: Shaders = Shaders {
     order: 2,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh2_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh2_pieces.glsl"),
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh2_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh2_evaluation.glsl"),
     kernels: &[
-        ("rotate_z:2", "sh2_rotate_z"),
-        ("rotate_z:2:rgb", "sh2_rotate_z_rgb"),
-        ("rotate_y:2", "sh2_rotate_y"),
-        ("rotate_y:2:rgb", "sh2_rotate_y_rgb"),
-        ("swap_yz:2", "sh2_swap_yz"),
-        ("swap_yz:2:rgb", "sh2_swap_yz_rgb"),
-        ("rotate_x_plus_90:2", "sh2_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:2:rgb", "sh2_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:2", "sh2_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:2:rgb", "sh2_rotate_x_minus_90deg_rgb"),
+        ("basis:2", "sh2_basis"),
+        ("basis:2:loop", "sh2_basis_loop"),
+        ("eval:2", "sh2_eval"),
+        ("eval:2:rgb", "sh2_eval_rgb"),
+        ("eval_monomial:2", "sh2_eval_monomial"),
+        ("eval_monomial:2:rgb", "sh2_eval_monomial_rgb"),
+        ("to_monomial:2", "sh2_to_monomial"),
+        ("to_monomial:2:rgb", "sh2_to_monomial_rgb"),
     ],
 };
 
-/// Order 2: the sparse zonal factorisation.
-pub const SH2_FACTORISATION: Shaders = Shaders {
+/// Order 2: exact rotations, and what is done once for many of them.
+pub const SH2_ROTATION: Shaders = Shaders {
     order: 2,
-    group: "factorisation",
-    wgsl: include_str!("../wgsl/sh2_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh2_factorisation.glsl"),
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh2_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh2_rotation.glsl"),
     kernels: &[
-        ("zhf:2", "sh2_zhf"),
-        ("zhf:2:rgb", "sh2_zhf_rgb"),
-        ("zhf_weights:2", "sh2_zhf_weights"),
-        ("zhf_weights:2:rgb", "sh2_zhf_weights_rgb"),
-        ("zhf_tailored:2", "sh2_zhf_tailored"),
-        ("zhf_tailored:2:rgb", "sh2_zhf_tailored_rgb"),
+        ("rotate:2:zyz", "sh2_rotate_zyz"),
+        ("rotate:2:zyz:rgb", "sh2_rotate_zyz_rgb"),
+        ("rotate:2:zyz:loop", "sh2_rotate_zyz_loop"),
+        ("rotate:2:zyz:rgb:loop", "sh2_rotate_zyz_rgb_loop"),
+        ("rotate:2", "sh2_rotate"),
+        ("rotate:2:rgb", "sh2_rotate_rgb"),
+        ("rotate:2:matrix", "sh2_rotate_matrix"),
+        ("rotate:2:matrix:rgb", "sh2_rotate_matrix_rgb"),
+        ("rotate:2:euler", "sh2_rotate_euler"),
+        ("rotate:2:euler:rgb", "sh2_rotate_euler_rgb"),
+        ("angles:2", "sh2_angles"),
+        ("rotate:2:angles", "sh2_rotate_angles"),
+        ("rotate:2:angles:rgb", "sh2_rotate_angles_rgb"),
+        ("rotate:2:zxzxz", "sh2_rotate_zxzxz"),
+        ("rotate:2:zxzxz:rgb", "sh2_rotate_zxzxz_rgb"),
+        ("rotate:2:align", "sh2_rotate_align"),
+        ("rotate:2:align:rgb", "sh2_rotate_align_rgb"),
+        ("rotate:2:zonal", "sh2_rotate_zonal"),
+        ("rotate:2:zonal:rgb", "sh2_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 2: the shortest rotation of z to a normal.
+pub const SH2_TILTING: Shaders = Shaders {
+    order: 2,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh2_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh2_tilting.glsl"),
+    kernels: &[
+        ("tilt:2", "sh2_tilt"),
+        ("tilt:2:rgb", "sh2_tilt_rgb"),
     ],
 };
 
@@ -87,98 +110,101 @@ pub const SH2_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 2: the shortest rotation of z to a normal.
-pub const SH2_TILTING: Shaders = Shaders {
+/// Order 2: the sparse zonal factorisation.
+pub const SH2_FACTORISATION: Shaders = Shaders {
     order: 2,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh2_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh2_tilting.glsl"),
-    kernels: &[
-        ("tilt:2", "sh2_tilt"),
-        ("tilt:2:rgb", "sh2_tilt_rgb"),
-    ],
-};
-
-/// Order 2: exact rotations, and what is done once for many of them.
-pub const SH2_ROTATION: Shaders = Shaders {
-    order: 2,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh2_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh2_rotation.glsl"),
-    kernels: &[
-        ("rotate:2:zyz", "sh2_rotate_zyz"),
-        ("rotate:2:zyz:rgb", "sh2_rotate_zyz_rgb"),
-        ("rotate:2:zyz:loop", "sh2_rotate_zyz_loop"),
-        ("rotate:2:zyz:rgb:loop", "sh2_rotate_zyz_rgb_loop"),
-        ("rotate:2", "sh2_rotate"),
-        ("rotate:2:rgb", "sh2_rotate_rgb"),
-        ("rotate:2:matrix", "sh2_rotate_matrix"),
-        ("rotate:2:matrix:rgb", "sh2_rotate_matrix_rgb"),
-        ("rotate:2:euler", "sh2_rotate_euler"),
-        ("rotate:2:euler:rgb", "sh2_rotate_euler_rgb"),
-        ("angles:2", "sh2_angles"),
-        ("rotate:2:angles", "sh2_rotate_angles"),
-        ("rotate:2:angles:rgb", "sh2_rotate_angles_rgb"),
-        ("rotate:2:zxzxz", "sh2_rotate_zxzxz"),
-        ("rotate:2:zxzxz:rgb", "sh2_rotate_zxzxz_rgb"),
-        ("rotate:2:align", "sh2_rotate_align"),
-        ("rotate:2:align:rgb", "sh2_rotate_align_rgb"),
-        ("rotate:2:zonal", "sh2_rotate_zonal"),
-        ("rotate:2:zonal:rgb", "sh2_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 2: the basis, and sums over it.
-pub const SH2_EVALUATION: Shaders = Shaders {
-    order: 2,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh2_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh2_evaluation.glsl"),
-    kernels: &[
-        ("basis:2", "sh2_basis"),
-        ("basis:2:loop", "sh2_basis_loop"),
-        ("eval:2", "sh2_eval"),
-        ("eval:2:rgb", "sh2_eval_rgb"),
-        ("eval_monomial:2", "sh2_eval_monomial"),
-        ("eval_monomial:2:rgb", "sh2_eval_monomial_rgb"),
-        ("to_monomial:2", "sh2_to_monomial"),
-        ("to_monomial:2:rgb", "sh2_to_monomial_rgb"),
-    ],
-};
-
-/// Order 3: what rotations are made of, about one axis.
-pub const SH3_PIECES: Shaders = Shaders {
-    order: 3,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh3_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh3_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:3", "sh3_rotate_z"),
-        ("rotate_z:3:rgb", "sh3_rotate_z_rgb"),
-        ("rotate_y:3", "sh3_rotate_y"),
-        ("rotate_y:3:rgb", "sh3_rotate_y_rgb"),
-        ("swap_yz:3", "sh3_swap_yz"),
-        ("swap_yz:3:rgb", "sh3_swap_yz_rgb"),
-        ("rotate_x_plus_90:3", "sh3_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:3:rgb", "sh3_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:3", "sh3_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:3:rgb", "sh3_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 3: the sparse zonal factorisation.
-pub const SH3_FACTORISATION: Shaders = Shaders {
-    order: 3,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh3_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh3_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh2_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh2_factorisation.glsl"),
     kernels: &[
-        ("zhf:3", "sh3_zhf"),
-        ("zhf:3:rgb", "sh3_zhf_rgb"),
-        ("zhf_weights:3", "sh3_zhf_weights"),
-        ("zhf_weights:3:rgb", "sh3_zhf_weights_rgb"),
-        ("zhf_tailored:3", "sh3_zhf_tailored"),
-        ("zhf_tailored:3:rgb", "sh3_zhf_tailored_rgb"),
+        ("zhf:2", "sh2_zhf"),
+        ("zhf:2:rgb", "sh2_zhf_rgb"),
+        ("zhf_weights:2", "sh2_zhf_weights"),
+        ("zhf_weights:2:rgb", "sh2_zhf_weights_rgb"),
+        ("zhf_tailored:2", "sh2_zhf_tailored"),
+        ("zhf_tailored:2:rgb", "sh2_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 2: what rotations are made of, about one axis.
+pub const SH2_PIECES: Shaders = Shaders {
+    order: 2,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh2_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh2_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:2", "sh2_rotate_z"),
+        ("rotate_z:2:rgb", "sh2_rotate_z_rgb"),
+        ("rotate_y:2", "sh2_rotate_y"),
+        ("rotate_y:2:rgb", "sh2_rotate_y_rgb"),
+        ("swap_yz:2", "sh2_swap_yz"),
+        ("swap_yz:2:rgb", "sh2_swap_yz_rgb"),
+        ("rotate_x_plus_90:2", "sh2_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:2:rgb", "sh2_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:2", "sh2_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:2:rgb", "sh2_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 3: the basis, and sums over it.
+pub const SH3_EVALUATION: Shaders = Shaders {
+    order: 3,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh3_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh3_evaluation.glsl"),
+    kernels: &[
+        ("basis:3", "sh3_basis"),
+        ("basis:3:loop", "sh3_basis_loop"),
+        ("eval:3", "sh3_eval"),
+        ("eval:3:rgb", "sh3_eval_rgb"),
+        ("eval_monomial:3", "sh3_eval_monomial"),
+        ("eval_monomial:3:rgb", "sh3_eval_monomial_rgb"),
+        ("to_monomial:3", "sh3_to_monomial"),
+        ("to_monomial:3:rgb", "sh3_to_monomial_rgb"),
+    ],
+};
+
+/// Order 3: exact rotations, and what is done once for many of them.
+pub const SH3_ROTATION: Shaders = Shaders {
+    order: 3,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh3_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh3_rotation.glsl"),
+    kernels: &[
+        ("rotate:3:zyz", "sh3_rotate_zyz"),
+        ("rotate:3:rgb", "sh3_rotate_rgb"),
+        ("rotate:3:zyz:loop", "sh3_rotate_zyz_loop"),
+        ("rotate:3:rgb:loop", "sh3_rotate_rgb_loop"),
+        ("rotate:3", "sh3_rotate"),
+        ("rotate:3:tensor:rgb", "sh3_rotate_tensor_rgb"),
+        ("rotate:3:matrix", "sh3_rotate_matrix"),
+        ("rotate:3:matrix:rgb", "sh3_rotate_matrix_rgb"),
+        ("rotate:3:euler", "sh3_rotate_euler"),
+        ("rotate:3:euler:rgb", "sh3_rotate_euler_rgb"),
+        ("angles:3", "sh3_angles"),
+        ("rotate:3:angles", "sh3_rotate_angles"),
+        ("rotate:3:angles:rgb", "sh3_rotate_angles_rgb"),
+        ("lifted:3", "sh3_lifted"),
+        ("rotate:3:lifted", "sh3_rotate_lifted"),
+        ("rotate:3:lifted:rgb", "sh3_rotate_lifted_rgb"),
+        ("rotate:3:zxzxz", "sh3_rotate_zxzxz"),
+        ("rotate:3:zxzxz:rgb", "sh3_rotate_zxzxz_rgb"),
+        ("rotate:3:align", "sh3_rotate_align"),
+        ("rotate:3:align:rgb", "sh3_rotate_align_rgb"),
+        ("rotate:3:zonal", "sh3_rotate_zonal"),
+        ("rotate:3:zonal:rgb", "sh3_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 3: the shortest rotation of z to a normal.
+pub const SH3_TILTING: Shaders = Shaders {
+    order: 3,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh3_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh3_tilting.glsl"),
+    kernels: &[
+        ("tilt:3", "sh3_tilt"),
+        ("tilt:3:rgb", "sh3_tilt_rgb"),
     ],
 };
 
@@ -216,101 +242,107 @@ pub const SH3_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 3: the shortest rotation of z to a normal.
-pub const SH3_TILTING: Shaders = Shaders {
+/// Order 3: the sparse zonal factorisation.
+pub const SH3_FACTORISATION: Shaders = Shaders {
     order: 3,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh3_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh3_tilting.glsl"),
-    kernels: &[
-        ("tilt:3", "sh3_tilt"),
-        ("tilt:3:rgb", "sh3_tilt_rgb"),
-    ],
-};
-
-/// Order 3: exact rotations, and what is done once for many of them.
-pub const SH3_ROTATION: Shaders = Shaders {
-    order: 3,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh3_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh3_rotation.glsl"),
-    kernels: &[
-        ("rotate:3:zyz", "sh3_rotate_zyz"),
-        ("rotate:3:rgb", "sh3_rotate_rgb"),
-        ("rotate:3:zyz:loop", "sh3_rotate_zyz_loop"),
-        ("rotate:3:rgb:loop", "sh3_rotate_rgb_loop"),
-        ("rotate:3", "sh3_rotate"),
-        ("rotate:3:tensor:rgb", "sh3_rotate_tensor_rgb"),
-        ("rotate:3:matrix", "sh3_rotate_matrix"),
-        ("rotate:3:matrix:rgb", "sh3_rotate_matrix_rgb"),
-        ("rotate:3:euler", "sh3_rotate_euler"),
-        ("rotate:3:euler:rgb", "sh3_rotate_euler_rgb"),
-        ("angles:3", "sh3_angles"),
-        ("rotate:3:angles", "sh3_rotate_angles"),
-        ("rotate:3:angles:rgb", "sh3_rotate_angles_rgb"),
-        ("lifted:3", "sh3_lifted"),
-        ("rotate:3:lifted", "sh3_rotate_lifted"),
-        ("rotate:3:lifted:rgb", "sh3_rotate_lifted_rgb"),
-        ("rotate:3:zxzxz", "sh3_rotate_zxzxz"),
-        ("rotate:3:zxzxz:rgb", "sh3_rotate_zxzxz_rgb"),
-        ("rotate:3:align", "sh3_rotate_align"),
-        ("rotate:3:align:rgb", "sh3_rotate_align_rgb"),
-        ("rotate:3:zonal", "sh3_rotate_zonal"),
-        ("rotate:3:zonal:rgb", "sh3_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 3: the basis, and sums over it.
-pub const SH3_EVALUATION: Shaders = Shaders {
-    order: 3,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh3_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh3_evaluation.glsl"),
-    kernels: &[
-        ("basis:3", "sh3_basis"),
-        ("basis:3:loop", "sh3_basis_loop"),
-        ("eval:3", "sh3_eval"),
-        ("eval:3:rgb", "sh3_eval_rgb"),
-        ("eval_monomial:3", "sh3_eval_monomial"),
-        ("eval_monomial:3:rgb", "sh3_eval_monomial_rgb"),
-        ("to_monomial:3", "sh3_to_monomial"),
-        ("to_monomial:3:rgb", "sh3_to_monomial_rgb"),
-    ],
-};
-
-/// Order 4: what rotations are made of, about one axis.
-pub const SH4_PIECES: Shaders = Shaders {
-    order: 4,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh4_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh4_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:4", "sh4_rotate_z"),
-        ("rotate_z:4:rgb", "sh4_rotate_z_rgb"),
-        ("rotate_y:4", "sh4_rotate_y"),
-        ("rotate_y:4:rgb", "sh4_rotate_y_rgb"),
-        ("swap_yz:4", "sh4_swap_yz"),
-        ("swap_yz:4:rgb", "sh4_swap_yz_rgb"),
-        ("rotate_x_plus_90:4", "sh4_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:4:rgb", "sh4_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:4", "sh4_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:4:rgb", "sh4_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 4: the sparse zonal factorisation.
-pub const SH4_FACTORISATION: Shaders = Shaders {
-    order: 4,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh4_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh4_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh3_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh3_factorisation.glsl"),
     kernels: &[
-        ("zhf:4", "sh4_zhf"),
-        ("zhf:4:rgb", "sh4_zhf_rgb"),
-        ("zhf_weights:4", "sh4_zhf_weights"),
-        ("zhf_weights:4:rgb", "sh4_zhf_weights_rgb"),
-        ("zhf_tailored:4", "sh4_zhf_tailored"),
-        ("zhf_tailored:4:rgb", "sh4_zhf_tailored_rgb"),
+        ("zhf:3", "sh3_zhf"),
+        ("zhf:3:rgb", "sh3_zhf_rgb"),
+        ("zhf_weights:3", "sh3_zhf_weights"),
+        ("zhf_weights:3:rgb", "sh3_zhf_weights_rgb"),
+        ("zhf_tailored:3", "sh3_zhf_tailored"),
+        ("zhf_tailored:3:rgb", "sh3_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 3: what rotations are made of, about one axis.
+pub const SH3_PIECES: Shaders = Shaders {
+    order: 3,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh3_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh3_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:3", "sh3_rotate_z"),
+        ("rotate_z:3:rgb", "sh3_rotate_z_rgb"),
+        ("rotate_y:3", "sh3_rotate_y"),
+        ("rotate_y:3:rgb", "sh3_rotate_y_rgb"),
+        ("swap_yz:3", "sh3_swap_yz"),
+        ("swap_yz:3:rgb", "sh3_swap_yz_rgb"),
+        ("rotate_x_plus_90:3", "sh3_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:3:rgb", "sh3_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:3", "sh3_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:3:rgb", "sh3_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 4: the basis, and sums over it.
+pub const SH4_EVALUATION: Shaders = Shaders {
+    order: 4,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh4_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh4_evaluation.glsl"),
+    kernels: &[
+        ("basis:4", "sh4_basis"),
+        ("basis:4:loop", "sh4_basis_loop"),
+        ("eval:4", "sh4_eval"),
+        ("eval:4:rgb", "sh4_eval_rgb"),
+        ("eval_monomial:4", "sh4_eval_monomial"),
+        ("eval_monomial:4:rgb", "sh4_eval_monomial_rgb"),
+        ("to_monomial:4", "sh4_to_monomial"),
+        ("to_monomial:4:rgb", "sh4_to_monomial_rgb"),
+    ],
+};
+
+/// Order 4: exact rotations, and what is done once for many of them.
+pub const SH4_ROTATION: Shaders = Shaders {
+    order: 4,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh4_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh4_rotation.glsl"),
+    kernels: &[
+        ("rotate:4", "sh4_rotate"),
+        ("rotate:4:rgb", "sh4_rotate_rgb"),
+        ("rotate:4:loop", "sh4_rotate_loop"),
+        ("rotate:4:rgb:loop", "sh4_rotate_rgb_loop"),
+        ("rotate:4:euler", "sh4_rotate_euler"),
+        ("rotate:4:euler:rgb", "sh4_rotate_euler_rgb"),
+        ("angles:4", "sh4_angles"),
+        ("rotate:4:angles", "sh4_rotate_angles"),
+        ("rotate:4:angles:rgb", "sh4_rotate_angles_rgb"),
+        ("lifted:4", "sh4_lifted"),
+        ("rotate:4:lifted", "sh4_rotate_lifted"),
+        ("rotate:4:lifted:rgb", "sh4_rotate_lifted_rgb"),
+        ("rotate:4:zxzxz", "sh4_rotate_zxzxz"),
+        ("rotate:4:zxzxz:rgb", "sh4_rotate_zxzxz_rgb"),
+        ("rotate:4:align", "sh4_rotate_align"),
+        ("rotate:4:align:rgb", "sh4_rotate_align_rgb"),
+        ("rotate:4:zonal", "sh4_rotate_zonal"),
+        ("rotate:4:zonal:rgb", "sh4_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 4: the shortest rotation of z to a normal.
+pub const SH4_TILTING: Shaders = Shaders {
+    order: 4,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh4_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh4_tilting.glsl"),
+    kernels: &[
+        ("tilt:4", "sh4_tilt"),
+        ("tilt:4:rgb", "sh4_tilt_rgb"),
+        ("tilt:4:lf5", "sh4_lf5_tilt"),
+        ("tilt:4:lf5:rgb", "sh4_lf5_tilt_rgb"),
+        ("tilt_prescaled:4", "sh4_tilt_prescaled"),
+        ("tilt_prescaled:4:rgb", "sh4_tilt_prescaled_rgb"),
+        ("tilt_prescaled:4:lf5", "sh4_lf5_tilt_prescaled"),
+        ("tilt_prescaled:4:lf5:rgb", "sh4_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:4", "sh4_tilt_scale"),
+        ("tilt_scale:4:rgb", "sh4_tilt_scale_rgb"),
+        ("tilt_unscale:4", "sh4_tilt_unscale"),
+        ("tilt_unscale:4:rgb", "sh4_tilt_unscale_rgb"),
     ],
 };
 
@@ -352,107 +384,109 @@ pub const SH4_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 4: the shortest rotation of z to a normal.
-pub const SH4_TILTING: Shaders = Shaders {
+/// Order 4: the sparse zonal factorisation.
+pub const SH4_FACTORISATION: Shaders = Shaders {
     order: 4,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh4_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh4_tilting.glsl"),
-    kernels: &[
-        ("tilt:4", "sh4_tilt"),
-        ("tilt:4:rgb", "sh4_tilt_rgb"),
-        ("tilt:4:lf5", "sh4_lf5_tilt"),
-        ("tilt:4:lf5:rgb", "sh4_lf5_tilt_rgb"),
-        ("tilt_prescaled:4", "sh4_tilt_prescaled"),
-        ("tilt_prescaled:4:rgb", "sh4_tilt_prescaled_rgb"),
-        ("tilt_prescaled:4:lf5", "sh4_lf5_tilt_prescaled"),
-        ("tilt_prescaled:4:lf5:rgb", "sh4_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:4", "sh4_tilt_scale"),
-        ("tilt_scale:4:rgb", "sh4_tilt_scale_rgb"),
-        ("tilt_unscale:4", "sh4_tilt_unscale"),
-        ("tilt_unscale:4:rgb", "sh4_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 4: exact rotations, and what is done once for many of them.
-pub const SH4_ROTATION: Shaders = Shaders {
-    order: 4,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh4_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh4_rotation.glsl"),
-    kernels: &[
-        ("rotate:4", "sh4_rotate"),
-        ("rotate:4:rgb", "sh4_rotate_rgb"),
-        ("rotate:4:loop", "sh4_rotate_loop"),
-        ("rotate:4:rgb:loop", "sh4_rotate_rgb_loop"),
-        ("rotate:4:euler", "sh4_rotate_euler"),
-        ("rotate:4:euler:rgb", "sh4_rotate_euler_rgb"),
-        ("angles:4", "sh4_angles"),
-        ("rotate:4:angles", "sh4_rotate_angles"),
-        ("rotate:4:angles:rgb", "sh4_rotate_angles_rgb"),
-        ("lifted:4", "sh4_lifted"),
-        ("rotate:4:lifted", "sh4_rotate_lifted"),
-        ("rotate:4:lifted:rgb", "sh4_rotate_lifted_rgb"),
-        ("rotate:4:zxzxz", "sh4_rotate_zxzxz"),
-        ("rotate:4:zxzxz:rgb", "sh4_rotate_zxzxz_rgb"),
-        ("rotate:4:align", "sh4_rotate_align"),
-        ("rotate:4:align:rgb", "sh4_rotate_align_rgb"),
-        ("rotate:4:zonal", "sh4_rotate_zonal"),
-        ("rotate:4:zonal:rgb", "sh4_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 4: the basis, and sums over it.
-pub const SH4_EVALUATION: Shaders = Shaders {
-    order: 4,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh4_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh4_evaluation.glsl"),
-    kernels: &[
-        ("basis:4", "sh4_basis"),
-        ("basis:4:loop", "sh4_basis_loop"),
-        ("eval:4", "sh4_eval"),
-        ("eval:4:rgb", "sh4_eval_rgb"),
-        ("eval_monomial:4", "sh4_eval_monomial"),
-        ("eval_monomial:4:rgb", "sh4_eval_monomial_rgb"),
-        ("to_monomial:4", "sh4_to_monomial"),
-        ("to_monomial:4:rgb", "sh4_to_monomial_rgb"),
-    ],
-};
-
-/// Order 5: what rotations are made of, about one axis.
-pub const SH5_PIECES: Shaders = Shaders {
-    order: 5,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh5_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh5_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:5", "sh5_rotate_z"),
-        ("rotate_z:5:rgb", "sh5_rotate_z_rgb"),
-        ("rotate_y:5", "sh5_rotate_y"),
-        ("rotate_y:5:rgb", "sh5_rotate_y_rgb"),
-        ("swap_yz:5", "sh5_swap_yz"),
-        ("swap_yz:5:rgb", "sh5_swap_yz_rgb"),
-        ("rotate_x_plus_90:5", "sh5_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:5:rgb", "sh5_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:5", "sh5_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:5:rgb", "sh5_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 5: the sparse zonal factorisation.
-pub const SH5_FACTORISATION: Shaders = Shaders {
-    order: 5,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh5_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh5_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh4_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh4_factorisation.glsl"),
     kernels: &[
-        ("zhf:5", "sh5_zhf"),
-        ("zhf:5:rgb", "sh5_zhf_rgb"),
-        ("zhf_weights:5", "sh5_zhf_weights"),
-        ("zhf_weights:5:rgb", "sh5_zhf_weights_rgb"),
-        ("zhf_tailored:5", "sh5_zhf_tailored"),
-        ("zhf_tailored:5:rgb", "sh5_zhf_tailored_rgb"),
+        ("zhf:4", "sh4_zhf"),
+        ("zhf:4:rgb", "sh4_zhf_rgb"),
+        ("zhf_weights:4", "sh4_zhf_weights"),
+        ("zhf_weights:4:rgb", "sh4_zhf_weights_rgb"),
+        ("zhf_tailored:4", "sh4_zhf_tailored"),
+        ("zhf_tailored:4:rgb", "sh4_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 4: what rotations are made of, about one axis.
+pub const SH4_PIECES: Shaders = Shaders {
+    order: 4,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh4_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh4_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:4", "sh4_rotate_z"),
+        ("rotate_z:4:rgb", "sh4_rotate_z_rgb"),
+        ("rotate_y:4", "sh4_rotate_y"),
+        ("rotate_y:4:rgb", "sh4_rotate_y_rgb"),
+        ("swap_yz:4", "sh4_swap_yz"),
+        ("swap_yz:4:rgb", "sh4_swap_yz_rgb"),
+        ("rotate_x_plus_90:4", "sh4_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:4:rgb", "sh4_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:4", "sh4_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:4:rgb", "sh4_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 5: the basis, and sums over it.
+pub const SH5_EVALUATION: Shaders = Shaders {
+    order: 5,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh5_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh5_evaluation.glsl"),
+    kernels: &[
+        ("basis:5", "sh5_basis"),
+        ("basis:5:loop", "sh5_basis_loop"),
+        ("eval:5", "sh5_eval"),
+        ("eval:5:rgb", "sh5_eval_rgb"),
+        ("eval:5:bands=0+1+2+4", "sh5_bands_0_1_2_4_eval"),
+        ("eval:5:bands=0+1+2+4:rgb", "sh5_bands_0_1_2_4_eval_rgb"),
+        ("eval_monomial:5", "sh5_eval_monomial"),
+        ("eval_monomial:5:rgb", "sh5_eval_monomial_rgb"),
+        ("to_monomial:5", "sh5_to_monomial"),
+        ("to_monomial:5:rgb", "sh5_to_monomial_rgb"),
+    ],
+};
+
+/// Order 5: exact rotations, and what is done once for many of them.
+pub const SH5_ROTATION: Shaders = Shaders {
+    order: 5,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh5_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh5_rotation.glsl"),
+    kernels: &[
+        ("rotate:5", "sh5_rotate"),
+        ("rotate:5:rgb", "sh5_rotate_rgb"),
+        ("rotate:5:loop", "sh5_rotate_loop"),
+        ("rotate:5:rgb:loop", "sh5_rotate_rgb_loop"),
+        ("rotate:5:euler", "sh5_rotate_euler"),
+        ("rotate:5:euler:rgb", "sh5_rotate_euler_rgb"),
+        ("angles:5", "sh5_angles"),
+        ("rotate:5:angles", "sh5_rotate_angles"),
+        ("rotate:5:angles:rgb", "sh5_rotate_angles_rgb"),
+        ("lifted:5", "sh5_lifted"),
+        ("rotate:5:lifted", "sh5_rotate_lifted"),
+        ("rotate:5:lifted:rgb", "sh5_rotate_lifted_rgb"),
+        ("rotate:5:zxzxz", "sh5_rotate_zxzxz"),
+        ("rotate:5:zxzxz:rgb", "sh5_rotate_zxzxz_rgb"),
+        ("rotate:5:align", "sh5_rotate_align"),
+        ("rotate:5:align:rgb", "sh5_rotate_align_rgb"),
+        ("rotate:5:zonal", "sh5_rotate_zonal"),
+        ("rotate:5:zonal:rgb", "sh5_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 5: the shortest rotation of z to a normal.
+pub const SH5_TILTING: Shaders = Shaders {
+    order: 5,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh5_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh5_tilting.glsl"),
+    kernels: &[
+        ("tilt:5", "sh5_tilt"),
+        ("tilt:5:rgb", "sh5_tilt_rgb"),
+        ("tilt:5:lf5", "sh5_lf5_tilt"),
+        ("tilt:5:lf5:rgb", "sh5_lf5_tilt_rgb"),
+        ("tilt_prescaled:5", "sh5_tilt_prescaled"),
+        ("tilt_prescaled:5:rgb", "sh5_tilt_prescaled_rgb"),
+        ("tilt_prescaled:5:lf5", "sh5_lf5_tilt_prescaled"),
+        ("tilt_prescaled:5:lf5:rgb", "sh5_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:5", "sh5_tilt_scale"),
+        ("tilt_scale:5:rgb", "sh5_tilt_scale_rgb"),
+        ("tilt_unscale:5", "sh5_tilt_unscale"),
+        ("tilt_unscale:5:rgb", "sh5_tilt_unscale_rgb"),
     ],
 };
 
@@ -495,109 +529,107 @@ pub const SH5_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 5: the shortest rotation of z to a normal.
-pub const SH5_TILTING: Shaders = Shaders {
+/// Order 5: the sparse zonal factorisation.
+pub const SH5_FACTORISATION: Shaders = Shaders {
     order: 5,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh5_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh5_tilting.glsl"),
-    kernels: &[
-        ("tilt:5", "sh5_tilt"),
-        ("tilt:5:rgb", "sh5_tilt_rgb"),
-        ("tilt:5:lf5", "sh5_lf5_tilt"),
-        ("tilt:5:lf5:rgb", "sh5_lf5_tilt_rgb"),
-        ("tilt_prescaled:5", "sh5_tilt_prescaled"),
-        ("tilt_prescaled:5:rgb", "sh5_tilt_prescaled_rgb"),
-        ("tilt_prescaled:5:lf5", "sh5_lf5_tilt_prescaled"),
-        ("tilt_prescaled:5:lf5:rgb", "sh5_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:5", "sh5_tilt_scale"),
-        ("tilt_scale:5:rgb", "sh5_tilt_scale_rgb"),
-        ("tilt_unscale:5", "sh5_tilt_unscale"),
-        ("tilt_unscale:5:rgb", "sh5_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 5: exact rotations, and what is done once for many of them.
-pub const SH5_ROTATION: Shaders = Shaders {
-    order: 5,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh5_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh5_rotation.glsl"),
-    kernels: &[
-        ("rotate:5", "sh5_rotate"),
-        ("rotate:5:rgb", "sh5_rotate_rgb"),
-        ("rotate:5:loop", "sh5_rotate_loop"),
-        ("rotate:5:rgb:loop", "sh5_rotate_rgb_loop"),
-        ("rotate:5:euler", "sh5_rotate_euler"),
-        ("rotate:5:euler:rgb", "sh5_rotate_euler_rgb"),
-        ("angles:5", "sh5_angles"),
-        ("rotate:5:angles", "sh5_rotate_angles"),
-        ("rotate:5:angles:rgb", "sh5_rotate_angles_rgb"),
-        ("lifted:5", "sh5_lifted"),
-        ("rotate:5:lifted", "sh5_rotate_lifted"),
-        ("rotate:5:lifted:rgb", "sh5_rotate_lifted_rgb"),
-        ("rotate:5:zxzxz", "sh5_rotate_zxzxz"),
-        ("rotate:5:zxzxz:rgb", "sh5_rotate_zxzxz_rgb"),
-        ("rotate:5:align", "sh5_rotate_align"),
-        ("rotate:5:align:rgb", "sh5_rotate_align_rgb"),
-        ("rotate:5:zonal", "sh5_rotate_zonal"),
-        ("rotate:5:zonal:rgb", "sh5_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 5: the basis, and sums over it.
-pub const SH5_EVALUATION: Shaders = Shaders {
-    order: 5,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh5_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh5_evaluation.glsl"),
-    kernels: &[
-        ("basis:5", "sh5_basis"),
-        ("basis:5:loop", "sh5_basis_loop"),
-        ("eval:5", "sh5_eval"),
-        ("eval:5:rgb", "sh5_eval_rgb"),
-        ("eval:5:bands=0+1+2+4", "sh5_bands_0_1_2_4_eval"),
-        ("eval:5:bands=0+1+2+4:rgb", "sh5_bands_0_1_2_4_eval_rgb"),
-        ("eval_monomial:5", "sh5_eval_monomial"),
-        ("eval_monomial:5:rgb", "sh5_eval_monomial_rgb"),
-        ("to_monomial:5", "sh5_to_monomial"),
-        ("to_monomial:5:rgb", "sh5_to_monomial_rgb"),
-    ],
-};
-
-/// Order 6: what rotations are made of, about one axis.
-pub const SH6_PIECES: Shaders = Shaders {
-    order: 6,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh6_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh6_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:6", "sh6_rotate_z"),
-        ("rotate_z:6:rgb", "sh6_rotate_z_rgb"),
-        ("rotate_y:6", "sh6_rotate_y"),
-        ("rotate_y:6:rgb", "sh6_rotate_y_rgb"),
-        ("swap_yz:6", "sh6_swap_yz"),
-        ("swap_yz:6:rgb", "sh6_swap_yz_rgb"),
-        ("rotate_x_plus_90:6", "sh6_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:6:rgb", "sh6_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:6", "sh6_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:6:rgb", "sh6_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 6: the sparse zonal factorisation.
-pub const SH6_FACTORISATION: Shaders = Shaders {
-    order: 6,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh6_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh6_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh5_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh5_factorisation.glsl"),
     kernels: &[
-        ("zhf:6", "sh6_zhf"),
-        ("zhf:6:rgb", "sh6_zhf_rgb"),
-        ("zhf_weights:6", "sh6_zhf_weights"),
-        ("zhf_weights:6:rgb", "sh6_zhf_weights_rgb"),
-        ("zhf_tailored:6", "sh6_zhf_tailored"),
-        ("zhf_tailored:6:rgb", "sh6_zhf_tailored_rgb"),
+        ("zhf:5", "sh5_zhf"),
+        ("zhf:5:rgb", "sh5_zhf_rgb"),
+        ("zhf_weights:5", "sh5_zhf_weights"),
+        ("zhf_weights:5:rgb", "sh5_zhf_weights_rgb"),
+        ("zhf_tailored:5", "sh5_zhf_tailored"),
+        ("zhf_tailored:5:rgb", "sh5_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 5: what rotations are made of, about one axis.
+pub const SH5_PIECES: Shaders = Shaders {
+    order: 5,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh5_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh5_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:5", "sh5_rotate_z"),
+        ("rotate_z:5:rgb", "sh5_rotate_z_rgb"),
+        ("rotate_y:5", "sh5_rotate_y"),
+        ("rotate_y:5:rgb", "sh5_rotate_y_rgb"),
+        ("swap_yz:5", "sh5_swap_yz"),
+        ("swap_yz:5:rgb", "sh5_swap_yz_rgb"),
+        ("rotate_x_plus_90:5", "sh5_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:5:rgb", "sh5_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:5", "sh5_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:5:rgb", "sh5_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 6: the basis, and sums over it.
+pub const SH6_EVALUATION: Shaders = Shaders {
+    order: 6,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh6_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh6_evaluation.glsl"),
+    kernels: &[
+        ("basis:6", "sh6_basis"),
+        ("basis:6:loop", "sh6_basis_loop"),
+        ("eval:6", "sh6_eval"),
+        ("eval:6:rgb", "sh6_eval_rgb"),
+        ("eval_monomial:6", "sh6_eval_monomial"),
+        ("eval_monomial:6:rgb", "sh6_eval_monomial_rgb"),
+        ("to_monomial:6", "sh6_to_monomial"),
+        ("to_monomial:6:rgb", "sh6_to_monomial_rgb"),
+    ],
+};
+
+/// Order 6: exact rotations, and what is done once for many of them.
+pub const SH6_ROTATION: Shaders = Shaders {
+    order: 6,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh6_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh6_rotation.glsl"),
+    kernels: &[
+        ("rotate:6", "sh6_rotate"),
+        ("rotate:6:rgb", "sh6_rotate_rgb"),
+        ("rotate:6:loop", "sh6_rotate_loop"),
+        ("rotate:6:rgb:loop", "sh6_rotate_rgb_loop"),
+        ("rotate:6:euler", "sh6_rotate_euler"),
+        ("rotate:6:euler:rgb", "sh6_rotate_euler_rgb"),
+        ("angles:6", "sh6_angles"),
+        ("rotate:6:angles", "sh6_rotate_angles"),
+        ("rotate:6:angles:rgb", "sh6_rotate_angles_rgb"),
+        ("lifted:6", "sh6_lifted"),
+        ("rotate:6:lifted", "sh6_rotate_lifted"),
+        ("rotate:6:lifted:rgb", "sh6_rotate_lifted_rgb"),
+        ("rotate:6:zxzxz", "sh6_rotate_zxzxz"),
+        ("rotate:6:zxzxz:rgb", "sh6_rotate_zxzxz_rgb"),
+        ("rotate:6:align", "sh6_rotate_align"),
+        ("rotate:6:align:rgb", "sh6_rotate_align_rgb"),
+        ("rotate:6:zonal", "sh6_rotate_zonal"),
+        ("rotate:6:zonal:rgb", "sh6_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 6: the shortest rotation of z to a normal.
+pub const SH6_TILTING: Shaders = Shaders {
+    order: 6,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh6_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh6_tilting.glsl"),
+    kernels: &[
+        ("tilt:6", "sh6_tilt"),
+        ("tilt:6:rgb", "sh6_tilt_rgb"),
+        ("tilt:6:lf5", "sh6_lf5_tilt"),
+        ("tilt:6:lf5:rgb", "sh6_lf5_tilt_rgb"),
+        ("tilt_prescaled:6", "sh6_tilt_prescaled"),
+        ("tilt_prescaled:6:rgb", "sh6_tilt_prescaled_rgb"),
+        ("tilt_prescaled:6:lf5", "sh6_lf5_tilt_prescaled"),
+        ("tilt_prescaled:6:lf5:rgb", "sh6_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:6", "sh6_tilt_scale"),
+        ("tilt_scale:6:rgb", "sh6_tilt_scale_rgb"),
+        ("tilt_unscale:6", "sh6_tilt_unscale"),
+        ("tilt_unscale:6:rgb", "sh6_tilt_unscale_rgb"),
     ],
 };
 
@@ -639,107 +671,107 @@ pub const SH6_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 6: the shortest rotation of z to a normal.
-pub const SH6_TILTING: Shaders = Shaders {
+/// Order 6: the sparse zonal factorisation.
+pub const SH6_FACTORISATION: Shaders = Shaders {
     order: 6,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh6_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh6_tilting.glsl"),
-    kernels: &[
-        ("tilt:6", "sh6_tilt"),
-        ("tilt:6:rgb", "sh6_tilt_rgb"),
-        ("tilt:6:lf5", "sh6_lf5_tilt"),
-        ("tilt:6:lf5:rgb", "sh6_lf5_tilt_rgb"),
-        ("tilt_prescaled:6", "sh6_tilt_prescaled"),
-        ("tilt_prescaled:6:rgb", "sh6_tilt_prescaled_rgb"),
-        ("tilt_prescaled:6:lf5", "sh6_lf5_tilt_prescaled"),
-        ("tilt_prescaled:6:lf5:rgb", "sh6_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:6", "sh6_tilt_scale"),
-        ("tilt_scale:6:rgb", "sh6_tilt_scale_rgb"),
-        ("tilt_unscale:6", "sh6_tilt_unscale"),
-        ("tilt_unscale:6:rgb", "sh6_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 6: exact rotations, and what is done once for many of them.
-pub const SH6_ROTATION: Shaders = Shaders {
-    order: 6,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh6_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh6_rotation.glsl"),
-    kernels: &[
-        ("rotate:6", "sh6_rotate"),
-        ("rotate:6:rgb", "sh6_rotate_rgb"),
-        ("rotate:6:loop", "sh6_rotate_loop"),
-        ("rotate:6:rgb:loop", "sh6_rotate_rgb_loop"),
-        ("rotate:6:euler", "sh6_rotate_euler"),
-        ("rotate:6:euler:rgb", "sh6_rotate_euler_rgb"),
-        ("angles:6", "sh6_angles"),
-        ("rotate:6:angles", "sh6_rotate_angles"),
-        ("rotate:6:angles:rgb", "sh6_rotate_angles_rgb"),
-        ("lifted:6", "sh6_lifted"),
-        ("rotate:6:lifted", "sh6_rotate_lifted"),
-        ("rotate:6:lifted:rgb", "sh6_rotate_lifted_rgb"),
-        ("rotate:6:zxzxz", "sh6_rotate_zxzxz"),
-        ("rotate:6:zxzxz:rgb", "sh6_rotate_zxzxz_rgb"),
-        ("rotate:6:align", "sh6_rotate_align"),
-        ("rotate:6:align:rgb", "sh6_rotate_align_rgb"),
-        ("rotate:6:zonal", "sh6_rotate_zonal"),
-        ("rotate:6:zonal:rgb", "sh6_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 6: the basis, and sums over it.
-pub const SH6_EVALUATION: Shaders = Shaders {
-    order: 6,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh6_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh6_evaluation.glsl"),
-    kernels: &[
-        ("basis:6", "sh6_basis"),
-        ("basis:6:loop", "sh6_basis_loop"),
-        ("eval:6", "sh6_eval"),
-        ("eval:6:rgb", "sh6_eval_rgb"),
-        ("eval_monomial:6", "sh6_eval_monomial"),
-        ("eval_monomial:6:rgb", "sh6_eval_monomial_rgb"),
-        ("to_monomial:6", "sh6_to_monomial"),
-        ("to_monomial:6:rgb", "sh6_to_monomial_rgb"),
-    ],
-};
-
-/// Order 7: what rotations are made of, about one axis.
-pub const SH7_PIECES: Shaders = Shaders {
-    order: 7,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh7_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh7_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:7", "sh7_rotate_z"),
-        ("rotate_z:7:rgb", "sh7_rotate_z_rgb"),
-        ("rotate_y:7", "sh7_rotate_y"),
-        ("rotate_y:7:rgb", "sh7_rotate_y_rgb"),
-        ("swap_yz:7", "sh7_swap_yz"),
-        ("swap_yz:7:rgb", "sh7_swap_yz_rgb"),
-        ("rotate_x_plus_90:7", "sh7_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:7:rgb", "sh7_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:7", "sh7_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:7:rgb", "sh7_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 7: the sparse zonal factorisation.
-pub const SH7_FACTORISATION: Shaders = Shaders {
-    order: 7,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh7_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh7_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh6_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh6_factorisation.glsl"),
     kernels: &[
-        ("zhf:7", "sh7_zhf"),
-        ("zhf:7:rgb", "sh7_zhf_rgb"),
-        ("zhf_weights:7", "sh7_zhf_weights"),
-        ("zhf_weights:7:rgb", "sh7_zhf_weights_rgb"),
-        ("zhf_tailored:7", "sh7_zhf_tailored"),
-        ("zhf_tailored:7:rgb", "sh7_zhf_tailored_rgb"),
+        ("zhf:6", "sh6_zhf"),
+        ("zhf:6:rgb", "sh6_zhf_rgb"),
+        ("zhf_weights:6", "sh6_zhf_weights"),
+        ("zhf_weights:6:rgb", "sh6_zhf_weights_rgb"),
+        ("zhf_tailored:6", "sh6_zhf_tailored"),
+        ("zhf_tailored:6:rgb", "sh6_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 6: what rotations are made of, about one axis.
+pub const SH6_PIECES: Shaders = Shaders {
+    order: 6,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh6_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh6_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:6", "sh6_rotate_z"),
+        ("rotate_z:6:rgb", "sh6_rotate_z_rgb"),
+        ("rotate_y:6", "sh6_rotate_y"),
+        ("rotate_y:6:rgb", "sh6_rotate_y_rgb"),
+        ("swap_yz:6", "sh6_swap_yz"),
+        ("swap_yz:6:rgb", "sh6_swap_yz_rgb"),
+        ("rotate_x_plus_90:6", "sh6_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:6:rgb", "sh6_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:6", "sh6_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:6:rgb", "sh6_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 7: the basis, and sums over it.
+pub const SH7_EVALUATION: Shaders = Shaders {
+    order: 7,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh7_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh7_evaluation.glsl"),
+    kernels: &[
+        ("basis:7", "sh7_basis"),
+        ("basis:7:loop", "sh7_basis_loop"),
+        ("eval:7", "sh7_eval"),
+        ("eval:7:rgb", "sh7_eval_rgb"),
+        ("eval_monomial:7", "sh7_eval_monomial"),
+        ("eval_monomial:7:rgb", "sh7_eval_monomial_rgb"),
+        ("to_monomial:7", "sh7_to_monomial"),
+        ("to_monomial:7:rgb", "sh7_to_monomial_rgb"),
+    ],
+};
+
+/// Order 7: exact rotations, and what is done once for many of them.
+pub const SH7_ROTATION: Shaders = Shaders {
+    order: 7,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh7_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh7_rotation.glsl"),
+    kernels: &[
+        ("rotate:7", "sh7_rotate"),
+        ("rotate:7:rgb", "sh7_rotate_rgb"),
+        ("rotate:7:loop", "sh7_rotate_loop"),
+        ("rotate:7:rgb:loop", "sh7_rotate_rgb_loop"),
+        ("rotate:7:euler", "sh7_rotate_euler"),
+        ("rotate:7:euler:rgb", "sh7_rotate_euler_rgb"),
+        ("angles:7", "sh7_angles"),
+        ("rotate:7:angles", "sh7_rotate_angles"),
+        ("rotate:7:angles:rgb", "sh7_rotate_angles_rgb"),
+        ("lifted:7", "sh7_lifted"),
+        ("rotate:7:lifted", "sh7_rotate_lifted"),
+        ("rotate:7:lifted:rgb", "sh7_rotate_lifted_rgb"),
+        ("rotate:7:zxzxz", "sh7_rotate_zxzxz"),
+        ("rotate:7:zxzxz:rgb", "sh7_rotate_zxzxz_rgb"),
+        ("rotate:7:align", "sh7_rotate_align"),
+        ("rotate:7:align:rgb", "sh7_rotate_align_rgb"),
+        ("rotate:7:zonal", "sh7_rotate_zonal"),
+        ("rotate:7:zonal:rgb", "sh7_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 7: the shortest rotation of z to a normal.
+pub const SH7_TILTING: Shaders = Shaders {
+    order: 7,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh7_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh7_tilting.glsl"),
+    kernels: &[
+        ("tilt:7", "sh7_tilt"),
+        ("tilt:7:rgb", "sh7_tilt_rgb"),
+        ("tilt:7:lf5", "sh7_lf5_tilt"),
+        ("tilt:7:lf5:rgb", "sh7_lf5_tilt_rgb"),
+        ("tilt_prescaled:7", "sh7_tilt_prescaled"),
+        ("tilt_prescaled:7:rgb", "sh7_tilt_prescaled_rgb"),
+        ("tilt_prescaled:7:lf5", "sh7_lf5_tilt_prescaled"),
+        ("tilt_prescaled:7:lf5:rgb", "sh7_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:7", "sh7_tilt_scale"),
+        ("tilt_scale:7:rgb", "sh7_tilt_scale_rgb"),
+        ("tilt_unscale:7", "sh7_tilt_unscale"),
+        ("tilt_unscale:7:rgb", "sh7_tilt_unscale_rgb"),
     ],
 };
 
@@ -781,107 +813,107 @@ pub const SH7_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 7: the shortest rotation of z to a normal.
-pub const SH7_TILTING: Shaders = Shaders {
+/// Order 7: the sparse zonal factorisation.
+pub const SH7_FACTORISATION: Shaders = Shaders {
     order: 7,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh7_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh7_tilting.glsl"),
-    kernels: &[
-        ("tilt:7", "sh7_tilt"),
-        ("tilt:7:rgb", "sh7_tilt_rgb"),
-        ("tilt:7:lf5", "sh7_lf5_tilt"),
-        ("tilt:7:lf5:rgb", "sh7_lf5_tilt_rgb"),
-        ("tilt_prescaled:7", "sh7_tilt_prescaled"),
-        ("tilt_prescaled:7:rgb", "sh7_tilt_prescaled_rgb"),
-        ("tilt_prescaled:7:lf5", "sh7_lf5_tilt_prescaled"),
-        ("tilt_prescaled:7:lf5:rgb", "sh7_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:7", "sh7_tilt_scale"),
-        ("tilt_scale:7:rgb", "sh7_tilt_scale_rgb"),
-        ("tilt_unscale:7", "sh7_tilt_unscale"),
-        ("tilt_unscale:7:rgb", "sh7_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 7: exact rotations, and what is done once for many of them.
-pub const SH7_ROTATION: Shaders = Shaders {
-    order: 7,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh7_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh7_rotation.glsl"),
-    kernels: &[
-        ("rotate:7", "sh7_rotate"),
-        ("rotate:7:rgb", "sh7_rotate_rgb"),
-        ("rotate:7:loop", "sh7_rotate_loop"),
-        ("rotate:7:rgb:loop", "sh7_rotate_rgb_loop"),
-        ("rotate:7:euler", "sh7_rotate_euler"),
-        ("rotate:7:euler:rgb", "sh7_rotate_euler_rgb"),
-        ("angles:7", "sh7_angles"),
-        ("rotate:7:angles", "sh7_rotate_angles"),
-        ("rotate:7:angles:rgb", "sh7_rotate_angles_rgb"),
-        ("lifted:7", "sh7_lifted"),
-        ("rotate:7:lifted", "sh7_rotate_lifted"),
-        ("rotate:7:lifted:rgb", "sh7_rotate_lifted_rgb"),
-        ("rotate:7:zxzxz", "sh7_rotate_zxzxz"),
-        ("rotate:7:zxzxz:rgb", "sh7_rotate_zxzxz_rgb"),
-        ("rotate:7:align", "sh7_rotate_align"),
-        ("rotate:7:align:rgb", "sh7_rotate_align_rgb"),
-        ("rotate:7:zonal", "sh7_rotate_zonal"),
-        ("rotate:7:zonal:rgb", "sh7_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 7: the basis, and sums over it.
-pub const SH7_EVALUATION: Shaders = Shaders {
-    order: 7,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh7_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh7_evaluation.glsl"),
-    kernels: &[
-        ("basis:7", "sh7_basis"),
-        ("basis:7:loop", "sh7_basis_loop"),
-        ("eval:7", "sh7_eval"),
-        ("eval:7:rgb", "sh7_eval_rgb"),
-        ("eval_monomial:7", "sh7_eval_monomial"),
-        ("eval_monomial:7:rgb", "sh7_eval_monomial_rgb"),
-        ("to_monomial:7", "sh7_to_monomial"),
-        ("to_monomial:7:rgb", "sh7_to_monomial_rgb"),
-    ],
-};
-
-/// Order 8: what rotations are made of, about one axis.
-pub const SH8_PIECES: Shaders = Shaders {
-    order: 8,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh8_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh8_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:8", "sh8_rotate_z"),
-        ("rotate_z:8:rgb", "sh8_rotate_z_rgb"),
-        ("rotate_y:8", "sh8_rotate_y"),
-        ("rotate_y:8:rgb", "sh8_rotate_y_rgb"),
-        ("swap_yz:8", "sh8_swap_yz"),
-        ("swap_yz:8:rgb", "sh8_swap_yz_rgb"),
-        ("rotate_x_plus_90:8", "sh8_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:8:rgb", "sh8_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:8", "sh8_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:8:rgb", "sh8_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 8: the sparse zonal factorisation.
-pub const SH8_FACTORISATION: Shaders = Shaders {
-    order: 8,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh8_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh8_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh7_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh7_factorisation.glsl"),
     kernels: &[
-        ("zhf:8", "sh8_zhf"),
-        ("zhf:8:rgb", "sh8_zhf_rgb"),
-        ("zhf_weights:8", "sh8_zhf_weights"),
-        ("zhf_weights:8:rgb", "sh8_zhf_weights_rgb"),
-        ("zhf_tailored:8", "sh8_zhf_tailored"),
-        ("zhf_tailored:8:rgb", "sh8_zhf_tailored_rgb"),
+        ("zhf:7", "sh7_zhf"),
+        ("zhf:7:rgb", "sh7_zhf_rgb"),
+        ("zhf_weights:7", "sh7_zhf_weights"),
+        ("zhf_weights:7:rgb", "sh7_zhf_weights_rgb"),
+        ("zhf_tailored:7", "sh7_zhf_tailored"),
+        ("zhf_tailored:7:rgb", "sh7_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 7: what rotations are made of, about one axis.
+pub const SH7_PIECES: Shaders = Shaders {
+    order: 7,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh7_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh7_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:7", "sh7_rotate_z"),
+        ("rotate_z:7:rgb", "sh7_rotate_z_rgb"),
+        ("rotate_y:7", "sh7_rotate_y"),
+        ("rotate_y:7:rgb", "sh7_rotate_y_rgb"),
+        ("swap_yz:7", "sh7_swap_yz"),
+        ("swap_yz:7:rgb", "sh7_swap_yz_rgb"),
+        ("rotate_x_plus_90:7", "sh7_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:7:rgb", "sh7_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:7", "sh7_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:7:rgb", "sh7_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 8: the basis, and sums over it.
+pub const SH8_EVALUATION: Shaders = Shaders {
+    order: 8,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh8_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh8_evaluation.glsl"),
+    kernels: &[
+        ("basis:8", "sh8_basis"),
+        ("basis:8:loop", "sh8_basis_loop"),
+        ("eval:8", "sh8_eval"),
+        ("eval:8:rgb", "sh8_eval_rgb"),
+        ("eval_monomial:8", "sh8_eval_monomial"),
+        ("eval_monomial:8:rgb", "sh8_eval_monomial_rgb"),
+        ("to_monomial:8", "sh8_to_monomial"),
+        ("to_monomial:8:rgb", "sh8_to_monomial_rgb"),
+    ],
+};
+
+/// Order 8: exact rotations, and what is done once for many of them.
+pub const SH8_ROTATION: Shaders = Shaders {
+    order: 8,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh8_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh8_rotation.glsl"),
+    kernels: &[
+        ("rotate:8", "sh8_rotate"),
+        ("rotate:8:rgb", "sh8_rotate_rgb"),
+        ("rotate:8:loop", "sh8_rotate_loop"),
+        ("rotate:8:rgb:loop", "sh8_rotate_rgb_loop"),
+        ("rotate:8:euler", "sh8_rotate_euler"),
+        ("rotate:8:euler:rgb", "sh8_rotate_euler_rgb"),
+        ("angles:8", "sh8_angles"),
+        ("rotate:8:angles", "sh8_rotate_angles"),
+        ("rotate:8:angles:rgb", "sh8_rotate_angles_rgb"),
+        ("lifted:8", "sh8_lifted"),
+        ("rotate:8:lifted", "sh8_rotate_lifted"),
+        ("rotate:8:lifted:rgb", "sh8_rotate_lifted_rgb"),
+        ("rotate:8:zxzxz", "sh8_rotate_zxzxz"),
+        ("rotate:8:zxzxz:rgb", "sh8_rotate_zxzxz_rgb"),
+        ("rotate:8:align", "sh8_rotate_align"),
+        ("rotate:8:align:rgb", "sh8_rotate_align_rgb"),
+        ("rotate:8:zonal", "sh8_rotate_zonal"),
+        ("rotate:8:zonal:rgb", "sh8_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 8: the shortest rotation of z to a normal.
+pub const SH8_TILTING: Shaders = Shaders {
+    order: 8,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh8_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh8_tilting.glsl"),
+    kernels: &[
+        ("tilt:8", "sh8_tilt"),
+        ("tilt:8:rgb", "sh8_tilt_rgb"),
+        ("tilt:8:lf5", "sh8_lf5_tilt"),
+        ("tilt:8:lf5:rgb", "sh8_lf5_tilt_rgb"),
+        ("tilt_prescaled:8", "sh8_tilt_prescaled"),
+        ("tilt_prescaled:8:rgb", "sh8_tilt_prescaled_rgb"),
+        ("tilt_prescaled:8:lf5", "sh8_lf5_tilt_prescaled"),
+        ("tilt_prescaled:8:lf5:rgb", "sh8_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:8", "sh8_tilt_scale"),
+        ("tilt_scale:8:rgb", "sh8_tilt_scale_rgb"),
+        ("tilt_unscale:8", "sh8_tilt_unscale"),
+        ("tilt_unscale:8:rgb", "sh8_tilt_unscale_rgb"),
     ],
 };
 
@@ -923,107 +955,107 @@ pub const SH8_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 8: the shortest rotation of z to a normal.
-pub const SH8_TILTING: Shaders = Shaders {
+/// Order 8: the sparse zonal factorisation.
+pub const SH8_FACTORISATION: Shaders = Shaders {
     order: 8,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh8_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh8_tilting.glsl"),
-    kernels: &[
-        ("tilt:8", "sh8_tilt"),
-        ("tilt:8:rgb", "sh8_tilt_rgb"),
-        ("tilt:8:lf5", "sh8_lf5_tilt"),
-        ("tilt:8:lf5:rgb", "sh8_lf5_tilt_rgb"),
-        ("tilt_prescaled:8", "sh8_tilt_prescaled"),
-        ("tilt_prescaled:8:rgb", "sh8_tilt_prescaled_rgb"),
-        ("tilt_prescaled:8:lf5", "sh8_lf5_tilt_prescaled"),
-        ("tilt_prescaled:8:lf5:rgb", "sh8_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:8", "sh8_tilt_scale"),
-        ("tilt_scale:8:rgb", "sh8_tilt_scale_rgb"),
-        ("tilt_unscale:8", "sh8_tilt_unscale"),
-        ("tilt_unscale:8:rgb", "sh8_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 8: exact rotations, and what is done once for many of them.
-pub const SH8_ROTATION: Shaders = Shaders {
-    order: 8,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh8_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh8_rotation.glsl"),
-    kernels: &[
-        ("rotate:8", "sh8_rotate"),
-        ("rotate:8:rgb", "sh8_rotate_rgb"),
-        ("rotate:8:loop", "sh8_rotate_loop"),
-        ("rotate:8:rgb:loop", "sh8_rotate_rgb_loop"),
-        ("rotate:8:euler", "sh8_rotate_euler"),
-        ("rotate:8:euler:rgb", "sh8_rotate_euler_rgb"),
-        ("angles:8", "sh8_angles"),
-        ("rotate:8:angles", "sh8_rotate_angles"),
-        ("rotate:8:angles:rgb", "sh8_rotate_angles_rgb"),
-        ("lifted:8", "sh8_lifted"),
-        ("rotate:8:lifted", "sh8_rotate_lifted"),
-        ("rotate:8:lifted:rgb", "sh8_rotate_lifted_rgb"),
-        ("rotate:8:zxzxz", "sh8_rotate_zxzxz"),
-        ("rotate:8:zxzxz:rgb", "sh8_rotate_zxzxz_rgb"),
-        ("rotate:8:align", "sh8_rotate_align"),
-        ("rotate:8:align:rgb", "sh8_rotate_align_rgb"),
-        ("rotate:8:zonal", "sh8_rotate_zonal"),
-        ("rotate:8:zonal:rgb", "sh8_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 8: the basis, and sums over it.
-pub const SH8_EVALUATION: Shaders = Shaders {
-    order: 8,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh8_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh8_evaluation.glsl"),
-    kernels: &[
-        ("basis:8", "sh8_basis"),
-        ("basis:8:loop", "sh8_basis_loop"),
-        ("eval:8", "sh8_eval"),
-        ("eval:8:rgb", "sh8_eval_rgb"),
-        ("eval_monomial:8", "sh8_eval_monomial"),
-        ("eval_monomial:8:rgb", "sh8_eval_monomial_rgb"),
-        ("to_monomial:8", "sh8_to_monomial"),
-        ("to_monomial:8:rgb", "sh8_to_monomial_rgb"),
-    ],
-};
-
-/// Order 9: what rotations are made of, about one axis.
-pub const SH9_PIECES: Shaders = Shaders {
-    order: 9,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh9_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh9_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:9", "sh9_rotate_z"),
-        ("rotate_z:9:rgb", "sh9_rotate_z_rgb"),
-        ("rotate_y:9", "sh9_rotate_y"),
-        ("rotate_y:9:rgb", "sh9_rotate_y_rgb"),
-        ("swap_yz:9", "sh9_swap_yz"),
-        ("swap_yz:9:rgb", "sh9_swap_yz_rgb"),
-        ("rotate_x_plus_90:9", "sh9_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:9:rgb", "sh9_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:9", "sh9_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:9:rgb", "sh9_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 9: the sparse zonal factorisation.
-pub const SH9_FACTORISATION: Shaders = Shaders {
-    order: 9,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh9_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh9_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh8_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh8_factorisation.glsl"),
     kernels: &[
-        ("zhf:9", "sh9_zhf"),
-        ("zhf:9:rgb", "sh9_zhf_rgb"),
-        ("zhf_weights:9", "sh9_zhf_weights"),
-        ("zhf_weights:9:rgb", "sh9_zhf_weights_rgb"),
-        ("zhf_tailored:9", "sh9_zhf_tailored"),
-        ("zhf_tailored:9:rgb", "sh9_zhf_tailored_rgb"),
+        ("zhf:8", "sh8_zhf"),
+        ("zhf:8:rgb", "sh8_zhf_rgb"),
+        ("zhf_weights:8", "sh8_zhf_weights"),
+        ("zhf_weights:8:rgb", "sh8_zhf_weights_rgb"),
+        ("zhf_tailored:8", "sh8_zhf_tailored"),
+        ("zhf_tailored:8:rgb", "sh8_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 8: what rotations are made of, about one axis.
+pub const SH8_PIECES: Shaders = Shaders {
+    order: 8,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh8_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh8_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:8", "sh8_rotate_z"),
+        ("rotate_z:8:rgb", "sh8_rotate_z_rgb"),
+        ("rotate_y:8", "sh8_rotate_y"),
+        ("rotate_y:8:rgb", "sh8_rotate_y_rgb"),
+        ("swap_yz:8", "sh8_swap_yz"),
+        ("swap_yz:8:rgb", "sh8_swap_yz_rgb"),
+        ("rotate_x_plus_90:8", "sh8_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:8:rgb", "sh8_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:8", "sh8_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:8:rgb", "sh8_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 9: the basis, and sums over it.
+pub const SH9_EVALUATION: Shaders = Shaders {
+    order: 9,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh9_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh9_evaluation.glsl"),
+    kernels: &[
+        ("basis:9", "sh9_basis"),
+        ("basis:9:loop", "sh9_basis_loop"),
+        ("eval:9", "sh9_eval"),
+        ("eval:9:rgb", "sh9_eval_rgb"),
+        ("eval_monomial:9", "sh9_eval_monomial"),
+        ("eval_monomial:9:rgb", "sh9_eval_monomial_rgb"),
+        ("to_monomial:9", "sh9_to_monomial"),
+        ("to_monomial:9:rgb", "sh9_to_monomial_rgb"),
+    ],
+};
+
+/// Order 9: exact rotations, and what is done once for many of them.
+pub const SH9_ROTATION: Shaders = Shaders {
+    order: 9,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh9_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh9_rotation.glsl"),
+    kernels: &[
+        ("rotate:9", "sh9_rotate"),
+        ("rotate:9:rgb", "sh9_rotate_rgb"),
+        ("rotate:9:loop", "sh9_rotate_loop"),
+        ("rotate:9:rgb:loop", "sh9_rotate_rgb_loop"),
+        ("rotate:9:euler", "sh9_rotate_euler"),
+        ("rotate:9:euler:rgb", "sh9_rotate_euler_rgb"),
+        ("angles:9", "sh9_angles"),
+        ("rotate:9:angles", "sh9_rotate_angles"),
+        ("rotate:9:angles:rgb", "sh9_rotate_angles_rgb"),
+        ("lifted:9", "sh9_lifted"),
+        ("rotate:9:lifted", "sh9_rotate_lifted"),
+        ("rotate:9:lifted:rgb", "sh9_rotate_lifted_rgb"),
+        ("rotate:9:zxzxz", "sh9_rotate_zxzxz"),
+        ("rotate:9:zxzxz:rgb", "sh9_rotate_zxzxz_rgb"),
+        ("rotate:9:align", "sh9_rotate_align"),
+        ("rotate:9:align:rgb", "sh9_rotate_align_rgb"),
+        ("rotate:9:zonal", "sh9_rotate_zonal"),
+        ("rotate:9:zonal:rgb", "sh9_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 9: the shortest rotation of z to a normal.
+pub const SH9_TILTING: Shaders = Shaders {
+    order: 9,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh9_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh9_tilting.glsl"),
+    kernels: &[
+        ("tilt:9", "sh9_tilt"),
+        ("tilt:9:rgb", "sh9_tilt_rgb"),
+        ("tilt:9:lf5", "sh9_lf5_tilt"),
+        ("tilt:9:lf5:rgb", "sh9_lf5_tilt_rgb"),
+        ("tilt_prescaled:9", "sh9_tilt_prescaled"),
+        ("tilt_prescaled:9:rgb", "sh9_tilt_prescaled_rgb"),
+        ("tilt_prescaled:9:lf5", "sh9_lf5_tilt_prescaled"),
+        ("tilt_prescaled:9:lf5:rgb", "sh9_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:9", "sh9_tilt_scale"),
+        ("tilt_scale:9:rgb", "sh9_tilt_scale_rgb"),
+        ("tilt_unscale:9", "sh9_tilt_unscale"),
+        ("tilt_unscale:9:rgb", "sh9_tilt_unscale_rgb"),
     ],
 };
 
@@ -1065,107 +1097,107 @@ pub const SH9_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 9: the shortest rotation of z to a normal.
-pub const SH9_TILTING: Shaders = Shaders {
+/// Order 9: the sparse zonal factorisation.
+pub const SH9_FACTORISATION: Shaders = Shaders {
     order: 9,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh9_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh9_tilting.glsl"),
-    kernels: &[
-        ("tilt:9", "sh9_tilt"),
-        ("tilt:9:rgb", "sh9_tilt_rgb"),
-        ("tilt:9:lf5", "sh9_lf5_tilt"),
-        ("tilt:9:lf5:rgb", "sh9_lf5_tilt_rgb"),
-        ("tilt_prescaled:9", "sh9_tilt_prescaled"),
-        ("tilt_prescaled:9:rgb", "sh9_tilt_prescaled_rgb"),
-        ("tilt_prescaled:9:lf5", "sh9_lf5_tilt_prescaled"),
-        ("tilt_prescaled:9:lf5:rgb", "sh9_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:9", "sh9_tilt_scale"),
-        ("tilt_scale:9:rgb", "sh9_tilt_scale_rgb"),
-        ("tilt_unscale:9", "sh9_tilt_unscale"),
-        ("tilt_unscale:9:rgb", "sh9_tilt_unscale_rgb"),
-    ],
-};
-
-/// Order 9: exact rotations, and what is done once for many of them.
-pub const SH9_ROTATION: Shaders = Shaders {
-    order: 9,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh9_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh9_rotation.glsl"),
-    kernels: &[
-        ("rotate:9", "sh9_rotate"),
-        ("rotate:9:rgb", "sh9_rotate_rgb"),
-        ("rotate:9:loop", "sh9_rotate_loop"),
-        ("rotate:9:rgb:loop", "sh9_rotate_rgb_loop"),
-        ("rotate:9:euler", "sh9_rotate_euler"),
-        ("rotate:9:euler:rgb", "sh9_rotate_euler_rgb"),
-        ("angles:9", "sh9_angles"),
-        ("rotate:9:angles", "sh9_rotate_angles"),
-        ("rotate:9:angles:rgb", "sh9_rotate_angles_rgb"),
-        ("lifted:9", "sh9_lifted"),
-        ("rotate:9:lifted", "sh9_rotate_lifted"),
-        ("rotate:9:lifted:rgb", "sh9_rotate_lifted_rgb"),
-        ("rotate:9:zxzxz", "sh9_rotate_zxzxz"),
-        ("rotate:9:zxzxz:rgb", "sh9_rotate_zxzxz_rgb"),
-        ("rotate:9:align", "sh9_rotate_align"),
-        ("rotate:9:align:rgb", "sh9_rotate_align_rgb"),
-        ("rotate:9:zonal", "sh9_rotate_zonal"),
-        ("rotate:9:zonal:rgb", "sh9_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 9: the basis, and sums over it.
-pub const SH9_EVALUATION: Shaders = Shaders {
-    order: 9,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh9_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh9_evaluation.glsl"),
-    kernels: &[
-        ("basis:9", "sh9_basis"),
-        ("basis:9:loop", "sh9_basis_loop"),
-        ("eval:9", "sh9_eval"),
-        ("eval:9:rgb", "sh9_eval_rgb"),
-        ("eval_monomial:9", "sh9_eval_monomial"),
-        ("eval_monomial:9:rgb", "sh9_eval_monomial_rgb"),
-        ("to_monomial:9", "sh9_to_monomial"),
-        ("to_monomial:9:rgb", "sh9_to_monomial_rgb"),
-    ],
-};
-
-/// Order 10: what rotations are made of, about one axis.
-pub const SH10_PIECES: Shaders = Shaders {
-    order: 10,
-    group: "pieces",
-    wgsl: include_str!("../wgsl/sh10_pieces.wgsl"),
-    glsl: include_str!("../glsl/sh10_pieces.glsl"),
-    kernels: &[
-        ("rotate_z:10", "sh10_rotate_z"),
-        ("rotate_z:10:rgb", "sh10_rotate_z_rgb"),
-        ("rotate_y:10", "sh10_rotate_y"),
-        ("rotate_y:10:rgb", "sh10_rotate_y_rgb"),
-        ("swap_yz:10", "sh10_swap_yz"),
-        ("swap_yz:10:rgb", "sh10_swap_yz_rgb"),
-        ("rotate_x_plus_90:10", "sh10_rotate_x_plus_90deg"),
-        ("rotate_x_plus_90:10:rgb", "sh10_rotate_x_plus_90deg_rgb"),
-        ("rotate_x_minus_90:10", "sh10_rotate_x_minus_90deg"),
-        ("rotate_x_minus_90:10:rgb", "sh10_rotate_x_minus_90deg_rgb"),
-    ],
-};
-
-/// Order 10: the sparse zonal factorisation.
-pub const SH10_FACTORISATION: Shaders = Shaders {
-    order: 10,
     group: "factorisation",
-    wgsl: include_str!("../wgsl/sh10_factorisation.wgsl"),
-    glsl: include_str!("../glsl/sh10_factorisation.glsl"),
+    wgsl: include_str!("../wgsl/sh9_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh9_factorisation.glsl"),
     kernels: &[
-        ("zhf:10", "sh10_zhf"),
-        ("zhf:10:rgb", "sh10_zhf_rgb"),
-        ("zhf_weights:10", "sh10_zhf_weights"),
-        ("zhf_weights:10:rgb", "sh10_zhf_weights_rgb"),
-        ("zhf_tailored:10", "sh10_zhf_tailored"),
-        ("zhf_tailored:10:rgb", "sh10_zhf_tailored_rgb"),
+        ("zhf:9", "sh9_zhf"),
+        ("zhf:9:rgb", "sh9_zhf_rgb"),
+        ("zhf_weights:9", "sh9_zhf_weights"),
+        ("zhf_weights:9:rgb", "sh9_zhf_weights_rgb"),
+        ("zhf_tailored:9", "sh9_zhf_tailored"),
+        ("zhf_tailored:9:rgb", "sh9_zhf_tailored_rgb"),
+    ],
+};
+
+/// Order 9: what rotations are made of, about one axis.
+pub const SH9_PIECES: Shaders = Shaders {
+    order: 9,
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh9_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh9_pieces.glsl"),
+    kernels: &[
+        ("rotate_z:9", "sh9_rotate_z"),
+        ("rotate_z:9:rgb", "sh9_rotate_z_rgb"),
+        ("rotate_y:9", "sh9_rotate_y"),
+        ("rotate_y:9:rgb", "sh9_rotate_y_rgb"),
+        ("swap_yz:9", "sh9_swap_yz"),
+        ("swap_yz:9:rgb", "sh9_swap_yz_rgb"),
+        ("rotate_x_plus_90:9", "sh9_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:9:rgb", "sh9_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:9", "sh9_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:9:rgb", "sh9_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 10: the basis, and sums over it.
+pub const SH10_EVALUATION: Shaders = Shaders {
+    order: 10,
+    group: "evaluation",
+    wgsl: include_str!("../wgsl/sh10_evaluation.wgsl"),
+    glsl: include_str!("../glsl/sh10_evaluation.glsl"),
+    kernels: &[
+        ("basis:10", "sh10_basis"),
+        ("basis:10:loop", "sh10_basis_loop"),
+        ("eval:10", "sh10_eval"),
+        ("eval:10:rgb", "sh10_eval_rgb"),
+        ("eval_monomial:10", "sh10_eval_monomial"),
+        ("eval_monomial:10:rgb", "sh10_eval_monomial_rgb"),
+        ("to_monomial:10", "sh10_to_monomial"),
+        ("to_monomial:10:rgb", "sh10_to_monomial_rgb"),
+    ],
+};
+
+/// Order 10: exact rotations, and what is done once for many of them.
+pub const SH10_ROTATION: Shaders = Shaders {
+    order: 10,
+    group: "rotation",
+    wgsl: include_str!("../wgsl/sh10_rotation.wgsl"),
+    glsl: include_str!("../glsl/sh10_rotation.glsl"),
+    kernels: &[
+        ("rotate:10", "sh10_rotate"),
+        ("rotate:10:rgb", "sh10_rotate_rgb"),
+        ("rotate:10:loop", "sh10_rotate_loop"),
+        ("rotate:10:rgb:loop", "sh10_rotate_rgb_loop"),
+        ("rotate:10:euler", "sh10_rotate_euler"),
+        ("rotate:10:euler:rgb", "sh10_rotate_euler_rgb"),
+        ("angles:10", "sh10_angles"),
+        ("rotate:10:angles", "sh10_rotate_angles"),
+        ("rotate:10:angles:rgb", "sh10_rotate_angles_rgb"),
+        ("lifted:10", "sh10_lifted"),
+        ("rotate:10:lifted", "sh10_rotate_lifted"),
+        ("rotate:10:lifted:rgb", "sh10_rotate_lifted_rgb"),
+        ("rotate:10:zxzxz", "sh10_rotate_zxzxz"),
+        ("rotate:10:zxzxz:rgb", "sh10_rotate_zxzxz_rgb"),
+        ("rotate:10:align", "sh10_rotate_align"),
+        ("rotate:10:align:rgb", "sh10_rotate_align_rgb"),
+        ("rotate:10:zonal", "sh10_rotate_zonal"),
+        ("rotate:10:zonal:rgb", "sh10_rotate_zonal_rgb"),
+    ],
+};
+
+/// Order 10: the shortest rotation of z to a normal.
+pub const SH10_TILTING: Shaders = Shaders {
+    order: 10,
+    group: "tilting",
+    wgsl: include_str!("../wgsl/sh10_tilting.wgsl"),
+    glsl: include_str!("../glsl/sh10_tilting.glsl"),
+    kernels: &[
+        ("tilt:10", "sh10_tilt"),
+        ("tilt:10:rgb", "sh10_tilt_rgb"),
+        ("tilt:10:lf5", "sh10_lf5_tilt"),
+        ("tilt:10:lf5:rgb", "sh10_lf5_tilt_rgb"),
+        ("tilt_prescaled:10", "sh10_tilt_prescaled"),
+        ("tilt_prescaled:10:rgb", "sh10_tilt_prescaled_rgb"),
+        ("tilt_prescaled:10:lf5", "sh10_lf5_tilt_prescaled"),
+        ("tilt_prescaled:10:lf5:rgb", "sh10_lf5_tilt_prescaled_rgb"),
+        ("tilt_scale:10", "sh10_tilt_scale"),
+        ("tilt_scale:10:rgb", "sh10_tilt_scale_rgb"),
+        ("tilt_unscale:10", "sh10_tilt_unscale"),
+        ("tilt_unscale:10:rgb", "sh10_tilt_unscale_rgb"),
     ],
 };
 
@@ -1207,128 +1239,96 @@ pub const SH10_SMALL_ANGLES: Shaders = Shaders {
     ],
 };
 
-/// Order 10: the shortest rotation of z to a normal.
-pub const SH10_TILTING: Shaders = Shaders {
+/// Order 10: the sparse zonal factorisation.
+pub const SH10_FACTORISATION: Shaders = Shaders {
     order: 10,
-    group: "tilting",
-    wgsl: include_str!("../wgsl/sh10_tilting.wgsl"),
-    glsl: include_str!("../glsl/sh10_tilting.glsl"),
+    group: "factorisation",
+    wgsl: include_str!("../wgsl/sh10_factorisation.wgsl"),
+    glsl: include_str!("../glsl/sh10_factorisation.glsl"),
     kernels: &[
-        ("tilt:10", "sh10_tilt"),
-        ("tilt:10:rgb", "sh10_tilt_rgb"),
-        ("tilt:10:lf5", "sh10_lf5_tilt"),
-        ("tilt:10:lf5:rgb", "sh10_lf5_tilt_rgb"),
-        ("tilt_prescaled:10", "sh10_tilt_prescaled"),
-        ("tilt_prescaled:10:rgb", "sh10_tilt_prescaled_rgb"),
-        ("tilt_prescaled:10:lf5", "sh10_lf5_tilt_prescaled"),
-        ("tilt_prescaled:10:lf5:rgb", "sh10_lf5_tilt_prescaled_rgb"),
-        ("tilt_scale:10", "sh10_tilt_scale"),
-        ("tilt_scale:10:rgb", "sh10_tilt_scale_rgb"),
-        ("tilt_unscale:10", "sh10_tilt_unscale"),
-        ("tilt_unscale:10:rgb", "sh10_tilt_unscale_rgb"),
+        ("zhf:10", "sh10_zhf"),
+        ("zhf:10:rgb", "sh10_zhf_rgb"),
+        ("zhf_weights:10", "sh10_zhf_weights"),
+        ("zhf_weights:10:rgb", "sh10_zhf_weights_rgb"),
+        ("zhf_tailored:10", "sh10_zhf_tailored"),
+        ("zhf_tailored:10:rgb", "sh10_zhf_tailored_rgb"),
     ],
 };
 
-/// Order 10: exact rotations, and what is done once for many of them.
-pub const SH10_ROTATION: Shaders = Shaders {
+/// Order 10: what rotations are made of, about one axis.
+pub const SH10_PIECES: Shaders = Shaders {
     order: 10,
-    group: "rotation",
-    wgsl: include_str!("../wgsl/sh10_rotation.wgsl"),
-    glsl: include_str!("../glsl/sh10_rotation.glsl"),
+    group: "pieces",
+    wgsl: include_str!("../wgsl/sh10_pieces.wgsl"),
+    glsl: include_str!("../glsl/sh10_pieces.glsl"),
     kernels: &[
-        ("rotate:10", "sh10_rotate"),
-        ("rotate:10:rgb", "sh10_rotate_rgb"),
-        ("rotate:10:loop", "sh10_rotate_loop"),
-        ("rotate:10:rgb:loop", "sh10_rotate_rgb_loop"),
-        ("rotate:10:euler", "sh10_rotate_euler"),
-        ("rotate:10:euler:rgb", "sh10_rotate_euler_rgb"),
-        ("angles:10", "sh10_angles"),
-        ("rotate:10:angles", "sh10_rotate_angles"),
-        ("rotate:10:angles:rgb", "sh10_rotate_angles_rgb"),
-        ("lifted:10", "sh10_lifted"),
-        ("rotate:10:lifted", "sh10_rotate_lifted"),
-        ("rotate:10:lifted:rgb", "sh10_rotate_lifted_rgb"),
-        ("rotate:10:zxzxz", "sh10_rotate_zxzxz"),
-        ("rotate:10:zxzxz:rgb", "sh10_rotate_zxzxz_rgb"),
-        ("rotate:10:align", "sh10_rotate_align"),
-        ("rotate:10:align:rgb", "sh10_rotate_align_rgb"),
-        ("rotate:10:zonal", "sh10_rotate_zonal"),
-        ("rotate:10:zonal:rgb", "sh10_rotate_zonal_rgb"),
-    ],
-};
-
-/// Order 10: the basis, and sums over it.
-pub const SH10_EVALUATION: Shaders = Shaders {
-    order: 10,
-    group: "evaluation",
-    wgsl: include_str!("../wgsl/sh10_evaluation.wgsl"),
-    glsl: include_str!("../glsl/sh10_evaluation.glsl"),
-    kernels: &[
-        ("basis:10", "sh10_basis"),
-        ("basis:10:loop", "sh10_basis_loop"),
-        ("eval:10", "sh10_eval"),
-        ("eval:10:rgb", "sh10_eval_rgb"),
-        ("eval_monomial:10", "sh10_eval_monomial"),
-        ("eval_monomial:10:rgb", "sh10_eval_monomial_rgb"),
-        ("to_monomial:10", "sh10_to_monomial"),
-        ("to_monomial:10:rgb", "sh10_to_monomial_rgb"),
+        ("rotate_z:10", "sh10_rotate_z"),
+        ("rotate_z:10:rgb", "sh10_rotate_z_rgb"),
+        ("rotate_y:10", "sh10_rotate_y"),
+        ("rotate_y:10:rgb", "sh10_rotate_y_rgb"),
+        ("swap_yz:10", "sh10_swap_yz"),
+        ("swap_yz:10:rgb", "sh10_swap_yz_rgb"),
+        ("rotate_x_plus_90:10", "sh10_rotate_x_plus_90deg"),
+        ("rotate_x_plus_90:10:rgb", "sh10_rotate_x_plus_90deg_rgb"),
+        ("rotate_x_minus_90:10", "sh10_rotate_x_minus_90deg"),
+        ("rotate_x_minus_90:10:rgb", "sh10_rotate_x_minus_90deg_rgb"),
     ],
 };
 
 /// All of them.
 pub const ALL: &[Shaders] = &[
-    SH2_PIECES,
-    SH2_FACTORISATION,
-    SH2_SMALL_ANGLES,
-    SH2_TILTING,
-    SH2_ROTATION,
     SH2_EVALUATION,
-    SH3_PIECES,
-    SH3_FACTORISATION,
-    SH3_SMALL_ANGLES,
-    SH3_TILTING,
-    SH3_ROTATION,
+    SH2_ROTATION,
+    SH2_TILTING,
+    SH2_SMALL_ANGLES,
+    SH2_FACTORISATION,
+    SH2_PIECES,
     SH3_EVALUATION,
-    SH4_PIECES,
-    SH4_FACTORISATION,
-    SH4_SMALL_ANGLES,
-    SH4_TILTING,
-    SH4_ROTATION,
+    SH3_ROTATION,
+    SH3_TILTING,
+    SH3_SMALL_ANGLES,
+    SH3_FACTORISATION,
+    SH3_PIECES,
     SH4_EVALUATION,
-    SH5_PIECES,
-    SH5_FACTORISATION,
-    SH5_SMALL_ANGLES,
-    SH5_TILTING,
-    SH5_ROTATION,
+    SH4_ROTATION,
+    SH4_TILTING,
+    SH4_SMALL_ANGLES,
+    SH4_FACTORISATION,
+    SH4_PIECES,
     SH5_EVALUATION,
-    SH6_PIECES,
-    SH6_FACTORISATION,
-    SH6_SMALL_ANGLES,
-    SH6_TILTING,
-    SH6_ROTATION,
+    SH5_ROTATION,
+    SH5_TILTING,
+    SH5_SMALL_ANGLES,
+    SH5_FACTORISATION,
+    SH5_PIECES,
     SH6_EVALUATION,
-    SH7_PIECES,
-    SH7_FACTORISATION,
-    SH7_SMALL_ANGLES,
-    SH7_TILTING,
-    SH7_ROTATION,
+    SH6_ROTATION,
+    SH6_TILTING,
+    SH6_SMALL_ANGLES,
+    SH6_FACTORISATION,
+    SH6_PIECES,
     SH7_EVALUATION,
-    SH8_PIECES,
-    SH8_FACTORISATION,
-    SH8_SMALL_ANGLES,
-    SH8_TILTING,
-    SH8_ROTATION,
+    SH7_ROTATION,
+    SH7_TILTING,
+    SH7_SMALL_ANGLES,
+    SH7_FACTORISATION,
+    SH7_PIECES,
     SH8_EVALUATION,
-    SH9_PIECES,
-    SH9_FACTORISATION,
-    SH9_SMALL_ANGLES,
-    SH9_TILTING,
-    SH9_ROTATION,
+    SH8_ROTATION,
+    SH8_TILTING,
+    SH8_SMALL_ANGLES,
+    SH8_FACTORISATION,
+    SH8_PIECES,
     SH9_EVALUATION,
-    SH10_PIECES,
-    SH10_FACTORISATION,
-    SH10_SMALL_ANGLES,
-    SH10_TILTING,
-    SH10_ROTATION,
+    SH9_ROTATION,
+    SH9_TILTING,
+    SH9_SMALL_ANGLES,
+    SH9_FACTORISATION,
+    SH9_PIECES,
     SH10_EVALUATION,
+    SH10_ROTATION,
+    SH10_TILTING,
+    SH10_SMALL_ANGLES,
+    SH10_FACTORISATION,
+    SH10_PIECES,
 ];

@@ -13,7 +13,8 @@ use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::promise::accuracy::Meaning;
-use zonal_codegen::promise::bound::{self, Bound};
+use zonal_codegen::promise::bound::Bound;
+use zonal_codegen::promise::proofs;
 use zonal_codegen::promise::samples;
 
 /// How many inputs each kernel is measured over unless another number is asked for.
@@ -214,7 +215,7 @@ pub fn proven() -> Vec<Proven> {
     let specs: Vec<Spec> = catalog::standard().into_iter().filter(|spec| !spec.rgb).collect();
     let prove = |spec: &Spec| {
         let code = spec.code();
-        let bound = bound::of(spec, &code)?;
+        let bound = proofs::bound(spec, &code)?;
         let ways = match code {
             Code::Straight(listing) => vec![listing],
             Code::Loop(kernel) => vec![Listing::from(&kernel)],

@@ -3,6 +3,8 @@
 //! [`Report::differences`] says where a report is stale. Everything but the times is the same on every run.
 
 pub mod bounds;
+#[cfg(feature = "times")]
+pub mod clock;
 pub mod costs;
 pub mod errors;
 pub mod factorisation;

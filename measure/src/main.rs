@@ -1,4 +1,5 @@
 //! The command `cargo measure`: measures, and writes the tables and plots of `docs/measure`, or says that they are stale.
+//! `cargo measure-times` is the same with the feature `times`: it takes the times too.
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -6,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::Duration;
-use zonal_measure::{Progress, Report, bounds, render, stale, timing};
+use zonal_measure::timing::Timing;
+use zonal_measure::{Progress, Report, bounds, render, stale};
 
 /// Measure every method: errors over the angle, operations, memory, rounding, time.
 #[derive(Parser)]
@@ -15,12 +17,9 @@ struct Arguments {
     /// Compare the docs with a fresh measurement and the tables and plots with their figures; write nothing.
     #[arg(long)]
     check: bool,
-    /// Leave the times as they are.
-    #[arg(long)]
-    no_timing: bool,
     /// Measure only the rounding bounds: each kernel over so many inputs, a million by default, which takes minutes.
     #[arg(long, value_name = "INPUTS", num_args = 0..=1, default_missing_value = "1000000")]
-    #[arg(conflicts_with_all = ["check", "no_timing"])]
+    #[arg(conflicts_with = "check")]
     bounds: Option<usize>,
     /// The folder of the tables and plots.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure"))]
@@ -63,6 +62,17 @@ fn kept<T: serde::de::DeserializeOwned>(folder: &Path, part: &str) -> Option<T> 
     serde_json::from_value(report.get_mut(part)?.take()).ok()
 }
 
+/// The times: taken now, if the command was built for it, else those that the folder holds.
+#[cfg(feature = "times")]
+fn timing(_: &Path, bar: &Bar) -> Option<Timing> {
+    Some(zonal_measure::clock::measure(bar))
+}
+
+#[cfg(not(feature = "times"))]
+fn timing(folder: &Path, _: &Bar) -> Option<Timing> {
+    kept(folder, "timing")
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let folder = &arguments.output;
@@ -89,10 +99,7 @@ fn main() -> ExitCode {
             }
         };
     }
-    report.timing = match arguments.no_timing {
-        false => Some(timing::measure(&bar)),
-        true => kept(folder, "timing"),
-    };
+    report.timing = timing(folder, &bar);
     report.bounds = kept(folder, "bounds");
     bar.0.lock().expect("no holder panics").finish();
     written(folder, &report)

@@ -384,7 +384,7 @@ fn factorisation(report: &Report) -> File {
 
 fn timing(report: &Report) -> File {
     let Some(timing) = &report.timing else {
-        return file("timing", "Time", &["Not measured yet: run `cargo measure`.".to_owned()]);
+        return file("timing", "Time", &["Not measured yet: run `cargo measure-times`.".to_owned()]);
     };
     let rows = timing.kernels.iter().map(|times| {
         let operations = report
@@ -474,8 +474,9 @@ fn index(report: &Report) -> File {
     let exact = report.cost("rotate:n", 5).map_or(0, |costs| costs.operations);
     let bound = report.rounding_of("rotate:n", 5).and_then(|rounding| rounding.f32);
     let parts = [
-        "Speed against accuracy, measured. `cargo measure` writes this folder, every figure of it; `cargo measure --check` \
-         says whether it is stale, and a test does too (times apart); `cargo measure --bounds` writes the bounds."
+        "Speed against accuracy, measured. `cargo measure` writes this folder; `cargo measure --check` \
+         says whether it is stale, and a test does too (times apart); `cargo measure-times` takes the times, `cargo measure \
+         --bounds` the bounds."
             .to_owned(),
         format!(
             "![Error over the angle, order 5](error_order5.svg)\n\nThe exact rotation of order 5 takes {exact} operations \

@@ -1,5 +1,5 @@
 // Works the explorer as a person would, in WebGL2 and WebGPU, and tells what it saw as JSON on the standard output; what of
-// it must hold is written in tests/gpu/tests/explorer.rs.
+// it must hold is written in tests/gpu/tests/it/explorer.rs.
 //
 //     node explorer.mjs PAGE WORK
 //

@@ -6,7 +6,11 @@ pub mod shader;
 
 use serde_json::Value;
 use std::path::PathBuf;
+use std::sync::LazyLock;
+use zonal_codegen::catalog::standard;
+use zonal_codegen::emit::Function;
 use zonal_codegen::families::Spec;
+use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
 
@@ -43,6 +47,12 @@ pub fn numbers(value: &Value) -> Vec<f64> {
 /// If it is none.
 pub fn spec(text: &str) -> Spec {
     text.parse().unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// Every kernel of the catalogue, built once in a process.
+pub fn catalogue() -> &'static [Function] {
+    static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| build(&standard()));
+    &FUNCTIONS
 }
 
 /// A kernel that can be run again and again.

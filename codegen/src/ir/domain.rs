@@ -2,6 +2,7 @@
 //! inputs of tests and the JSON of test vectors are made.
 
 use crate::ir::kernel::Kernel;
+use std::fmt;
 
 /// What a parameter may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +38,7 @@ pub enum Domain {
 }
 
 /// A kernel that makes another one's parameter.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Made {
     /// Its family's name.
     pub by: &'static str,
@@ -49,6 +50,12 @@ pub struct Made {
     pub max_angle: Option<f64>,
     /// What each number that it returns is a function of.
     pub holds: fn(usize) -> Vec<Held>,
+}
+
+impl fmt::Debug for Made {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{} within {:?}", self.by, self.order, self.max_angle)
+    }
 }
 
 impl PartialEq for Made {

@@ -8,8 +8,9 @@ use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::kernel::Kernel;
 use crate::ir::listing::Listing;
 use crate::math::linear::spectral_norm;
-use crate::promise::bound;
+use crate::promise::bound::Bound;
 use crate::promise::law;
+use crate::promise::proofs;
 use crate::promise::samples;
 use half::f16;
 
@@ -149,7 +150,8 @@ impl Accuracy {
             true => rounding::<f16>(spec, code, SEED, samples, contraction),
             false => rounding::<f32>(spec, code, SEED, samples, contraction),
         };
-        let worst = [Contraction::Separate, Contraction::Fused].map(measure).into_iter().fold(0.0, larger);
+        let both = || [Contraction::Separate, Contraction::Fused].map(measure).to_vec();
+        let worst = proofs::kept(spec, code, &format!("measured {samples}"), both).into_iter().fold(0.0, larger);
         let method = match spec.is_approximate() && spec.order <= MAX_ORDER {
             true => {
                 let errors = method_errors(spec, &ANGLES.map(f64::to_radians));
@@ -158,9 +160,9 @@ impl Accuracy {
             false => vec![],
         };
         // What is proven is proven of f32.
-        let bound = if spec.half { None } else { bound::of(spec, code) };
+        let bound = if spec.half { None } else { proofs::bound(spec, code) };
         Self {
-            rounding_f32: round_up(bound.as_ref().map_or(worst * MARGIN, bound::Bound::value)),
+            rounding_f32: round_up(bound.as_ref().map_or(worst * MARGIN, Bound::value)),
             proven: bound.is_some(),
             measured_f32: round_up(worst),
             relative_to: spec.family.measure.name(),

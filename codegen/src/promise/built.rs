@@ -3,7 +3,7 @@
 use crate::families::family::Spec;
 use crate::ir::code::Code;
 use crate::promise::accuracy::{Accuracy, round_up};
-use crate::promise::bound;
+use crate::promise::proofs;
 
 /// A kernel that is ready to print.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Built {
         let whole = self.accuracy.rounding_f32;
         match self.spec.max_angle() {
             Some(limit) if !self.spec.half => {
-                let within = bound::within(&self.spec, &self.code, Some(limit.min(max_angle)));
+                let within = proofs::bound_within(&self.spec, &self.code, Some(limit.min(max_angle)));
                 within.map_or(whole, |bound| round_up(bound.value()))
             }
             _ => whole,

@@ -61,7 +61,7 @@ impl Bound {
 
 /// The bound of a spec's kernel in any form.
 pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
-    within(spec, code, spec.max_angle())
+    within(spec, code, None)
 }
 
 /// The same for an approximate rotation by at most this angle in radians, which is at most [`Spec::max_angle`].

@@ -1,16 +1,16 @@
 //! The shader texts of the whole catalogue, read back through naga and run: equal to the f32 interpreter to the last
 //! bit, with the operations that the graph counts.
 
+use rayon::prelude::*;
 use std::collections::BTreeSet;
-use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::language::{GLSL, Target, WGSL};
 use zonal_codegen::emit::{Function, Module};
-use zonal_codegen::generate::build;
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::Contraction;
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Param, Shape};
 use zonal_codegen::promise::samples;
+use zonal_tests::catalogue;
 use zonal_tests::shader::{Counts, Fma, Language, Shader, Value};
 
 /// How many inputs each kernel is run on; the first are the extremes.
@@ -111,14 +111,8 @@ fn check(function: &Function, target: Target, language: Language) {
 }
 
 fn check_all(target: Target, language: Language) {
-    let functions = build(&standard());
-    assert!(functions.len() > 400);
-    std::thread::scope(|scope| {
-        for half in 0..2 {
-            let functions = &functions;
-            scope.spawn(move || functions.iter().skip(half).step_by(2).for_each(|f| check(f, target, language)));
-        }
-    });
+    assert!(catalogue().len() > 400);
+    catalogue().par_iter().for_each(|function| check(function, target, language));
 }
 
 #[test]

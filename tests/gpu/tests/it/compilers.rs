@@ -5,21 +5,16 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
-use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::language::{Arrays, GLSL, WGSL};
-use zonal_codegen::generate::build;
 use zonal_gpu_tests::system::compile;
 use zonal_gpu_tests::wrap;
+use zonal_tests::catalogue;
 
 /// The versions of GLSL that a file is meant for.
 const VERSIONS: [&str; 3] = ["300 es", "330", "450"];
 /// How many files one compiler process takes.
 const BATCH: usize = 64;
-
-/// The catalogue, built once for all tests.
-static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| build(&standard()));
 
 /// An empty folder for one test.
 fn folder(name: &str) -> PathBuf {
@@ -37,7 +32,7 @@ fn all_compile(
     compiler: impl Fn(&[PathBuf]) -> Result<(), String> + Sync,
 ) {
     let folder = folder(name);
-    let files: Vec<PathBuf> = FUNCTIONS
+    let files: Vec<PathBuf> = catalogue()
         .par_iter()
         .map(|function| {
             let path = folder.join(format!("{}.{extension}", function.shader_name()));

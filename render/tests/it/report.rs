@@ -1,5 +1,5 @@
 //! `docs/PICTURES.md` is what the renderer measures, and what it says is what the papers claim. Written with
-//! `UPDATE=1 cargo test -p zonal-render --test report`.
+//! `UPDATE=1 cargo test -p zonal-render report`.
 
 use indicatif::ProgressBar;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ fn the_page_is_what_is_measured_and_the_papers_claim_holds() {
     }
     let old = std::fs::read_to_string(&path).unwrap_or_default();
     let ((words, numbers), (old_words, old_numbers)) = (split(&fresh), split(&old));
-    let help = "docs/PICTURES.md is stale; run `UPDATE=1 cargo test -p zonal-render --test report`";
+    let help = "docs/PICTURES.md is stale; run `UPDATE=1 cargo test -p zonal-render report`";
     assert_eq!(words, old_words, "{help}");
     for (new, old) in numbers.iter().zip(&old_numbers) {
         // Two digits are printed, of which another driver may change the last: it rasterises a few edge pixels otherwise.

@@ -1,5 +1,5 @@
 //! The README's figures come from the kernels and its quoted output from the command: this test compares them, and
-//! writes them with `UPDATE=1 cargo test -p zonal-tests --test readme`.
+//! writes them with `UPDATE=1 cargo test -p zonal-tests readme`.
 
 use std::process::Command;
 use zonal_codegen::families::Spec;
@@ -86,5 +86,5 @@ fn the_readme_is_what_the_kernels_and_the_command_say() {
         std::fs::write(&path, &want).expect("writable");
     }
     let text = std::fs::read_to_string(&path).expect("there is a README");
-    assert!(text == want, "README.md is stale; run `UPDATE=1 cargo test -p zonal-tests --test readme`");
+    assert!(text == want, "README.md is stale; run `UPDATE=1 cargo test -p zonal-tests readme`");
 }

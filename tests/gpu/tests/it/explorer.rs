@@ -37,6 +37,7 @@ fn list(value: &Value) -> &[Value] {
 
 #[test]
 fn the_explorer_shows_what_the_kernels_do() {
+    let _turn = crate::turn();
     let (page, work) = (Folder::new(), Folder::new());
     let written = Command::new(zonal()).args(["explore", "--no-serve", "--out"]).arg(page.path("")).output();
     let written = written.expect("the command starts");

@@ -3,18 +3,14 @@
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::language::{Arrays, GLSL};
 use zonal_gpu_tests::bench::{ARRAYS, Row};
 use zonal_gpu_tests::devices::COLUMNS;
 use zonal_gpu_tests::report::{self, Measured};
 
-/// Each run of the bench takes all processors: one at a time.
-static BENCH: Mutex<()> = Mutex::new(());
-
 fn measure(mode: &str) -> Measured {
-    let _turn = BENCH.lock().unwrap_or_else(PoisonError::into_inner);
+    let _turn = crate::turn();
     let measured = report::measure(env!("CARGO_BIN_EXE_zonal-gpu-worker"), mode);
     measured.unwrap_or_else(|error| panic!("{error}"))
 }

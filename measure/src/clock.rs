@@ -1,0 +1,145 @@
+//! Nanoseconds a vector of the compiled kernels. A time means little on another machine, so that each is also given as
+//! a ratio to a copy of the same bytes, timed in turn with the kernel in the same run. Behind the feature `times`: its
+//! kernels take minutes to compile, which no test waits for.
+
+use crate::timing::{Time, Times, Timing};
+use crate::{Progress, significant};
+use std::hint::black_box;
+use std::time::Instant;
+use zonal::real::{Lanes, Real, Signal};
+use zonal_codegen::promise::samples::Random;
+
+/// How many rounds of copy and kernel a median is taken over.
+const ROUNDS: usize = 15;
+/// The bytes of each of the two buffers: more than the first cache holds, less than the second.
+const BYTES: usize = 1 << 17;
+/// A round passes over the buffers so often and takes the fastest pass, which nothing else on the machine broke into.
+const PASSES: usize = 5;
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    significant(values[values.len() / 2])
+}
+
+fn seconds(mut work: impl FnMut()) -> f64 {
+    let pass = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    (0..PASSES).map(pass).fold(f64::INFINITY, f64::min)
+}
+
+/// Times a kernel against a copy; `lanes` vectors are worked on in one call.
+fn time<T: Real, P, const N: usize>(lanes: usize, params: &[P], kernel: impl Fn(&P, &[T; N]) -> [T; N]) -> Time {
+    let count = (BYTES / size_of::<[T; N]>()).max(params.len());
+    let input: Vec<[T; N]> = (0..count).map(|i| std::array::from_fn(|j| T::lit(((i + j) % 7) as f64 - 3.0))).collect();
+    let mut output = input.clone();
+    let (mut times, mut ratios) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let copy = seconds(|| black_box(&mut output).copy_from_slice(black_box(&input)));
+        let run = seconds(|| {
+            let params = black_box(params);
+            for (place, (out, c)) in black_box(&mut output).iter_mut().zip(black_box(&input)).enumerate() {
+                *out = kernel(&params[place % params.len()], c);
+            }
+        });
+        times.push(run * 1e9 / (count * lanes) as f64);
+        ratios.push(run / copy);
+    }
+    Time { nanoseconds: median(times), copies: median(ratios) }
+}
+
+/// Parameters for a kernel: quaternions, some of them near to the identity, normals, phases, small angles.
+struct Params<T> {
+    quaternions: Vec<[T; 4]>,
+    near: Vec<[T; 4]>,
+    normals: Vec<[T; 3]>,
+    phases: Vec<[T; 2]>,
+    angles: Vec<T>,
+}
+
+impl<T: Real> Params<T> {
+    fn new() -> Self {
+        let mut random = Random::new(1);
+        Self {
+            quaternions: (0..64).map(|_| random.unit::<4>().map(T::lit)).collect(),
+            near: (0..64).map(|_| near(random.unit::<4>()).map(T::lit)).collect(),
+            normals: (0..64).map(|_| random.unit::<3>().map(f64::abs).map(T::lit)).collect(),
+            phases: (0..64).map(|_| random.unit::<2>().map(T::lit)).collect(),
+            angles: (0..64).map(|_| T::lit(0.2 * random.signed())).collect(),
+        }
+    }
+}
+
+/// A unit quaternion whose y angle is at most six degrees.
+fn near([x, y, z, w]: [f64; 4]) -> [f64; 4] {
+    let (small, large) = (x.hypot(y), z.hypot(w));
+    let (sin, cos) = 0.05f64.sin_cos();
+    [x / small * sin, y / small * sin, z / large * cos, w / large * cos]
+}
+
+/// The three layouts of one kernel, after a set-up that is not timed if there is one.
+macro_rules! times {
+    (@ $p:ident) => { *$p };
+    (@ $p:ident $set_up:ident) => { $p };
+    ($order:literal, $spec:literal, $field:ident $($set_up:ident)?, $module:ident :: $name:ident) => {{
+        fn layout<T: Real + Signal<T>>(lanes: usize) -> Time {
+            let params = Params::<T>::new();
+            let all = params.$field.into_iter()$(.map(zonal::$module::$set_up))?.collect::<Vec<_>>();
+            time(lanes, &all, |p, c: &[T; $order * $order]| {
+                zonal::$module::$name(times!(@ p $($set_up)?), c)
+            })
+        }
+        Times {
+            spec: format!($spec, $order),
+            order: $order,
+            f32: layout::<f32>(1),
+            f64: layout::<f64>(1),
+            lanes: layout::<Lanes<f32, 16>>(16),
+        }
+    }};
+}
+
+/// The kernels that are timed at one order.
+macro_rules! order {
+    ($kernels:ident, $order:literal, $module:ident, $zyz:literal $zyz_name:ident $(, $spec:literal $field:ident $name:ident)*) => {
+        order!(@ $kernels, $order, $module,
+            $zyz (quaternions) $zyz_name,
+            "rotate:{}:zxzxz" (quaternions) rotate_zxzxz,
+            "rotate:{}:angles" (quaternions angles) rotate_angles,
+            "rotate:{}:lifted" (near lifted) rotate_lifted,
+            "rotate_small:{}" (near) rotate_small,
+            "rotate:{}:align" (normals) rotate_align,
+            "tilt:{}" (normals) tilt,
+            "rotate_y:{}" (phases) rotate_y,
+            "taylor1:{}" (angles) taylor1_y,
+            "taylor15:{}" (angles) taylor15_y,
+            "taylor2:{}" (angles) taylor2_y,
+            "lf3:{}" (angles) lf3_y,
+            "lf5:{}" (angles) lf5_y
+            $(, $spec ($field) $name)*
+        );
+    };
+    (@ $kernels:ident, $order:literal, $module:ident, $($spec:literal ($field:ident $($set_up:ident)?) $name:ident),*) => { $(
+        $kernels.push(|| times!($order, $spec, $field $($set_up)?, $module::$name));
+    )* };
+}
+
+/// Times the kernels of the orders 3, 5 and 8, one after another.
+pub fn measure(progress: &dyn Progress) -> Timing {
+    let mut kernels: Vec<fn() -> Times> = Vec::new();
+    order!(kernels, 3, sh3, "rotate:{}:zyz" rotate_zyz);
+    order!(kernels, 5, sh5, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
+    order!(kernels, 8, sh8, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
+    progress.stage("times", kernels.len());
+    let time = |kernel: fn() -> Times| {
+        let times = kernel();
+        progress.step();
+        times
+    };
+    Timing {
+        machine: format!("{}, {}", std::env::consts::ARCH, std::env::consts::OS),
+        kernels: kernels.into_iter().map(time).collect(),
+    }
+}

@@ -1,0 +1,4 @@
+//! The tests of the pictures, one module a subject, in one program.
+
+mod pictures;
+mod report;
