@@ -146,9 +146,9 @@ fn templates() -> &'static Tera {
     TEMPLATES.get_or_init(|| {
         let mut tera = Tera::default();
         tera.add_raw_templates([
-            ("wgsl", include_str!("../../templates/wgsl.tera")),
-            ("glsl", include_str!("../../templates/glsl.tera")),
-            ("rust", include_str!("../../templates/rust.tera")),
+            ("wgsl", zonal_templates::WGSL),
+            ("glsl", zonal_templates::GLSL),
+            ("rust", zonal_templates::RUST),
         ])
         .expect("the templates parse: a test renders each");
         tera
@@ -164,7 +164,7 @@ fn head(origin: &str) -> Vec<String> {
 }
 
 /// The expressions of a result, grouped as its shape asks.
-pub(crate) fn results(dialect: Dialect, shape: Shape, kind: Kind, items: &[String]) -> (String, Vec<String>, String) {
+pub fn results(dialect: Dialect, shape: Shape, kind: Kind, items: &[String]) -> (String, Vec<String>, String) {
     let Some(constructor) = dialect.constructor(shape, kind) else {
         return (String::new(), items.to_vec(), String::new());
     };

@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn it_is_planned_for() {
         let text = "name = \"turn\"\n[[rotation]]\nkind = \"y\"\norder = 4\nmax_angle = 20\nmax_error = 1e-4\n";
-        let scene = Scene::parse("turn.toml", text, &Maps::default()).unwrap();
+        let scene = Scene::parse("turn.toml", text, Maps::Embedded(&[])).unwrap();
         let plan = Plan::new(&scene).unwrap();
         let rivals: Vec<&str> = plan.kernels[0].rivals.iter().map(|rival| rival.spec.as_str()).collect();
         assert!(rivals.contains(&"exchanged_y:4") && rivals.contains(&"rotate_y:4"), "{rivals:?}");
