@@ -19,11 +19,11 @@ tests/install.sh
 step "format"
 cargo fmt --all --check
 step "lints"
-cargo clippy --quiet --workspace --all-targets --features zonal-codegen/cli -- -D warnings
+cargo clippy --quiet --workspace --all-targets -- -D warnings
 step "runtime without std"
 cargo check --quiet -p zonal --no-default-features --features libm
 step "tests"
-cargo test --workspace --features zonal-codegen/cli --no-fail-fast
+cargo test --workspace --no-fail-fast
 step "documentation"
-RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps --features zonal-codegen/cli
+RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
 step "everything passed"

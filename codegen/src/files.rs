@@ -1,7 +1,9 @@
 //! Files as text, and the one place that writes them: inside one folder, nothing half-written, what has not changed
 //! untouched.
 
+use crate::fault::Fault;
 use std::collections::BTreeSet;
+use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -19,10 +21,8 @@ pub struct File {
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// A path leads out of the output folder.
-    #[error("`{0}` leads out of the output folder; use a relative path without `..`")]
     Outside(String),
     /// The file system refused.
-    #[error("cannot {what} `{}`: {source}; check that the folder exists and may be written", path.display())]
     Io {
         /// What was tried.
         what: &'static str,
@@ -31,6 +31,32 @@ pub enum FileError {
         /// What the system said.
         source: io::Error,
     },
+}
+
+impl From<&FileError> for Fault {
+    fn from(error: &FileError) -> Self {
+        match error {
+            FileError::Outside(path) => {
+                Self::new(format!("`{path}` leads out of the output folder"), "use a relative path without `..`")
+            }
+            FileError::Io { what, path, source } => Self::new(
+                format!("cannot {what} `{}`: {source}", path.display()),
+                "check that the folder exists and may be written",
+            ),
+        }
+    }
+}
+
+impl From<FileError> for Fault {
+    fn from(error: FileError) -> Self {
+        (&error).into()
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Fault::from(self).fmt(f)
+    }
 }
 
 fn io_error(what: &'static str, path: &Path) -> impl FnOnce(io::Error) -> FileError {
@@ -55,8 +81,8 @@ pub enum Difference {
     Orphaned(String),
 }
 
-impl std::fmt::Display for Difference {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Missing(path) => write!(f, "missing: {path}"),
             Self::Stale(path) => write!(f, "stale: {path}"),

@@ -30,18 +30,15 @@
 
 pub mod builder;
 pub mod catalog;
-#[cfg(feature = "cli")]
-pub mod drawn;
 pub mod emit;
-#[cfg(feature = "environment")]
 pub mod environment;
 pub mod families;
+pub mod fault;
 pub mod files;
 pub mod generate;
 pub mod ir;
 pub mod math;
-#[cfg(feature = "picture")]
-pub mod picture;
 pub mod plan;
 pub mod promise;
+pub mod reflectance;
 pub mod scene;

@@ -1,12 +1,12 @@
 //! Pixels for a screen: frames over their background, false colours with their legend, lines of text, and PNG files.
 
-use crate::gpu::Frame;
+use crate::frame::Frame;
 use crate::tone;
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use rayon::prelude::*;
 use std::io::Cursor;
 use zonal_codegen::environment::Map;
-use zonal_codegen::picture::camera::Camera;
+use zonal_picture::camera::{Camera, View};
 
 /// Behind everything.
 pub const GROUND: [u8; 3] = [22, 24, 29];

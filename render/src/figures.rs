@@ -1,14 +1,15 @@
 //! Frames measured against each other: errors, what they cost, and how they fall with the order.
 
-use crate::gpu::{Frame, Stage};
-use crate::reference::{Lights, Surface, expected};
+use crate::frame::{Frame, Surface};
+use crate::gpu::Stage;
+use crate::reference::{Lights, expected};
 use crate::subject::Subject;
 use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 use zonal_codegen::environment::Projection;
-use zonal_codegen::picture::brdf::Table;
-use zonal_codegen::picture::shade::Method;
+use zonal_codegen::reflectance::brdf::Table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+use zonal_picture::method::{Judged, Method};
 
 /// How far a frame is from another, in shares of the other's mean radiance. The radiance of a pixel, and an error of it,
 /// is the root of the sum of the squares of R, G and B.

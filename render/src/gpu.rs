@@ -1,7 +1,7 @@
 //! The adapter: draws a subject with a generated shader into radiance, or into what is known of its surface before it is
 //! shaded. The only file that knows wgpu.
 
-use crate::reference::Surface;
+use crate::frame::{Frame, Surface};
 use crate::subject::Subject;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -9,10 +9,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 use wgpu::util::{DeviceExt, TextureDataOrder};
 use zonal_codegen::environment::Projection;
-use zonal_codegen::picture::brdf::Table;
-use zonal_codegen::picture::mesh::STRIDE;
-use zonal_codegen::picture::shade::{Shading, wgsl_gbuffer};
+use zonal_codegen::reflectance::brdf::Table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+use zonal_picture::camera::View;
+use zonal_picture::mesh::STRIDE;
+use zonal_picture::shade::{Shading, wgsl_gbuffer};
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 const RADIANCE: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
@@ -44,17 +45,6 @@ pub struct Stage<'a> {
     camera: wgpu::Buffer,
     normals: wgpu::TextureView,
     sampler: wgpu::Sampler,
-}
-
-/// Linear radiance, row by row from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// The width and the height.
-    pub size: [usize; 2],
-    /// R, G and B where the object is; negative where a lobe rings.
-    pub pixels: Vec<Option<[f64; 3]>>,
-    /// The median time of drawing it, in milliseconds, waiting included; 0 if it was not timed.
-    pub milliseconds: f64,
 }
 
 fn fault(what: &str, error: impl std::fmt::Display) -> Diagnostic {

@@ -8,6 +8,7 @@
 
 pub mod canvas;
 pub mod figures;
+pub mod frame;
 pub mod gpu;
 pub mod reference;
 pub mod report;

@@ -3,16 +3,16 @@
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
-use std::fmt::Write as _;
-use std::io::{self, Write as _};
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use zonal_codegen::drawn::draw;
+use zonal_cli::terminal::{Failure, ended, out};
+use zonal_codegen::fault::Fault;
 use zonal_codegen::files;
-use zonal_codegen::picture::shade::Method;
 use zonal_codegen::scene::Scene;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+use zonal_picture::method::Method;
 use zonal_render::figures::{Truth, convergence, percent};
 use zonal_render::gpu::{Gpu, Stage};
 use zonal_render::strip;
@@ -101,7 +101,7 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     let name = |place: &Path| place.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let (folder, names) = (output.parent().unwrap_or(Path::new("")), [name(&output), name(&sidecar)]);
     files::write_below(folder, &[(&names[0], canvas.png().as_slice()), (&names[1], (json + "\n").as_bytes())])
-        .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+        .map_err(Fault::from)?;
     bar.finish_and_clear();
     let [width, height] = canvas.size;
     let seconds = start.elapsed().as_secs_f64();
@@ -137,21 +137,5 @@ fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<String, 
 }
 
 fn main() -> ExitCode {
-    let shown = run(&Arguments::parse()).and_then(|text| {
-        let mut stdout = io::stdout().lock();
-        match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-                Err(Diagnostic::nowhere(format!("cannot print: {error}"), ""))
-            }
-            _ => Ok(()),
-        }
-    });
-    match shown {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(diagnostic) => {
-            // If even this cannot be printed, the exit code still tells.
-            let _ = write!(io::stderr(), "{}", draw(&diagnostic));
-            ExitCode::FAILURE
-        }
-    }
+    ended(run(&Arguments::parse()).map_err(Failure::from).and_then(|text| out(&text)))
 }

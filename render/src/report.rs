@@ -7,9 +7,9 @@ use crate::subject::Subject;
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use zonal_codegen::environment::Map;
-use zonal_codegen::picture::brdf::Brdf;
-use zonal_codegen::picture::shade::Method;
+use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+use zonal_picture::method::{Judged, Method};
 
 /// The reflectances of the paper's figure 5.
 pub const BRDFS: [(&str, Brdf); 4] = [

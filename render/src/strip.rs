@@ -7,8 +7,8 @@ use crate::gpu::{Gpu, Stage};
 use crate::subject::Subject;
 use crate::tone;
 use indicatif::ProgressBar;
-use zonal_codegen::picture::shade::Method;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+use zonal_picture::method::Method;
 
 /// Between tiles and around them.
 const GAP: usize = 12;

@@ -4,15 +4,16 @@
 use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::families::tilt::TILT;
 use zonal_codegen::families::{SmallAngle, Spec};
-use zonal_codegen::picture::AssetError;
-use zonal_codegen::picture::brdf::Brdf;
-use zonal_codegen::picture::camera::Camera;
-use zonal_codegen::picture::mesh::Mesh;
-use zonal_codegen::picture::normal_map::NormalMap;
-use zonal_codegen::picture::shade::{Method, Shading};
+use zonal_codegen::fault::Fault;
 use zonal_codegen::plan::Plan;
+use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Job, Light, Located, Order, Scene};
+use zonal_picture::camera::Camera;
+use zonal_picture::mesh::Mesh;
+use zonal_picture::method::Method;
+use zonal_picture::normal_map::NormalMap;
+use zonal_picture::shade::Shading;
 
 /// What a picture shows.
 #[derive(Clone, Debug)]
@@ -50,8 +51,8 @@ pub struct Instead {
     pub method: Option<Method>,
 }
 
-fn located<T>(file: &Located<String>, result: Result<T, AssetError>) -> Result<T, Diagnostic> {
-    result.map_err(|error| Diagnostic::at(&file.place, format!("{}: {}", error.name, error.message), error.help))
+fn located<T>(file: &Located<String>, result: Result<T, impl Into<Fault>>) -> Result<T, Diagnostic> {
+    result.map_err(|error| Diagnostic::of(&file.place, error))
 }
 
 impl Subject {
@@ -82,11 +83,7 @@ impl Subject {
             None => NormalMap::flat(),
             Some(file) => located(file, NormalMap::from_bytes(&file.value, &read(file)?))?,
         };
-        let map = Map::from_bytes(&environment.map.value, &read(&environment.map)?).map_err(|error| {
-            let text = error.to_string();
-            let (message, help) = text.rsplit_once("; ").unwrap_or((&text, ""));
-            Diagnostic::at(&environment.map.place, message, help)
-        })?;
+        let map = located(&environment.map, Map::from_bytes(&environment.map.value, &read(&environment.map)?))?;
         let number = match picture.order.as_ref().map(|order| order.value) {
             Some(Order::Number(number)) => Some(number),
             Some(Order::Environment) | None => None,

@@ -4,7 +4,7 @@
 //! the dark alone, bends the bright and reaches white at w = 4. By itself the exposure takes the object's log-average
 //! luminance to 0.3. Negative radiance, which truncated lobes ring to, shows as black; nothing else clamps it.
 
-use crate::gpu::Frame;
+use crate::frame::Frame;
 
 /// The exposed radiance that becomes white.
 const WHITE: f64 = 4.0;

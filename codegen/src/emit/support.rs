@@ -19,6 +19,6 @@ pub enum Std {
 pub fn real(std: Std) -> String {
     let mut context = Context::new();
     context.insert("by_feature", &(std == Std::ByFeature));
-    let text = Tera::default().render_str(include_str!("../../templates/real.rs.tera"), &context, false);
+    let text = Tera::default().render_str(zonal_templates::REAL, &context, false);
     text.unwrap_or_else(|error| panic!("the template of `real` is at fault: {error}"))
 }

@@ -3,4 +3,5 @@
 pub mod exact;
 pub mod index;
 pub mod linear;
+pub mod quadrature;
 pub mod tables;

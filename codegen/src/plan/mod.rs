@@ -2,18 +2,21 @@
 //! every method that does the job is built, counted and measured, and the cheapest that keeps the error is chosen; for
 //! an environment, the smallest order whose missing bands cost less than the budget. All figures are the kernels' own.
 
+pub mod environment;
 pub mod mixtures;
+pub mod text;
 
 use crate::emit::language::{self, Target};
 use crate::emit::names::{self, Use};
-use crate::emit::{Constants, Function, Module};
-use crate::families::basis;
+use crate::emit::{Function, Module};
 use crate::families::family::{Does, Spec};
 use crate::generate::{self, Row};
 use crate::ir::graph::Kind;
 use crate::ir::listing::Cost;
+use crate::plan::environment::EnvironmentPlan;
 use crate::plan::mixtures::{Budget, candidates, set_up};
-use crate::promise::accuracy::{self, round_up};
+use crate::plan::text::{row, short, table};
+use crate::promise::accuracy;
 use crate::promise::built::Built;
 use crate::scene::diagnostic::{Diagnostic, Place};
 use crate::scene::{Job, Located, Norm, Order, Precision, Rotation, Scene, Wanted};
@@ -32,46 +35,6 @@ pub const HALF_SHARE: usize = 2;
 /// What a kernel weighs when methods are compared.
 pub fn price(cost: Cost) -> usize {
     cost.total + SPECIAL_WEIGHT * cost.special
-}
-
-/// What was found about an environment.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct EnvironmentPlan {
-    /// What the constants are called.
-    pub name: String,
-    /// The map, as the scene writes it.
-    pub map: String,
-    /// The columns and the rows of the map.
-    pub size: [usize; 2],
-    /// What is wanted of it.
-    pub signal: crate::scene::Light,
-    /// The budget.
-    pub budget: f64,
-    /// The most bands that the scene can afford.
-    pub max_order: usize,
-    /// The order that was chosen.
-    pub order: usize,
-    /// The bands whose coefficients are stored.
-    pub bands: Vec<usize>,
-    /// The share of each band below `max_order` in the energy that they hold together.
-    pub energy: Vec<f64>,
-    /// The share of those bands in the energy of the whole map.
-    pub held: f64,
-    /// The relative rms error of each order from 1 to `max_order`, against the whole map.
-    pub errors: Vec<f64>,
-    /// The bands below `max_order` that hold nothing.
-    pub vanishing: Vec<usize>,
-    /// The relative rms error of each order from 1 to `max_order`, against `max_order`.
-    pub costs: Vec<f64>,
-    /// How many RGB coefficients are stored, and how many `max_order` has.
-    pub coefficients: [usize; 2],
-    /// The operations of evaluating the stored bands in RGB, and of evaluating all of `max_order`.
-    pub operations: [usize; 2],
-    /// The RGB coefficients of the stored bands.
-    pub values: Vec<[f64; 3]>,
-    /// What the scene's reflectance requires of the light; then `energy` is that of what is reflected.
-    #[cfg(feature = "picture")]
-    pub requirement: Option<crate::picture::requirement::Requirement>,
 }
 
 /// A method that was weighed for a rotation.
@@ -179,25 +142,6 @@ fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec
     let text = [&[pieces[0], &order], &pieces[2..]].concat().join(":");
     let spec = text.parse::<Spec>().map_err(|error| Diagnostic::at(place, error.message, error.help))?;
     Ok((spec, true))
-}
-
-/// An error with two digits, rounded up.
-pub fn short(error: f64) -> String {
-    match error {
-        _ if error < 1e-12 => "0".to_owned(),
-        _ if (1e-3..1e3).contains(&error) => format!("{}", round_up(error)),
-        _ => format!("{:e}", round_up(error)),
-    }
-}
-
-fn percent(share: f64) -> String {
-    match 100.0 * share {
-        0.0 => "0 %".to_owned(),
-        p if p < 0.001 => "< 0.001 %".to_owned(),
-        p if p < 0.1 => format!("{p:.3} %"),
-        p if p < 10.0 => format!("{p:.2} %"),
-        p => format!("{p:.1} %"),
-    }
 }
 
 /// A method in a contest.
@@ -564,265 +508,6 @@ impl Plan {
         self.module.functions.push(function);
         self.places.push(place.clone());
         self.kernels.push(chosen);
-    }
-}
-
-impl EnvironmentPlan {
-    /// Bands that hold nothing are neither stored nor evaluated, unless a kernel of the environment's order needs all
-    /// of them: only `basis` and `eval` can do without.
-    fn leave_out_vanishing_bands(&mut self, specs: &mut [(Spec, bool)], whole: bool) {
-        let serves = |spec: &Spec| spec.family.some_bands && spec.is_whole();
-        let takes_order = || specs.iter().filter(|(_, takes_order)| *takes_order);
-        if whole || takes_order().next().is_none() || !takes_order().all(|(spec, _)| serves(spec)) {
-            return;
-        }
-        self.bands.retain(|band| !self.vanishing.contains(band));
-        self.values = self.bands.iter().flat_map(|&l| self.values[l * l..(l + 1) * (l + 1)].to_vec()).collect();
-        for (spec, _) in specs.iter_mut().filter(|(_, takes_order)| *takes_order) {
-            spec.bands.clone_from(&self.bands);
-        }
-    }
-
-    fn count_operations(&mut self) {
-        // Names a family: evaluation is what the coefficients are for.
-        let eval =
-            |order: usize, bands: &[usize]| Spec { bands: bands.to_vec(), ..Spec::new(&basis::EVAL, order).rgb() };
-        let all: Vec<usize> = (0..self.max_order).collect();
-        let functions = generate::build(&[eval(self.order, &self.bands), eval(self.max_order, &all)]);
-        self.operations = [0, 1].map(|i| functions[i].built.code.cost(3).total);
-        self.coefficients = [self.values.len(), self.max_order * self.max_order];
-    }
-
-    fn constants(&self) -> Constants {
-        let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
-        let what = match self.signal {
-            crate::scene::Light::Radiance => "radiance",
-            crate::scene::Light::Irradiance => {
-                "irradiance by the surface's normal (times albedo / π it is what a diffuse surface sends out)"
-            }
-        };
-        let which = match self.bands.len() == self.order {
-            true => format!("order {}, index l(l+1)+m", self.order),
-            false => format!("the bands {}, one after the other; the bands between hold nothing", bands.join(", ")),
-        };
-        let error = match self.order == self.max_order {
-            true => String::new(),
-            false => format!(" They err by {} against order {}.", percent(self.costs[self.order - 1]), self.max_order),
-        };
-        Constants {
-            name: self.name.clone(),
-            doc: format!("The {what} of `{}`: RGB coefficients of {which}.{error}", self.map),
-            values: self.values.clone(),
-        }
-    }
-
-    /// What was decided, in a few sentences.
-    pub fn summary(&self) -> String {
-        let cost = |order: usize| percent(self.costs[order - 1]);
-        let (order, budget) = (self.order, percent(self.budget));
-        let mut text = match order == self.max_order {
-            true => format!(
-                "order {order}, all that the scene affords: one order less would err by {} against it, and the budget is \
-                 {budget}.",
-                cost(order - 1)
-            ),
-            false => format!(
-                "order {order}: it errs by {} against order {}, within the budget of {budget}; one order less would err \
-                 by {}.",
-                cost(order),
-                self.max_order,
-                cost(order - 1)
-            ),
-        };
-        let missing: Vec<String> =
-            self.vanishing.iter().filter(|l| !self.bands.contains(l)).map(usize::to_string).collect();
-        if !missing.is_empty() {
-            let (bands, hold) = if missing.len() == 1 { ("Band", "holds") } else { ("Bands", "hold") };
-            text += &format!(" {bands} {} {hold} nothing.", missing.join(", "));
-        }
-        let ([coefficients, all], [operations, whole]) = (self.coefficients, self.operations);
-        if coefficients < all {
-            text += &format!(
-                " That saves {} of {all} coefficients and {} of {whole} operations of an RGB evaluation.",
-                all - coefficients,
-                whole.saturating_sub(operations)
-            );
-        }
-        text += &format!(" Order {} holds {} of the energy of the whole map", self.max_order, percent(self.held));
-        text += match self.held < 0.5 {
-            true => "; the rest is light too small for it.",
-            false => ".",
-        };
-        text
-    }
-}
-
-/// The environment of a scene, where maps can be read.
-#[cfg(feature = "environment")]
-mod environment {
-    use super::{Diagnostic, EnvironmentPlan, Scene};
-    #[cfg(feature = "picture")]
-    use crate::environment::{Map, MapError};
-    use crate::families::family::MIN_ORDER;
-    #[cfg(feature = "picture")]
-    use crate::picture::requirement::Requirement;
-    use crate::scene::{Light, Maps};
-
-    /// Maps are projected at least this far, so that the energy beyond is known well.
-    const DEPTH: usize = 32;
-
-    fn read(scene: &Scene, name: &str) -> Result<Map, MapError> {
-        match &scene.maps {
-            Maps::Folder(folder) => Map::read(&folder.join(name)),
-            Maps::Embedded(maps) => match maps.iter().find(|(known, _)| *known == name) {
-                Some((_, bytes)) => Map::from_bytes(name, bytes),
-                None => Map::from_bytes(name, &[]),
-            },
-        }
-    }
-
-    pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic> {
-        let Some(wanted) = &scene.environment else {
-            return Ok(None);
-        };
-        let map = read(scene, &wanted.map.value).map_err(|error| {
-            let text = error.to_string();
-            let (message, help) = text.rsplit_once("; ").unwrap_or((&text, ""));
-            Diagnostic::at(&wanted.map.place, message, help)
-        })?;
-        let radiance = map.project(DEPTH.max(wanted.max_order));
-        let signal = match wanted.signal {
-            Light::Radiance => radiance,
-            Light::Irradiance => radiance.irradiance(),
-        };
-        let max_order = wanted.max_order;
-        let mut vanishing: Vec<usize> = (0..max_order).filter(|&l| signal.vanishes(l)).collect();
-        let mut energy = signal.band_energy();
-        energy.truncate(max_order);
-        let held = energy.iter().sum::<f64>() / signal.energy();
-        #[cfg(feature = "picture")]
-        let requirement = scene.brdf.filter(|_| wanted.signal == Light::Radiance).map(|brdf| {
-            let half = scene.targets.iter().all(|target| target.half.is_some());
-            Requirement::new(&signal, &brdf, wanted.budget, max_order, half)
-        });
-        #[cfg(feature = "picture")]
-        if let Some(requirement) = &requirement {
-            // What is reflected decides, not the light itself.
-            energy.clone_from(&requirement.energy);
-            vanishing = (0..max_order).filter(|&l| !requirement.holds(l)).collect();
-        }
-        vanishing.iter().for_each(|&l| energy[l] = 0.0);
-        // No map is black, so that this is above zero.
-        let all: f64 = energy.iter().sum();
-        energy.iter_mut().for_each(|band| *band /= all);
-        let costs: Vec<f64> = (1..=max_order).map(|order| energy[order..].iter().sum::<f64>().sqrt()).collect();
-        // The last entry is zero, so that one is found.
-        let order = (MIN_ORDER..max_order).find(|&order| costs[order - 1] <= wanted.budget).unwrap_or(max_order);
-        Ok(Some(EnvironmentPlan {
-            name: wanted.name.value.clone(),
-            map: wanted.map.value.clone(),
-            size: [map.width, map.height],
-            signal: wanted.signal,
-            budget: wanted.budget,
-            max_order,
-            order,
-            bands: (0..order).collect(),
-            energy,
-            held,
-            errors: signal.errors()[..max_order].to_vec(),
-            vanishing,
-            costs,
-            coefficients: [0, 0],
-            operations: [0, 0],
-            values: signal.coefficients[..order * order].to_vec(),
-            #[cfg(feature = "picture")]
-            requirement,
-        }))
-    }
-}
-
-/// Without an image reader no scene has an environment.
-#[cfg(not(feature = "environment"))]
-mod environment {
-    use super::{Diagnostic, EnvironmentPlan, Scene};
-
-    pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic> {
-        match &scene.environment {
-            None => Ok(None),
-            Some(wanted) => Err(Diagnostic::at(
-                &wanted.map.place,
-                "maps cannot be read: zonal-codegen was built without its feature `environment`",
-                "write `features = [\"environment\"]` where you depend on zonal-codegen",
-            )),
-        }
-    }
-}
-
-/// Rows as a Markdown table with aligned columns, the first row its head; columns of numbers are set right.
-pub fn table(rows: &[Vec<String>]) -> String {
-    let columns = rows.first().map_or(0, Vec::len);
-    let cell = |row: &Vec<String>, i: usize| row.get(i).cloned().unwrap_or_default();
-    let widths: Vec<usize> =
-        (0..columns).map(|i| rows.iter().map(|row| cell(row, i).chars().count()).max().unwrap_or(0).max(2)).collect();
-    let is_number =
-        |i: usize| rows[1..].iter().all(|row| cell(row, i).starts_with(|c: char| c.is_ascii_digit() || c == '<'));
-    let mut text = String::new();
-    for (line, row) in rows.iter().enumerate() {
-        for (i, &width) in widths.iter().enumerate() {
-            text += &match is_number(i) {
-                true => format!("| {:>width$} ", cell(row, i)),
-                false => format!("| {:<width$} ", cell(row, i)),
-            };
-        }
-        text += "|\n";
-        if line == 0 {
-            for (i, &width) in widths.iter().enumerate() {
-                text += &match is_number(i) {
-                    true => format!("|{}:", "-".repeat(width + 1)),
-                    false => format!("|{}", "-".repeat(width + 2)),
-                };
-            }
-            text += "|\n";
-        }
-    }
-    text
-}
-
-fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
-    cells.map(str::to_owned).to_vec()
-}
-
-impl fmt::Display for EnvironmentPlan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [width, height] = self.size;
-        writeln!(f, "## Environment `{}`\n", self.name)?;
-        let signal = match self.signal {
-            crate::scene::Light::Radiance => "radiance",
-            crate::scene::Light::Irradiance => "irradiance",
-        };
-        writeln!(f, "`{}`, {width} x {height}, {signal}. Chosen: {}\n", self.map, self.summary())?;
-        let mut rows = vec![row(["band", "energy", "error if it is the last", "error against the whole map", ""])];
-        for l in 0..self.max_order {
-            rows.push(vec![
-                l.to_string(),
-                percent(self.energy[l]),
-                percent(self.costs[l]),
-                percent(self.errors[l]),
-                match (l < self.order, self.bands.contains(&l)) {
-                    _ if self.vanishing.contains(&l) => "holds nothing",
-                    (true, true) if l + 1 == self.order => "the last that is kept",
-                    (true, _) => "kept",
-                    (false, _) => "left out",
-                }
-                .to_owned(),
-            ]);
-        }
-        f.write_str(&table(&rows))?;
-        #[cfg(feature = "picture")]
-        if let Some(requirement) = &self.requirement {
-            write!(f, "\n{requirement}")?;
-        }
-        Ok(())
     }
 }
 

@@ -2,6 +2,7 @@
 //! kernels; the command line draws it with a caret, a build script gets it as one line.
 
 use crate::families::text::SpecError;
+use crate::fault::Fault;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -85,9 +86,20 @@ impl Diagnostic {
         Self::at(&place.within(text, error.at), error.message, error.help)
     }
 
+    /// What was found wrong with what a place names, as with a file.
+    pub fn of(place: &Place, fault: impl Into<Fault>) -> Self {
+        Self { place: Some(place.clone()), ..fault.into().into() }
+    }
+
     /// A fault that stands in no text.
     pub fn nowhere(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { message: message.into(), help: help.into(), place: None }
+        Fault::new(message, help).into()
+    }
+}
+
+impl From<Fault> for Diagnostic {
+    fn from(Fault { message, help }: Fault) -> Self {
+        Self { message, help, place: None }
     }
 }
 

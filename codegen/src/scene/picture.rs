@@ -1,11 +1,18 @@
-//! The tables of a scene that a picture of it is made from: its reflectance, its object and its camera.
+//! The tables of a scene that a picture of it is made from: its reflectance, its object and its camera. Who draws is
+//! another package; here is what may be asked of it.
 
-use super::{Diagnostic, Located, Locator, Order};
-use crate::picture::brdf::{Brdf, BrdfError};
-use crate::picture::camera::Camera;
-use crate::picture::shade::Method;
-use serde::Deserialize;
+use super::manifest::Locator;
+use super::{Located, Order};
+use crate::families::about_y::SMALL_ZYZ;
+use crate::families::text::{hint, usual};
+use crate::families::tilt::TILT;
+use crate::families::{SmallAngle, Spec};
+use crate::reflectance::brdf::Brdf;
+use crate::scene::diagnostic::Diagnostic;
+use serde::{Deserialize, Serialize};
 use serde_spanned::Spanned;
+use std::fmt;
+use std::str::FromStr;
 
 /// The most pixels of a picture along a side.
 pub const MAX_SIZE: usize = 4096;
@@ -30,6 +37,89 @@ pub struct Picture {
     pub camera: Camera,
     /// How many stops it is brighter than it would be by itself.
     pub exposure: f64,
+}
+
+/// Where a picture is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Degrees from +x towards +y.
+    pub azimuth: f64,
+    /// Degrees above the horizon, less than 90 away from it.
+    pub elevation: f64,
+    /// From the origin, above 1: meshes lie in the unit sphere.
+    pub distance: f64,
+    /// The vertical field of view in degrees, below 180.
+    pub field: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { azimuth: 0.0, elevation: 15.0, distance: 4.0, field: 30.0 }
+    }
+}
+
+/// How the coefficients of the reflectance are turned from the frame of the normal map's normal into that of the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// `rotate`, by the quaternion of the shortest rotation.
+    Exact,
+    /// `tilt`, from the normal alone.
+    Tilt,
+    /// `tilt:n:lf5`, likewise, by five shears.
+    Tilt5,
+    /// `rotate:n:lf3`, from the phases of the shortest rotation and its angle.
+    Lf3,
+    /// `rotate:n:taylor15`, likewise.
+    Taylor15,
+    /// Not at all: the normal map only changes which reflectance is looked up ("simplified normal mapping").
+    None,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 6] = [Self::Exact, Self::Tilt, Self::Tilt5, Self::Lf3, Self::Taylor15, Self::None];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Tilt => "tilt",
+            Self::Tilt5 => "tilt5",
+            Self::Lf3 => "lf3",
+            Self::Taylor15 => "taylor15",
+            Self::None => "none",
+        }
+    }
+
+    /// The kernel of an order, if it is one.
+    pub fn spec(self, order: usize) -> Option<Spec> {
+        // Names a family: these are the ways that a picture compares.
+        match self {
+            Self::Exact => Some(usual("rotate", order, false)),
+            Self::Tilt => Some(Spec::new(&TILT, order)),
+            Self::Tilt5 => Some(Spec::new(&TILT, order).by(SmallAngle::Lf5)),
+            Self::Lf3 => Some(Spec::new(&SMALL_ZYZ, order)),
+            Self::Taylor15 => Some(Spec::new(&SMALL_ZYZ, order).by(SmallAngle::Taylor15)),
+            Self::None => None,
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Method {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let names = Self::ALL.map(Self::name);
+        let found = Self::ALL.into_iter().find(|method| method.name() == text);
+        found.ok_or_else(|| format!("`{text}` is no way to turn coefficients; {}", hint(text, &names)))
+    }
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -94,14 +184,7 @@ pub(super) fn brdf(locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnosti
             (Brdf::Ward { alpha: both }, alpha.place)
         }
     };
-    brdf.checked().map_err(|error| match error {
-        BrdfError::Range { what, value, range: [least, most] } => Diagnostic::at(
-            &place,
-            format!("{what} of {value} is out of range"),
-            format!("write a number from {least} to {most}"),
-        ),
-        other => Diagnostic::at(&place, other.to_string(), ""),
-    })
+    brdf.checked().map_err(|error| Diagnostic::of(&place, error))
 }
 
 pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, Diagnostic> {

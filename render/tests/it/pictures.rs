@@ -4,12 +4,13 @@
 use indicatif::ProgressBar;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use zonal_codegen::picture::brdf::Brdf;
-use zonal_codegen::picture::shade::Method;
+use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::{Maps, Scene};
+use zonal_picture::method::Method;
 use zonal_render::figures::{Errors, Figures, Inputs, drawn, pixel_errors};
+use zonal_render::frame::Surface;
 use zonal_render::gpu::{Gpu, Stage};
-use zonal_render::reference::{Lights, Surface};
+use zonal_render::reference::Lights;
 use zonal_render::strip;
 use zonal_render::subject::{Instead, Subject};
 

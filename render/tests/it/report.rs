@@ -4,8 +4,8 @@
 use indicatif::ProgressBar;
 use std::path::{Path, PathBuf};
 use zonal_codegen::environment::Map;
-use zonal_codegen::picture::shade::Method;
 use zonal_codegen::scene::Scene;
+use zonal_picture::method::{Judged, Method};
 use zonal_render::gpu::Gpu;
 use zonal_render::report::{METHODS, Report};
 use zonal_render::subject::{Instead, Subject};

@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use zonal_codegen::environment::{Map, cosine_lobe};
-use zonal_codegen::picture::brdf::{Brdf, BrdfError, Table};
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::reflectance::brdf::{Brdf, BrdfError, Table};
 
 const ALL: [&str; 6] = ["lambert", "phong:5", "phong:100", "ward:0.3", "ward:0.1", "ward:0.2:0.6"];
 

@@ -2,9 +2,9 @@
 //! left out is what can be.
 
 use zonal_codegen::environment::{Map, Projection};
-use zonal_codegen::picture::brdf::Brdf;
-use zonal_codegen::picture::requirement::Requirement;
 use zonal_codegen::plan::Plan;
+use zonal_codegen::reflectance::brdf::Brdf;
+use zonal_codegen::reflectance::requirement::Requirement;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_tests::repository;
 

@@ -50,7 +50,7 @@ pub static GLSL: Language = Language {
     max_table: shader::MAX_TABLE,
     chunk: None,
     generic: None,
-    template: include_str!("../../../templates/glsl.tera"),
+    template: zonal_templates::GLSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses,
     check,

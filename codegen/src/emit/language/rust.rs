@@ -55,7 +55,7 @@ pub static RUST: Language = Language {
         constant: "f32",
         channels: "[T; 3]",
     }),
-    template: include_str!("../../../templates/rust.tera"),
+    template: zonal_templates::RUST,
     reserved: &[RESERVED],
     refuses: |_| None,
     check,

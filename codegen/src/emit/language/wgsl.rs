@@ -42,7 +42,7 @@ pub static WGSL: Language = Language {
     max_table: shader::MAX_TABLE,
     chunk: None,
     generic: None,
-    template: include_str!("../../../templates/wgsl.tera"),
+    template: zonal_templates::WGSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses: |_| None,
     check,

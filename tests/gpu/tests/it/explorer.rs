@@ -9,9 +9,10 @@ use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::language::WGSL;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
-use zonal_codegen::picture::shade::{Method, Shading};
 use zonal_gpu_tests::cases::{Cases, tolerance};
 use zonal_gpu_tests::system::{compile, missing};
+use zonal_picture::method::{Judged, Method};
+use zonal_picture::shade::Shading;
 use zonal_tests::command::{Folder, zonal};
 use zonal_tests::repository;
 

@@ -1,0 +1,224 @@
+//! What the commands print. All of it comes from the library; here it is only laid out.
+
+use super::spec_of;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use zonal_cli::scene;
+use zonal_cli::terminal::{Failure, out, out_json, progress};
+use zonal_codegen::builder;
+use zonal_codegen::catalog;
+use zonal_codegen::emit::Module;
+use zonal_codegen::emit::language::{self, Arrays};
+use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::fault::Fault;
+use zonal_codegen::files::{self, Difference};
+use zonal_codegen::generate::{self, Row};
+use zonal_codegen::plan::Chosen;
+use zonal_codegen::plan::text::{short, table};
+use zonal_codegen::scene::diagnostic::Diagnostic;
+
+fn errors(chosen: &Chosen) -> String {
+    let rounding = chosen.row.accuracy.rounding_f32;
+    match (chosen.method_error, chosen.max_angle) {
+        (Some(error), Some(angle)) if error > 1e-12 => {
+            format!("error {} at {angle} degrees, f32 rounding {}", short(error), short(rounding))
+        }
+        _ => format!("f32 rounding {}", short(rounding)),
+    }
+}
+
+pub fn generate(path: Option<&Path>, folder: Option<PathBuf>) -> Result<(), Failure> {
+    let start = Instant::now();
+    let bar = progress("planning, generating and validating");
+    let plan = scene::plan(path)?;
+    let files = builder::files_of(&plan)?;
+    let folder = folder.unwrap_or_else(|| PathBuf::from(&plan.output));
+    let changed = files::write(&folder, &files)?;
+    drop(bar);
+
+    let targets: Vec<&str> = plan.targets.iter().map(|target| target.name).collect();
+    let mut text = format!("{}: for {}\n", plan.scene, targets.join(", "));
+    if let Some(environment) = &plan.environment {
+        text += &format!("\n  {}: {}\n", environment.name, environment.summary());
+    }
+    for chosen in &plan.kernels {
+        let (row, cost) = (&chosen.row, chosen.row.cost);
+        let special = match cost.special {
+            0 => String::new(),
+            special => format!(" and {special} special"),
+        };
+        text += &format!(
+            "\n  {} as `{}`: {} operations{special}, {}\n      {}\n",
+            row.spec,
+            row.name,
+            cost.total,
+            errors(chosen),
+            chosen.reason
+        );
+    }
+    text += "\n";
+    for file in &files {
+        text += &format!("  {} ({} bytes)\n", folder.join(&file.path).display(), file.text.len());
+    }
+    text += &format!(
+        "\n{} files, all validated, {changed} of them changed, in {:.2} s. `{}.md` tells what each kernel costs and why it was chosen.\n",
+        files.len(),
+        start.elapsed().as_secs_f64(),
+        plan.scene
+    );
+    out(&text)
+}
+
+pub fn plan(path: Option<&Path>, json: bool) -> Result<(), Failure> {
+    let bar = progress("planning");
+    let plan = scene::plan(path)?;
+    drop(bar);
+    scene::print(&plan, json)
+}
+
+pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), Failure> {
+    let mut specs = catalog::standard();
+    specs.retain(|spec| {
+        let text = spec.to_string();
+        family.is_none_or(|family| text.split(':').next() == Some(family))
+            && order.is_none_or(|order| spec.order as u64 == order)
+    });
+    let bar = progress(&format!("measuring {} kernels", specs.len()));
+    let rows: Vec<Row> = generate::build(&specs).iter().map(Row::of).collect();
+    drop(bar);
+    if json {
+        return out_json(&rows);
+    }
+    let head = [
+        "spec",
+        "total",
+        "mul",
+        "add",
+        "fma",
+        "special",
+        "constants",
+        "live",
+        "f32 rounding",
+        "method error at 15 degrees",
+    ];
+    let mut lines = vec![head.map(str::to_owned).to_vec()];
+    for row in &rows {
+        let (cost, footprint) = (row.cost, row.footprint);
+        let numbers = [cost.total, cost.mul, cost.add, cost.fma, cost.special, footprint.constants, footprint.live];
+        let method = row.accuracy.method.iter().find(|(degrees, _)| *degrees == 15.0);
+        let mut line = vec![row.spec.clone()];
+        line.extend(numbers.map(|number| number.to_string()));
+        line.push(format!("{:e}", row.accuracy.rounding_f32));
+        line.push(method.map_or_else(String::new, |(_, error)| format!("{error:e}")));
+        lines.push(line);
+    }
+    out(&table(&lines))
+}
+
+pub fn show(spec: &str, target: &str, arrays: Option<&str>) -> Result<(), Failure> {
+    let spec = spec_of(spec)?;
+    let target = language::named(target).map_err(|message: String| Diagnostic::nowhere(message, ""))?;
+    let bar = progress("building and measuring");
+    let functions = generate::build(std::slice::from_ref(&spec));
+    let module = Module {
+        name: spec.name(),
+        origin: format!("`{spec}`"),
+        functions,
+        arrays: arrays.and_then(Arrays::named),
+        ..Module::default()
+    };
+    let file = generate::file(&module, target, format!("{}.{}", spec.name(), target.extension))?;
+    drop(bar);
+    out(&file.text)
+}
+
+pub fn project(path: &Path, order: usize, irradiance: bool, json: bool) -> Result<(), Failure> {
+    let map = Map::read(path).map_err(Fault::from)?;
+    // What lies beyond an order is known better from a deeper projection.
+    let radiance = map.project(order.max(32));
+    let (deep, signal) = match irradiance {
+        true => (radiance.irradiance(), "irradiance"),
+        false => (radiance, "radiance"),
+    };
+    let (errors, bands) = (deep.errors(), deep.band_energy());
+    let Projection { coefficients, .. } = &deep;
+    let coefficients = &coefficients[..order * order];
+    if json {
+        let bands: Vec<_> = (0..order)
+            .map(|l| json!({"band": l, "energy": bands[l], "share": bands[l] / deep.energy(), "error": errors[l]}))
+            .collect();
+        return out_json(&json!({
+            "map": path.display().to_string(),
+            "width": map.width,
+            "height": map.height,
+            "signal": signal,
+            "order": order,
+            "energy": deep.energy(),
+            "bands": bands,
+            "coefficients": coefficients,
+        }));
+    }
+    let row = |cells: &[&str]| cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
+    let mut lines = vec![row(&["band", "share of the energy in %", "error of the order that ends here in %"])];
+    for l in 0..order {
+        let share = 100.0 * bands[l] / deep.energy();
+        lines.push(row(&[&l.to_string(), &format!("{share:.4}"), &format!("{:.3}", 100.0 * errors[l])]));
+    }
+    let mut values = vec![row(&["l", "m", "R", "G", "B"])];
+    for (l, m) in (0..order as i64).flat_map(|l| (-l..=l).map(move |m| (l, m))) {
+        let [r, g, b] = coefficients[(l * (l + 1) + m) as usize].map(|value| format!("{value:.6}"));
+        values.push(row(&[&l.to_string(), &m.to_string(), &r, &g, &b]));
+    }
+    out(&format!(
+        "{}: {} x {}, {signal}\n\n{}\n{}",
+        path.display(),
+        map.width,
+        map.height,
+        table(&lines),
+        table(&values)
+    ))
+}
+
+/// Refuses to treat a folder of something else as a catalogue, from which what nothing generates is removed.
+fn refuse(folder: &Path, what: &str) -> Result<(), Failure> {
+    let message = format!("`{}` is no catalogue: {what}", folder.display());
+    Err(Diagnostic::nowhere(message, "name a new folder, or one that zonal wrote; orphans are removed from it").into())
+}
+
+pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
+    let start = Instant::now();
+    let is_used = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    if is_used && !check && !folder.join(catalog::COSTS).is_file() {
+        return refuse(folder, &format!("it holds files, but no {}", catalog::COSTS));
+    }
+    let bar = progress("generating and validating the catalogue");
+    let all = catalog::files()?;
+    drop(bar);
+    let found = files::differences(folder, &all, &catalog::BESIDE)?;
+    if check {
+        if found.is_empty() {
+            return out(&format!("{} files are as they should be\n", all.len()));
+        }
+        out(&found.iter().map(|difference| format!("{difference}\n")).collect::<String>())?;
+        let message =
+            format!("{} of the files in `{}` differ from what zonal generates", found.len(), folder.display());
+        let help = format!("run `zonal catalog --dir {}`", folder.display());
+        return Err(Diagnostic::nowhere(message, help).into());
+    }
+    for difference in &found {
+        if let Difference::Orphaned(path) = difference
+            && !files::is_generated(&folder.join(path))
+        {
+            return refuse(folder, &format!("zonal did not write its `{path}`"));
+        }
+    }
+    let changed = files::write(folder, &all)?;
+    let removed = files::remove_orphans(folder, &all, &catalog::BESIDE)?;
+    out(&format!(
+        "{} files in `{}`, all validated: {changed} changed, {removed} removed, in {:.1} s\n",
+        all.len(),
+        folder.display(),
+        start.elapsed().as_secs_f64()
+    ))
+}

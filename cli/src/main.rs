@@ -1,0 +1,147 @@
+//! The command `zonal`: reads arguments, calls the library, prints. It decides nothing about kernels; what draws is other
+//! programs, to which it hands over.
+
+mod commands;
+mod hand_over;
+mod search;
+mod vectors;
+
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use zonal_cli::terminal::{Failure, ended};
+use zonal_codegen::emit::language::{self, Arrays};
+use zonal_codegen::families::Spec;
+use zonal_codegen::families::text::family_names;
+use zonal_codegen::scene::diagnostic::Diagnostic;
+
+/// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.
+#[derive(Parser)]
+#[command(version, about, after_help = "Try `zonal generate`, then read what it wrote; or `zonal show rotate:5`.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Chooses, generates, validates and writes the kernels of a scene.
+    Generate {
+        /// The scene, a TOML file; without one, a glossy scene that zonal carries with it.
+        scene: Option<PathBuf>,
+        /// The folder to write to, instead of the one that the scene names.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Shows what a scene would get, and why.
+    Plan {
+        /// The scene, a TOML file; without one, the glossy scene that zonal carries with it.
+        scene: Option<PathBuf>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+        /// Writes a plot too: each method's error over the angle, with what the scene allows.
+        #[arg(long, value_name = "FILE.svg")]
+        plot: Option<PathBuf>,
+    },
+    /// Lists the standard specs with their costs and errors.
+    List {
+        /// Only this family.
+        #[arg(long, value_parser = family_names())]
+        family: Option<String>,
+        /// Only this order.
+        #[arg(long, value_parser = clap::value_parser!(u64).range(2..=10))]
+        order: Option<u64>,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints one kernel.
+    Show {
+        /// What to print, as in `rotate:5:rgb`.
+        spec: String,
+        /// The language.
+        #[arg(long, default_value = "wgsl", value_parser = language::ALL.map(|language| language.name))]
+        target: String,
+        /// How it takes and returns arrays, if the language knows more than one way.
+        #[arg(long, value_parser = Arrays::ALL.map(|(_, name)| name))]
+        arrays: Option<String>,
+    },
+    /// Projects an environment map and says what each order leaves out.
+    Project {
+        /// The map, .hdr or .exr, twice as wide as high.
+        map: PathBuf,
+        /// How many bands.
+        #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=64))]
+        order: u64,
+        /// Irradiance instead of radiance.
+        #[arg(long)]
+        irradiance: bool,
+        /// Prints JSON.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Prints test vectors as JSON: inputs, and what a kernel gives in f32 and f64.
+    Vectors {
+        /// The kernel, as in `rotate:5:rgb`.
+        spec: String,
+        /// A JSON list of objects keyed by parameter name, instead of seeded inputs.
+        #[arg(long, value_name = "FILE", conflicts_with_all = ["count", "seed"])]
+        inputs: Option<PathBuf>,
+        /// How many seeded inputs, extremes first.
+        #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+        count: u64,
+        /// Which seeded inputs.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Writes a page that shows the kernels at work, and serves it to this machine: `zonal explore --help`.
+    #[command(disable_help_flag = true)]
+    Explore {
+        /// What `zonal-explorer explore` takes.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
+    /// Draws the picture of a scene, or a comparison: `zonal render --help`.
+    #[command(disable_help_flag = true)]
+    Render {
+        /// What `zonal-render` takes.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
+    /// Writes the standard catalogue, or checks it.
+    Catalog {
+        /// Writes nothing; fails if a file is stale, missing or orphaned.
+        #[arg(long)]
+        check: bool,
+        /// The folder of the catalogue.
+        #[arg(long, value_name = "DIR", default_value = "generated")]
+        dir: PathBuf,
+    },
+    /// Searches for lobe directions that make the zonal factorisation sparse.
+    SearchLobes(search::Arguments),
+}
+
+/// A spec that stands on the command line.
+fn spec_of(text: &str) -> Result<Spec, Failure> {
+    text.parse().map_err(|error| Diagnostic::of_spec("SPEC", text, error).into())
+}
+
+/// Runs the command and says how it ended: 0, 1 for what went wrong, 2 for arguments that make no sense.
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Generate { scene, out } => commands::generate(scene.as_deref(), out),
+        Command::Plan { scene, json, plot: None } => commands::plan(scene.as_deref(), json),
+        Command::Plan { scene, json, plot: Some(plot) } => hand_over::plot(scene, json, plot),
+        Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
+        Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
+        Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
+        Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
+        Command::Explore { arguments } => hand_over::explore(arguments),
+        Command::Render { arguments } => hand_over::render(arguments),
+        Command::Catalog { check, dir } => commands::catalog(&dir, check),
+        Command::SearchLobes(arguments) => search::run(&arguments),
+    };
+    ended(result)
+}

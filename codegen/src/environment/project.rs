@@ -1,0 +1,332 @@
+//! A map projected on spherical harmonics in f64, as it stands in memory or as it is read, and what each order leaves
+//! out.
+
+use super::error::MapError;
+use super::map::{Format, Map, format, solid_angle};
+use super::radiance::{Radiance, Row};
+use super::waves::Waves;
+use crate::math::quadrature::gauss_legendre_5;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// How many rows are summed before they are added to the others.
+const BAND: usize = 16;
+/// How many such bands are held while a file is read.
+const BATCH: usize = 16;
+
+/// A function on the sphere, one for each of R, G and B, as the coefficients of its first bands.
+///
+/// *Order n* is bands 0 to n−1, n² coefficients, at index l(l+1)+m. The basis is real and orthonormal with the
+/// Condon-Shortley phase: band 1 is √(3/4π)·(−y, z, −x).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Projection {
+    /// The number of bands.
+    pub order: usize,
+    /// `order * order` coefficients, each for R, G and B: of radiance, or of irradiance in the same unit times
+    /// steradians.
+    pub coefficients: Vec<[f64; 3]>,
+    /// The energy (as [`Projection::band_energy`] counts it) of the bands from `order` on. What [`Map::project`]
+    /// gives is exact but for rounding, about 1e-15 of the whole; what [`Projection::irradiance`] gives is an upper
+    /// bound.
+    pub beyond: f64,
+}
+
+/// Three channels of a row.
+type Planes = [Vec<f64>; 3];
+
+/// What projects rows of a size.
+struct Projector {
+    order: usize,
+    width: usize,
+    height: usize,
+    waves: Waves,
+    /// √((4l² − 1) / (l² − m²)) for the degrees l above m, by m.
+    ratios: Vec<Vec<f64>>,
+}
+
+/// Coefficients and energy of some rows.
+struct Part {
+    coefficients: Vec<[f64; 3]>,
+    energy: f64,
+}
+
+impl Projector {
+    fn new(order: usize, width: usize, height: usize) -> Self {
+        let ratio = |l: usize, m: usize| ((4 * l * l - 1) as f64 / (l * l - m * m) as f64).sqrt();
+        let ratios = (0..order).map(|m| (m + 1..order).map(|l| ratio(l, m)).collect()).collect();
+        Self { order, width, height, waves: Waves::new(order, width), ratios }
+    }
+
+    fn nothing(&self) -> Part {
+        Part { coefficients: vec![[0.0; 3]; self.order * self.order], energy: 0.0 }
+    }
+
+    /// The rows from `first` on.
+    fn part(&self, first: usize, rows: impl Iterator<Item = Planes>) -> Part {
+        let mut part = self.nothing();
+        for (y, planes) in (first..).zip(rows) {
+            let squares: f64 = planes.iter().map(|plane| plane.iter().map(|v| v * v).sum::<f64>()).sum();
+            part.energy += solid_angle(self.width, self.height, y) * squares;
+            let zonal = self.zonal(y);
+            for (channel, plane) in planes.iter().enumerate() {
+                let integrals = self.waves.integrals(plane);
+                let mut place = 0;
+                for (m, [cos, sin]) in integrals.into_iter().enumerate() {
+                    for l in m..self.order {
+                        let centre = l * (l + 1);
+                        part.coefficients[centre + m][channel] += zonal[place] * cos;
+                        if m > 0 {
+                            part.coefficients[centre - m][channel] += zonal[place] * sin;
+                        }
+                        place += 1;
+                    }
+                }
+            }
+        }
+        part
+    }
+
+    /// For each m, for each l from m on, the basis at azimuth 0 integrated over the polar angle θ of row `y` with weight
+    /// sin θ: by Gauss-Legendre quadrature of five nodes in steps over which no harmonic turns by more than π/4, good to
+    /// rounding.
+    fn zonal(&self, y: usize) -> Vec<f64> {
+        let steps = (4 * self.order).div_ceil(self.height).max(1);
+        let step = PI / (self.height * steps) as f64;
+        let mut sums = vec![0.0; self.order * (self.order + 1) / 2];
+        for i in y * steps..(y + 1) * steps {
+            for (node, weight) in gauss_legendre_5() {
+                let (sin, cos) = (step * (i as f64 + 0.5 + 0.5 * node)).sin_cos();
+                self.add_legendre(sin, cos, 0.5 * step * weight * sin, &mut sums);
+            }
+        }
+        sums
+    }
+
+    /// Adds the basis at azimuth 0, times a weight.
+    fn add_legendre(&self, sin: f64, cos: f64, weight: f64, sums: &mut [f64]) {
+        let (mut sectoral, mut place) = (0.5 / PI.sqrt(), 0);
+        for (m, ratios) in self.ratios.iter().enumerate() {
+            if m > 0 {
+                let factor = if m == 1 { 3.0 } else { (2 * m + 1) as f64 / (2 * m) as f64 };
+                sectoral *= -factor.sqrt() * sin;
+            }
+            let (mut before, mut value, mut last) = (0.0, sectoral, 1.0);
+            sums[place] += weight * value;
+            for &ratio in ratios {
+                place += 1;
+                (before, value) = (value, ratio * (cos * value - before / last));
+                sums[place] += weight * value;
+                last = ratio;
+            }
+            place += 1;
+        }
+    }
+
+    fn whole(&self, parts: impl IntoIterator<Item = Part>) -> Projection {
+        let mut whole = self.nothing();
+        for part in parts {
+            for (sum, coefficient) in whole.coefficients.iter_mut().zip(part.coefficients) {
+                (0..3).for_each(|channel| sum[channel] += coefficient[channel]);
+            }
+            whole.energy += part.energy;
+        }
+        let mut projection = Projection { order: self.order, coefficients: whole.coefficients, beyond: 0.0 };
+        projection.beyond = (whole.energy - projection.energy()).max(0.0);
+        projection
+    }
+}
+
+impl Map {
+    /// The radiance projected on the first `order` bands: the coefficients, and the energy that they leave out.
+    ///
+    /// The time grows as the number of texels times `order`.
+    ///
+    /// # Panics
+    ///
+    /// If the map was made by hand and has fewer texels than its size says; see [`Map::checked`].
+    pub fn project(&self, order: usize) -> Projection {
+        let projector = Projector::new(order, self.width, self.height);
+        let planes = |y: usize| {
+            let row = &self.texels[y * self.width..(y + 1) * self.width];
+            [0, 1, 2].map(|channel| row.iter().map(|texel| texel[channel]).collect())
+        };
+        let bands = (0..self.height).step_by(BAND).collect::<Vec<_>>().into_par_iter();
+        let part = |first: usize| projector.part(first, (first..self.height.min(first + BAND)).map(planes));
+        projector.whole(bands.map(part).collect::<Vec<_>>())
+    }
+}
+
+impl Projection {
+    /// [`Projection::from_bytes`] of a file.
+    ///
+    /// # Errors
+    ///
+    /// As [`Map::read`].
+    pub fn read(path: &Path, order: usize) -> Result<(Self, [usize; 2]), MapError> {
+        let name = path.display().to_string();
+        match std::fs::read(path) {
+            Ok(bytes) => Self::from_bytes(&name, &bytes, order),
+            Err(source) => Err(MapError::Unreadable { name, source }),
+        }
+    }
+
+    /// The projection of the map that a file holds, with its numbers of columns and rows: as [`Map::from_bytes`] and
+    /// [`Map::project`] give it, but a map in Radiance HDR is projected while it is read and never stands in memory.
+    ///
+    /// # Errors
+    ///
+    /// As [`Map::from_bytes`].
+    pub fn from_bytes(name: &str, bytes: &[u8], order: usize) -> Result<(Self, [usize; 2]), MapError> {
+        let mut image = match format(name, bytes)? {
+            Format::OpenExr => {
+                let map = Map::from_bytes(name, bytes)?;
+                return Ok((map.project(order), [map.width, map.height]));
+            }
+            Format::Radiance => Radiance::new(name, bytes)?,
+        };
+        let (width, height) = (image.width, image.height);
+        let projector = Projector::new(order, width, height);
+        let mut parts: Vec<Part> = Vec::new();
+        let mut is_black = true;
+        for first in (0..height).step_by(BAND * BATCH) {
+            let count = (height - first).min(BAND * BATCH);
+            let rows = (0..count).map(|_| image.row()).collect::<Result<Vec<Row>, MapError>>()?;
+            is_black = is_black && rows.iter().all(Row::is_black);
+            let band = |(i, rows): (usize, &[Row])| projector.part(first + i * BAND, rows.iter().map(Row::planes));
+            parts.par_extend(rows.par_chunks(BAND).enumerate().map(band));
+        }
+        match is_black {
+            true => Err(MapError::Black { name: name.to_owned() }),
+            false => Ok((projector.whole(parts), [width, height])),
+        }
+    }
+
+    /// The energy of each band: the sum of the squares of its coefficients over m and over R, G and B. By Parseval's
+    /// identity this is the integral over the sphere of the square of what the band adds.
+    pub fn band_energy(&self) -> Vec<f64> {
+        let band = |l: usize| &self.coefficients[l * l..(l + 1) * (l + 1)];
+        (0..self.order).map(|l| band(l).iter().flatten().map(|c| c * c).sum()).collect()
+    }
+
+    /// The energy of all bands, those beyond the projection included.
+    pub fn energy(&self) -> f64 {
+        self.band_energy().iter().sum::<f64>() + self.beyond
+    }
+
+    /// Whether a band holds nothing but rounding: less than 1e-13 of the whole in rms terms. Band 3 and every later
+    /// odd band of irradiance is exactly zero, so that orders 3 and 4 are one and the same irradiance.
+    ///
+    /// # Panics
+    ///
+    /// If `band` is not below the order.
+    pub fn vanishes(&self, band: usize) -> bool {
+        self.band_energy()[band] <= 1e-26 * self.energy()
+    }
+
+    /// The irradiance on a surface by its normal, if this is radiance, nowhere negative: each band times its
+    /// [`cosine_lobe`].
+    ///
+    /// The energy beyond the projection is only bounded: by the largest factor there, and because a band l of what is
+    /// nowhere negative holds at most 2l+1 times the energy of band 0. So it is at most 3.2 % of the irradiance in rms
+    /// terms beyond order 10, 0.53 % beyond order 32 and 0.19 % beyond order 64, whatever the map, and small bright
+    /// lights come near that. Project to order 32 to choose a small order of irradiance.
+    pub fn irradiance(&self) -> Self {
+        let factors: Vec<f64> = (0..self.order + 2).map(cosine_lobe).collect();
+        let mut coefficients = self.coefficients.clone();
+        for l in 0..self.order {
+            for c in coefficients[l * l..(l + 1) * (l + 1)].iter_mut().flatten() {
+                *c *= factors[l];
+            }
+        }
+        let largest = factors[self.order].abs().max(factors[self.order + 1].abs());
+        let mut beyond = largest * largest * self.beyond;
+        if let Some(&uniform) = self.band_energy().first() {
+            // (2l+1) A_l² of all bands is 4π times the integral of the squared cosine lobe.
+            let all = 8.0 * PI * PI / 3.0;
+            let terms = (0..self.order).map(|l| (2 * l + 1) as f64 * factors[l] * factors[l]);
+            beyond = beyond.min(uniform * (all - terms.sum::<f64>()).max(0.0));
+        }
+        Self { order: self.order, coefficients, beyond }
+    }
+
+    /// The relative rms error that each order leaves: entry n−1 is √(energy left out by order n / energy of all), from
+    /// 0 to 1, for the orders 1 to `order`. Never below the truth; above it for irradiance, as far as `beyond` is.
+    pub fn errors(&self) -> Vec<f64> {
+        let total = self.energy();
+        let mut left = self.beyond;
+        let mut errors = vec![0.0; self.order];
+        for (error, band) in errors.iter_mut().zip(self.band_energy()).rev() {
+            *error = if total > 0.0 { (left / total).sqrt() } else { 0.0 };
+            left += band;
+        }
+        errors
+    }
+
+    /// The smallest order whose relative rms error, as [`Projection::errors`] gives it, is at most `budget`; none if
+    /// the whole projection leaves more, and a larger one has to be made to find it.
+    pub fn smallest_order(&self, budget: f64) -> Option<usize> {
+        self.errors().iter().position(|&error| error <= budget).map(|i| i + 1)
+    }
+
+    /// The values of R, G and B that the bands give in a direction (x, y, z), of length 1. A truncated series rings:
+    /// values may be negative where the whole function is not.
+    pub fn evaluate(&self, direction: [f64; 3]) -> [f64; 3] {
+        let mut values = vec![0.0; self.order * self.order];
+        basis(self.order, direction, &mut values);
+        let mut sums = [0.0; 3];
+        for (coefficient, value) in self.coefficients.iter().zip(values) {
+            for channel in 0..3 {
+                sums[channel] += coefficient[channel] * value;
+            }
+        }
+        sums
+    }
+}
+
+/// The factor A_l by which band `l` of radiance gives the irradiance of a surface, the clamped cosine's integral over
+/// the hemisphere against the Legendre polynomial: π, 2π/3, π/4, 0, −π/24, 0, π/64, …. It is in steradians, and exactly
+/// 0 for every odd band above 1.
+///
+/// For even l it is 2π (−1)^(l/2−1) / ((l+2)(l−1)) · l! / (2^l (l/2)!²) (Ramamoorthi and Hanrahan 2001, equation 19).
+pub fn cosine_lobe(l: usize) -> f64 {
+    if l == 1 {
+        return 2.0 * PI / 3.0;
+    }
+    if l % 2 == 1 {
+        return 0.0;
+    }
+    let central: f64 = (1..=l / 2).map(|k| -((2 * k - 1) as f64) / (2 * k) as f64).product();
+    let l = l as f64;
+    -2.0 * PI * central / ((l + 2.0) * (l - 1.0))
+}
+
+/// The harmonics of the bands below `order` in a direction (x, y, z) of length 1, into the first `order * order` of
+/// `values`, at index l(l+1)+m. Polynomials in x, y and z, so that the poles are like any other place.
+pub(crate) fn basis(order: usize, direction: [f64; 3], values: &mut [f64]) {
+    let [x, y, z] = direction;
+    let mut sectoral = 0.5 / PI.sqrt();
+    let (mut cos, mut sin) = (1.0, 0.0);
+    for m in 0..order {
+        if m > 0 {
+            let factor = if m == 1 { 3.0 } else { (2 * m + 1) as f64 / (2 * m) as f64 };
+            sectoral *= -factor.sqrt();
+            (cos, sin) = (x * cos - y * sin, x * sin + y * cos);
+        }
+        let (mut before, mut legendre) = (0.0, sectoral);
+        let mut last_ratio = 1.0;
+        for l in m..order {
+            if l > m {
+                let (ll, mm) = ((l * l) as f64, (m * m) as f64);
+                let ratio = ((4.0 * ll - 1.0) / (ll - mm)).sqrt();
+                (before, legendre) = (legendre, ratio * (z * legendre - before / last_ratio));
+                last_ratio = ratio;
+            }
+            let centre = l * (l + 1);
+            values[centre + m] = legendre * cos;
+            if m > 0 {
+                values[centre - m] = legendre * sin;
+            }
+        }
+    }
+}

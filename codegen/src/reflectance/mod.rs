@@ -1,0 +1,5 @@
+//! What a surface makes of light: analytic reflectances and their harmonics, and what a scene with one requires of its
+//! environment. It knows kernels, but neither scenes nor pictures.
+
+pub mod brdf;
+pub mod requirement;

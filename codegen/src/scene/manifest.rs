@@ -1,0 +1,280 @@
+//! The manifest of a scene as TOML holds it: its tables, and how they become a scene whose values know their places.
+
+use super::picture::{self, BrdfTable, PictureTable};
+use super::{Environment, Job, Light, Located, Maps, Norm, Order, Precision, Rotation, Scene, Wanted};
+use crate::emit::language::{self, Arrays, Target};
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
+use crate::families::text::hint;
+use crate::files;
+use crate::scene::diagnostic::{Diagnostic, Place, Source};
+use serde::Deserialize;
+use serde::de::{Deserializer, Visitor};
+use serde_spanned::Spanned;
+use std::fmt;
+use std::sync::Arc;
+
+/// The most signals that a rotation may turn: beyond it, only what is done for each of them counts.
+const MAX_SIGNALS: usize = 1_000_000;
+
+/// The manifest as TOML holds it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Manifest {
+    name: Spanned<String>,
+    targets: Option<Spanned<Vec<Spanned<String>>>>,
+    arrays: Option<Spanned<String>>,
+    output: Option<Spanned<String>>,
+    environment: Option<EnvironmentTable>,
+    #[serde(default)]
+    kernel: Vec<KernelTable>,
+    #[serde(default)]
+    rotation: Vec<RotationTable>,
+    brdf: Option<BrdfTable>,
+    picture: Option<PictureTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EnvironmentTable {
+    map: Spanned<String>,
+    signal: Light,
+    budget: Spanned<f64>,
+    max_order: Option<Spanned<Order>>,
+    name: Option<Spanned<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KernelTable {
+    spec: Spanned<String>,
+    name: Option<Spanned<String>>,
+    max_angle: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RotationTable {
+    kind: Job,
+    order: Spanned<Order>,
+    max_angle: Spanned<f64>,
+    max_error: Spanned<f64>,
+    norm: Option<Spanned<Norm>>,
+    precision: Option<Spanned<Precision>>,
+    #[serde(default)]
+    rgb: bool,
+    signals: Option<Spanned<i64>>,
+    name: Option<Spanned<String>>,
+}
+
+impl<'de> Deserialize<'de> for Order {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OrderVisitor;
+        impl Visitor<'_> for OrderVisitor {
+            type Value = Order;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "an order from {MIN_ORDER} to {MAX_ORDER} or \"environment\"")
+            }
+            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Order, E> {
+                match usize::try_from(value) {
+                    Ok(order) if (MIN_ORDER..=MAX_ORDER).contains(&order) => Ok(Order::Number(order)),
+                    _ => {
+                        Err(E::custom(format!("order {value} is out of range: orders are {MIN_ORDER} to {MAX_ORDER}")))
+                    }
+                }
+            }
+            fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Order, E> {
+                self.visit_i64(i64::try_from(value).unwrap_or(i64::MAX))
+            }
+            fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Order, E> {
+                match value {
+                    "environment" => Ok(Order::Environment),
+                    other => Err(E::custom(format!("`{other}` is no order: write a number, or \"environment\""))),
+                }
+            }
+        }
+        deserializer.deserialize_any(OrderVisitor)
+    }
+}
+
+/// What a fault of the TOML itself says, with a suggestion for a word that was mistyped.
+fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic {
+    let message = error.message().trim().replace('\n', "; ");
+    let span = error.span().unwrap_or(0..0);
+    let place = Place { source: Arc::clone(source), span };
+    let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match (message.split_once(", expected"), &words[..]) {
+        (Some((unknown, _)), [got, known @ ..]) if message.starts_with("unknown") && !known.is_empty() => {
+            Diagnostic::at(&place, unknown, hint(got, known))
+        }
+        _ => match message.split_once("; ") {
+            Some((message, help)) => Diagnostic::at(&place, message, help),
+            None if message.starts_with("missing field") => Diagnostic::at(&place, message, "add it"),
+            None => Diagnostic::at(&place, message, ""),
+        },
+    }
+}
+
+/// Locates what serde found.
+pub(super) struct Locator(Arc<Source>);
+
+impl Locator {
+    pub(super) fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
+        let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
+        Located { value: spanned.into_inner(), place }
+    }
+
+    /// A value that may be left out, which then stands at another's place.
+    fn or_default<T: Default, U>(&self, value: Option<Spanned<T>>, place: &Spanned<U>) -> Located<T> {
+        match value {
+            Some(value) => self.at(value),
+            None => {
+                let place = Place { source: Arc::clone(&self.0), span: place.span() };
+                Located { value: T::default(), place }
+            }
+        }
+    }
+
+    /// A number within bounds, of which the lower may be excluded.
+    fn number(&self, spanned: Spanned<f64>, what: &str, least: f64, most: f64) -> Result<Located<f64>, Diagnostic> {
+        let located = self.at(spanned);
+        match located.value > least && located.value <= most {
+            true => Ok(located),
+            false => Err(Diagnostic::at(
+                &located.place,
+                format!("{what} {} is out of range", located.value),
+                format!("write a number above {least} and up to {most}"),
+            )),
+        }
+    }
+
+    fn signals(&self, spanned: Spanned<i64>) -> Result<usize, Diagnostic> {
+        let located = self.at(spanned);
+        let count = usize::try_from(located.value).ok().filter(|count| (1..=MAX_SIGNALS).contains(count));
+        count.ok_or_else(|| {
+            let message = format!("{} signals are out of range", located.value);
+            Diagnostic::at(&located.place, message, format!("write a number from 1 to {MAX_SIGNALS}"))
+        })
+    }
+
+    fn angle(&self, spanned: Spanned<f64>) -> Result<Located<f64>, Diagnostic> {
+        self.number(spanned, "an angle in degrees of", 0.0, 180.0)
+    }
+}
+
+/// Reads the text of a scene.
+pub(super) fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic> {
+    let manifest: Manifest = toml::from_str(text).map_err(|error| toml_diagnostic(&error, &source))?;
+    let locate = Locator(source);
+    let mut scene = Scene::new(locate.at(manifest.name));
+    scene.maps = maps;
+    if let Some(list) = manifest.targets {
+        scene.targets = targets(&locate, list)?;
+    }
+    if let Some(text) = manifest.arrays {
+        scene.arrays = Some(arrays(&locate.at(text), &scene.targets)?);
+    }
+    if let Some(output) = manifest.output {
+        let output = locate.at(output);
+        if !files::stays_inside(&output.value) {
+            let message = format!("`{}` leads out of the folder that zonal runs in", output.value);
+            let help = "write a relative path without `..`, or give another folder with `--out`";
+            return Err(Diagnostic::at(&output.place, message, help));
+        }
+        scene.output = output.value;
+    }
+    scene.environment = manifest.environment.map(|table| environment(&locate, table, &scene.name)).transpose()?;
+    for table in manifest.kernel {
+        scene.kernels.push(Wanted {
+            spec: locate.at(table.spec),
+            name: table.name.map(|name| locate.at(name)),
+            max_angle: table.max_angle.map(|angle| locate.angle(angle)).transpose()?,
+        });
+    }
+    for table in manifest.rotation {
+        scene.rotations.push(Rotation {
+            kind: table.kind,
+            order: locate.at(table.order),
+            max_angle: locate.angle(table.max_angle)?,
+            norm: locate.or_default(table.norm, &table.max_error),
+            precision: locate.or_default(table.precision, &table.max_error),
+            max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
+            rgb: table.rgb,
+            signals: table.signals.map_or(Ok(1), |signals| locate.signals(signals))?,
+            name: table.name.map(|name| locate.at(name)),
+        });
+    }
+    scene.brdf = manifest.brdf.map(|table| picture::brdf(&locate, table)).transpose()?;
+    scene.picture = manifest.picture.map(|table| picture::picture(&locate, table)).transpose()?;
+    Ok(scene)
+}
+
+fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<Target>, Diagnostic> {
+    let list = locate.at(list);
+    if list.value.is_empty() {
+        return Err(Diagnostic::at(&list.place, "no target is named", "name wgsl, glsl or rust, or leave the key out"));
+    }
+    let mut targets: Vec<Target> = Vec::new();
+    for text in list.value {
+        let Located { value, place } = locate.at(text);
+        let Ok(target) = language::named(&value) else {
+            let help = hint(&value, &language::names());
+            return Err(Diagnostic::at(&place, format!("`{value}` is no target"), help));
+        };
+        if targets.contains(&target) {
+            return Err(Diagnostic::at(&place, format!("`{value}` stands twice"), "leave one out"));
+        }
+        targets.push(target);
+    }
+    language::sort(&mut targets);
+    Ok(targets)
+}
+
+fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnostic> {
+    let Located { value, place } = text;
+    let Some(arrays) = Arrays::named(value) else {
+        let help = hint(value, &Arrays::ALL.map(|(_, name)| name));
+        return Err(Diagnostic::at(place, format!("`{value}` is no way to pass arrays"), help));
+    };
+    match targets.iter().find(|target| !target.arrays.contains(&arrays)) {
+        None => Ok(arrays),
+        Some(target) => {
+            let able = language::ALL.iter().filter(|target| target.arrays.contains(&arrays));
+            let able: Vec<String> = able.map(|target| format!("\"{target}\"")).collect();
+            let message = format!("{} does not pass arrays as `{value}`", target.title);
+            let help = format!("leave it out, or write `targets = [{}]`", able.join(", "));
+            Err(Diagnostic::at(place, message, help))
+        }
+    }
+}
+
+fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String>) -> Result<Environment, Diagnostic> {
+    let max_order = match table.max_order.map(|order| locate.at(order)) {
+        None => 10,
+        Some(order) => match order.value {
+            Order::Number(number) => number,
+            Order::Environment => {
+                let help = "write the most bands that the scene can afford, as a number";
+                return Err(Diagnostic::at(&order.place, "the largest order cannot be `environment`", help));
+            }
+        },
+    };
+    let budget = locate.at(table.budget);
+    if !(0.0..1.0).contains(&budget.value) {
+        let message = format!("a budget of {} is out of range", budget.value);
+        return Err(Diagnostic::at(
+            &budget.place,
+            message,
+            "write a share of the whole, from 0 to below 1, as in 0.05",
+        ));
+    }
+    Ok(Environment {
+        map: locate.at(table.map),
+        signal: table.signal,
+        budget: budget.value,
+        max_order,
+        name: table.name.map_or_else(
+            || Located { value: format!("{}_environment", scene.value), place: scene.place.clone() },
+            |name| locate.at(name),
+        ),
+    })
+}

@@ -1,0 +1,9 @@
+//! What a picture of a scene needs besides kernels: meshes, normal maps, a camera at work, and whole shaders. Who draws
+//! with them is `zonal-render`, or a browser with the explorer's page.
+
+pub mod camera;
+pub mod mesh;
+pub mod method;
+pub mod normal_map;
+pub mod shade;
+pub mod vector;

@@ -1,0 +1,498 @@
+//! Triangle meshes with what a normal map needs: a normal, a tangent and texture coordinates at every vertex. A sphere, a
+//! plane, and Wavefront OBJ files, whose missing normals and coordinates are made up. It knows nothing of shading.
+//!
+//! A mesh lies in the unit sphere around the origin, z up. Texture coordinates grow with the tangent (u) and with the
+//! bitangent w · n × t (v); a step of one is one repetition of the map.
+
+use super::vector::{across, add, cross, dot, length, unit};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::io::Cursor;
+use tobj::LoadOptions;
+use zonal_codegen::fault::Fault;
+
+/// How many repetitions of a normal map lie on a unit length, where a file has no texture coordinates.
+pub const REPEATS: f64 = 0.5;
+/// Edges where faces meet at a larger angle stay sharp, where a file has no normals.
+const CREASE_DEGREES: f64 = 60.0;
+/// Each triangle of a file without normals is cut into the square of this, and rounded.
+const PARTS: usize = 3;
+/// How much of the way to the curved surface is gone (Boubekeur and Alexa 2008 recommend three quarters).
+const ROUNDING: f64 = 0.75;
+/// The most triangles of a file.
+const MAX_TRIANGLES: usize = 1 << 20;
+
+/// How many numbers [`Mesh::interleaved`] has of a vertex.
+pub const STRIDE: usize = 12;
+
+/// Triangles, ready for a vertex buffer. See the [module](self) for its space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Where the vertices are.
+    pub positions: Vec<[f32; 3]>,
+    /// The unit normals, outwards.
+    pub normals: Vec<[f32; 3]>,
+    /// The unit tangents, across the normals, and w = ±1: the bitangent is w · n × t.
+    pub tangents: Vec<[f32; 4]>,
+    /// The texture coordinates.
+    pub uvs: Vec<[f32; 2]>,
+    /// Three vertices a triangle, counter-clockwise seen from outside.
+    pub indices: Vec<u32>,
+}
+
+/// A vertex before it gets a number.
+#[derive(Clone, Copy, Debug)]
+struct Vertex {
+    position: [f64; 3],
+    normal: [f64; 3],
+    tangent: [f64; 4],
+    uv: [f64; 2],
+}
+
+impl Mesh {
+    /// The unit sphere; its tangents run east, its normal map goes three times around.
+    pub fn sphere() -> Self {
+        const ROWS: usize = 64;
+        const COLUMNS: usize = 128;
+        let mut mesh = Self::default();
+        let vertex = |row: f64, column: f64| {
+            let (sin, cos) = (PI * row / ROWS as f64).sin_cos();
+            let (y, x) = (2.0 * PI * column / COLUMNS as f64).sin_cos();
+            let normal = [sin * x, sin * y, cos];
+            let repeats = (2.0 * PI * REPEATS).round();
+            Vertex {
+                position: normal,
+                normal,
+                tangent: [-y, x, 0.0, 1.0],
+                uv: [repeats * column / COLUMNS as f64, repeats / 2.0 * (1.0 - row / ROWS as f64)],
+            }
+        };
+        // A triangle at a pole has a pole of its own, whose tangent is that of the middle of its far edge.
+        let mut numbers = HashMap::new();
+        for (row, column) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (row as f64, column as f64))) {
+            let [a, b] = [vertex(row, column), vertex(row, column + 1.0)];
+            let [c, d] = [vertex(row + 1.0, column), vertex(row + 1.0, column + 1.0)];
+            if row > 0.0 {
+                let c = if row + 1.0 < ROWS as f64 { c } else { vertex(ROWS as f64, column + 0.5) };
+                [a, c, b].into_iter().for_each(|vertex| mesh.push(vertex, &mut numbers));
+            }
+            if row + 1.0 < ROWS as f64 {
+                let b = if row > 0.0 { b } else { vertex(0.0, column + 0.5) };
+                [b, c, d].into_iter().for_each(|vertex| mesh.push(vertex, &mut numbers));
+            }
+        }
+        mesh
+    }
+
+    /// A square in the plane z = 0 whose corners lie on the unit sphere; one repetition of the normal map.
+    pub fn plane() -> Self {
+        let half = 0.5f64.sqrt();
+        let mut mesh = Self::default();
+        let mut numbers = HashMap::new();
+        for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            let position = [(2.0 * u - 1.0) * half, (2.0 * v - 1.0) * half, 0.0];
+            let vertex = Vertex { position, normal: [0.0, 0.0, 1.0], tangent: [1.0, 0.0, 0.0, 1.0], uv: [u, v] };
+            mesh.push(vertex, &mut numbers);
+        }
+        mesh
+    }
+
+    /// A mesh from the text of a Wavefront OBJ file, y up, moved and scaled into the unit sphere. `name` is what errors
+    /// call it.
+    ///
+    /// Without normals in the file the surface is smooth but for its creases, and rounded. Without texture coordinates
+    /// each triangle takes those of the face of a cube that it looks to most.
+    ///
+    /// # Errors
+    ///
+    /// If it is no OBJ file, holds no triangle or too many, or a number that is not finite.
+    pub fn from_obj(name: &str, text: &[u8]) -> Result<Self, Fault> {
+        let fault = |message: String, help: &str| Err(Fault::new(format!("{name}: {message}"), help));
+        let options = LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+        let none = |_: &std::path::Path| Ok(Default::default());
+        let models = match tobj::load_obj_buf(&mut Cursor::new(text), &options, none) {
+            Ok((models, _)) => models,
+            Err(error) => return fault(format!("is no Wavefront OBJ file ({error})"), "save the mesh as .obj again"),
+        };
+        let mut faces = Faces::default();
+        for model in &models {
+            faces.add(&model.mesh);
+        }
+        if faces.corners.len() > MAX_TRIANGLES {
+            let message = format!("has {} triangles, and {MAX_TRIANGLES} is the most", faces.corners.len());
+            return fault(message, "reduce it");
+        }
+        if faces.positions.iter().flatten().any(|x| !x.is_finite()) {
+            return fault("holds a coordinate that is not finite".to_owned(), "save the mesh again");
+        }
+        if !faces.normalise() {
+            return fault("holds no triangle of any size".to_owned(), "export the mesh with its faces");
+        }
+        Ok(faces.mesh())
+    }
+
+    /// Every vertex as [`STRIDE`] numbers: position, normal, tangent, texture coordinates.
+    pub fn interleaved(&self) -> Vec<f32> {
+        let vertex = |i: usize| {
+            [&self.positions[i][..], &self.normals[i], &self.tangents[i], &self.uvs[i]].into_iter().flatten().copied()
+        };
+        (0..self.positions.len()).flat_map(vertex).collect()
+    }
+
+    /// The number of a vertex, which is the same for vertices that are equal once rounded.
+    fn push(&mut self, vertex: Vertex, numbers: &mut HashMap<[u32; 11], u32>) {
+        let [x, y, z, w] = vertex.tangent;
+        let [x, y, z] = across([x, y, z], vertex.normal);
+        let (position, normal) = (vertex.position.map(|x| x as f32), vertex.normal.map(|x| x as f32));
+        let (tangent, uv) = ([x, y, z, w].map(|x| x as f32), vertex.uv.map(|x| x as f32));
+        let all = [&position[..], &normal, &tangent[..3], &uv].concat();
+        let key: [u32; 11] = std::array::from_fn(|i| (all[i] + 0.0).to_bits());
+        let next = self.positions.len() as u32;
+        let number = *numbers.entry(key).or_insert(next);
+        if number == next {
+            self.positions.push(position);
+            self.normals.push(normal);
+            self.tangents.push(tangent);
+            self.uvs.push(uv);
+        }
+        self.indices.push(number);
+    }
+}
+
+/// A corner of a triangle in a file.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    position: usize,
+    normal: Option<[f64; 3]>,
+    uv: Option<[f64; 2]>,
+}
+
+/// What a file holds: positions, each once, and triangles.
+#[derive(Debug, Default)]
+struct Faces {
+    positions: Vec<[f64; 3]>,
+    numbers: HashMap<[u32; 3], usize>,
+    corners: Vec<[Corner; 3]>,
+}
+
+/// y up becomes z up.
+fn upright([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [x, -z, y]
+}
+
+impl Faces {
+    /// Adds an object of a file; positions that are written twice become one.
+    fn add(&mut self, mesh: &tobj::Mesh) {
+        let vector = |list: &[f32], i: u32| -> [f64; 3] {
+            upright(std::array::from_fn(|k| f64::from(list[3 * i as usize + k])))
+        };
+        let complete = |indices: &[u32]| indices.len() == mesh.indices.len();
+        let (normals, uvs) = (complete(&mesh.normal_indices), complete(&mesh.texcoord_indices));
+        let corners: Vec<Corner> = (0..mesh.indices.len())
+            .map(|i| {
+                let position = vector(&mesh.positions, mesh.indices[i]);
+                let key = position.map(|x| (x as f32 + 0.0).to_bits());
+                let next = self.positions.len();
+                let number = *self.numbers.entry(key).or_insert(next);
+                if number == next {
+                    self.positions.push(position);
+                }
+                let uv = |i: u32| std::array::from_fn(|k| f64::from(mesh.texcoords[2 * i as usize + k]));
+                Corner {
+                    position: number,
+                    normal: normals.then(|| unit(vector(&mesh.normals, mesh.normal_indices[i]))).flatten(),
+                    uv: uvs.then(|| uv(mesh.texcoord_indices[i])),
+                }
+            })
+            .collect();
+        self.corners.extend(corners.as_chunks().0);
+    }
+
+    fn positions_of(&self, face: &[Corner; 3]) -> [[f64; 3]; 3] {
+        face.map(|corner| self.positions[corner.position])
+    }
+
+    /// The normal of a triangle at the length of twice its area.
+    fn area(&self, face: &[Corner; 3]) -> [f64; 3] {
+        let [a, b, c] = self.positions_of(face);
+        cross(add(b, -1.0, a), add(c, -1.0, a))
+    }
+
+    /// Moves and scales everything into the unit sphere, drops triangles without an area, turns the others outwards if
+    /// no normal says where that is, and says whether any is left.
+    fn normalise(&mut self) -> bool {
+        let used: Vec<[f64; 3]> = self.corners.iter().flat_map(|face| self.positions_of(face)).collect();
+        let bound = |pick: fn(f64, f64) -> f64| -> [f64; 3] {
+            std::array::from_fn(|i| used.iter().map(|p| p[i]).reduce(pick).unwrap_or(0.0))
+        };
+        let (low, high) = (bound(f64::min), bound(f64::max));
+        let centre: [f64; 3] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
+        let radius = used.iter().map(|&p| length(add(p, -1.0, centre))).fold(0.0, f64::max);
+        if radius == 0.0 {
+            return false;
+        }
+        self.positions.iter_mut().for_each(|p| *p = add(*p, -1.0, centre).map(|x| x / radius));
+        let areas: Vec<[f64; 3]> = self.corners.iter().map(|face| self.area(face)).collect();
+        let mut areas = areas.into_iter();
+        self.corners.retain(|_| areas.next().is_some_and(|area| length(area) > 1e-12));
+        let volume: f64 = self.corners.iter().map(|face| dot(self.area(face), self.positions[face[0].position])).sum();
+        if volume < 0.0 && self.corners.iter().flatten().all(|corner| corner.normal.is_none()) {
+            self.corners.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        !self.corners.is_empty()
+    }
+
+    fn mesh(&self) -> Mesh {
+        // What each position's triangles add to its normal: their own normal, weighted by their angle there.
+        let mut around: Vec<Vec<([f64; 3], f64)>> = vec![vec![]; self.positions.len()];
+        let normals: Vec<[f64; 3]> =
+            self.corners.iter().map(|face| unit(self.area(face)).unwrap_or([0.0, 0.0, 1.0])).collect();
+        for (face, &normal) in self.corners.iter().zip(&normals) {
+            let p = self.positions_of(face);
+            for i in 0..3 {
+                let side = |j: usize| unit(add(p[(i + j) % 3], -1.0, p[i])).unwrap_or([0.0; 3]);
+                around[face[i].position].push((normal, dot(side(1), side(2)).clamp(-1.0, 1.0).acos()));
+            }
+        }
+        let limit = CREASE_DEGREES.to_radians().cos();
+        let average = |position: usize, of: [f64; 3], limit: f64| {
+            let near = around[position].iter().filter(|(normal, _)| dot(*normal, of) >= limit);
+            unit(near.fold([0.0; 3], |sum, &(normal, angle)| add(sum, angle, normal))).unwrap_or(of)
+        };
+        let tangents = self.tangents(&normals);
+        let mut mesh = Mesh::default();
+        let mut numbers = HashMap::new();
+        for ((face, &normal), sums) in self.corners.iter().zip(&normals).zip(&tangents) {
+            let patch = Patch {
+                corners: self.positions_of(face),
+                // Where surfaces meet at a crease they are rounded alike, so that no gap opens.
+                round: face.map(|corner| average(corner.position, normal, -1.0)),
+                normals: face.map(|corner| corner.normal.unwrap_or_else(|| average(corner.position, normal, limit))),
+                chart: Chart::of(normal),
+                given: face[0].uv.is_some().then(|| std::array::from_fn(|i| (face[i].uv.unwrap_or_default(), sums[i]))),
+                parts: if face[0].normal.is_some() { 1 } else { PARTS },
+            };
+            patch.cut(|vertex| mesh.push(vertex, &mut numbers));
+        }
+        mesh
+    }
+
+    /// The tangents of corners with texture coordinates: the direction in which u grows, summed over the triangles that
+    /// share position and coordinates, and whether v grows to its left.
+    fn tangents(&self, normals: &[[f64; 3]]) -> Vec<[[f64; 4]; 3]> {
+        let key = |corner: &Corner| (corner.position, corner.uv.map(|uv| uv.map(f64::to_bits)));
+        let mut sums: HashMap<_, [f64; 4]> = HashMap::new();
+        for (face, &normal) in self.corners.iter().zip(normals) {
+            let [p, uv] = [self.positions_of(face), face.map(|c| c.uv.map_or([0.0; 3], |[u, v]| [u, v, 0.0]))];
+            let [e, f] = [1, 2].map(|i| (add(p[i], -1.0, p[0]), add(uv[i], -1.0, uv[0])));
+            let turn = e.1[0] * f.1[1] - f.1[0] * e.1[1];
+            let grow = add(e.0.map(|x| x * f.1[1]), -e.1[1], f.0).map(|x| x * turn.signum());
+            let across = across(unit(grow).unwrap_or([0.0; 3]), normal);
+            for corner in face {
+                let sum = sums.entry(key(corner)).or_default();
+                (0..3).for_each(|i| sum[i] += across[i]);
+                sum[3] += turn.signum();
+            }
+        }
+        self.corners
+            .iter()
+            .map(|face| face.map(|corner| sums.get(&key(&corner)).copied().unwrap_or([1.0, 0.0, 0.0, 1.0])))
+            .collect()
+    }
+}
+
+/// The face of a cube: how texture coordinates lie on a surface that looks in its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Chart {
+    u: [f64; 3],
+    v: [f64; 3],
+}
+
+impl Chart {
+    /// The chart of the axis that a normal is closest to. Around the sides v is up, so that the tangents agree there.
+    fn of(normal: [f64; 3]) -> Self {
+        let size = normal.map(f64::abs);
+        let sign = |i: usize| normal[i].signum();
+        if size[2] > size[0] && size[2] > size[1] {
+            Self { u: [sign(2), 0.0, 0.0], v: [0.0, 1.0, 0.0] }
+        } else if size[0] > size[1] {
+            Self { u: [0.0, sign(0), 0.0], v: [0.0, 0.0, 1.0] }
+        } else {
+            Self { u: [-sign(1), 0.0, 0.0], v: [0.0, 0.0, 1.0] }
+        }
+    }
+}
+
+/// A triangle that is to be cut.
+struct Patch {
+    corners: [[f64; 3]; 3],
+    /// The normals of the curved surface.
+    round: [[f64; 3]; 3],
+    /// The normals to shade with.
+    normals: [[f64; 3]; 3],
+    chart: Chart,
+    /// Texture coordinates and tangents, if the file has them.
+    given: Option<[([f64; 2], [f64; 4]); 3]>,
+    parts: usize,
+}
+
+impl Patch {
+    /// Hands out the vertices of the parts, three a triangle.
+    fn cut(&self, mut push: impl FnMut(Vertex)) {
+        let n = self.parts;
+        for i in 0..n {
+            for j in 0..n - i {
+                [[i, j], [i + 1, j], [i, j + 1]].into_iter().for_each(|at| push(self.vertex(at)));
+                if i + j + 1 < n {
+                    [[i + 1, j], [i + 1, j + 1], [i, j + 1]].into_iter().for_each(|at| push(self.vertex(at)));
+                }
+            }
+        }
+    }
+
+    /// The vertex so many parts along the first two sides, on the surface of Phong tessellation (Boubekeur and Alexa
+    /// 2008): the flat point, drawn towards its projections on the tangent planes of the corners.
+    fn vertex(&self, [i, j]: [usize; 2]) -> Vertex {
+        let n = self.parts as f64;
+        let weights = [(self.parts - i - j) as f64 / n, i as f64 / n, j as f64 / n];
+        let mix = |of: [[f64; 3]; 3]| (0..3).fold([0.0; 3], |sum, k| add(sum, weights[k], of[k]));
+        let flat = mix(self.corners);
+        let projected = [0, 1, 2].map(|k| {
+            let height = dot(add(flat, -1.0, self.corners[k]), self.round[k]);
+            add(flat, -height, self.round[k])
+        });
+        let position = add(flat.map(|x| x * (1.0 - ROUNDING)), ROUNDING, mix(projected));
+        let normal = unit(mix(self.normals)).unwrap_or(self.normals[0]);
+        let (uv, tangent) = match &self.given {
+            Some(given) => {
+                let blend = |of: fn(&([f64; 2], [f64; 4])) -> f64| (0..3).map(|k| weights[k] * of(&given[k])).sum();
+                let uv = [blend(|g| g.0[0]), blend(|g| g.0[1])];
+                let handed = if blend(|g| g.1[3]) < 0.0 { -1.0 } else { 1.0 };
+                let [x, y, z] = [blend(|g| g.1[0]), blend(|g| g.1[1]), blend(|g| g.1[2])];
+                (uv, [x, y, z, handed])
+            }
+            None => {
+                let along = |axis: [f64; 3]| REPEATS * dot(axis, position);
+                // Along the tangent v does not change.
+                let [x, y, z] = cross(self.chart.v, normal);
+                ([along(self.chart.u), along(self.chart.v)], [x, y, z, 1.0])
+            }
+        };
+        let [x, y, z] = across(unit([tangent[0], tangent[1], tangent[2]]).unwrap_or([0.0; 3]), normal);
+        Vertex { position, normal, tangent: [x, y, z, tangent[3]], uv }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use zonal_scenes as assets;
+
+    fn meshes() -> Vec<(&'static str, Mesh)> {
+        let files = ["meshes/teapot.obj", "meshes/bunny.obj"]
+            .map(|path| (path, Mesh::from_obj(path, assets::embedded(path).expect("embedded")).expect("a mesh")));
+        [("sphere", Mesh::sphere()), ("plane", Mesh::plane())].into_iter().chain(files).collect()
+    }
+
+    fn wide<const N: usize>(v: [f32; N]) -> [f64; N] {
+        v.map(f64::from)
+    }
+
+    #[test]
+    fn every_mesh_is_whole_and_lies_in_the_unit_sphere() {
+        for (name, mesh) in meshes() {
+            let count = mesh.positions.len();
+            assert_eq!([mesh.normals.len(), mesh.tangents.len(), mesh.uvs.len()], [count; 3], "{name}");
+            assert_eq!(mesh.indices.len() % 3, 0, "{name}");
+            assert_eq!(mesh.interleaved().len(), count * STRIDE, "{name}");
+            assert!(mesh.indices.iter().all(|&i| (i as usize) < count), "{name}");
+            // Rounding bulges a surface beyond its own vertices by a little.
+            let radius = mesh.positions.iter().map(|&p| length(wide(p))).fold(0.0, f64::max);
+            assert!((0.97..1.03).contains(&radius), "{name}: {radius}");
+            for i in 0..count {
+                let (n, [x, y, z, w]) = (wide(mesh.normals[i]), wide(mesh.tangents[i]));
+                let t = [x, y, z];
+                assert!((length(n) - 1.0).abs() < 1e-6 && (length(t) - 1.0).abs() < 1e-6, "{name}: {n:?} {t:?}");
+                assert!(dot(n, t).abs() < 1e-6 && w.abs() == 1.0, "{name}: {n:?} {t:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn triangles_look_where_their_normals_do_and_texture_coordinates_grow_with_the_tangents() {
+        for (name, mesh) in meshes() {
+            let (mut right, mut all) = (0.0, 0.0);
+            for corners in mesh.indices.as_chunks::<3>().0 {
+                let p = corners.map(|i| wide(mesh.positions[i as usize]));
+                let uv = corners.map(|i| wide(mesh.uvs[i as usize]));
+                let area = cross(add(p[1], -1.0, p[0]), add(p[2], -1.0, p[0]));
+                let (n, [x, y, z, w]) =
+                    (wide(mesh.normals[corners[0] as usize]), wide(mesh.tangents[corners[0] as usize]));
+                let bitangent = cross(n, [x, y, z]).map(|b| b * w);
+                // One step along each side, in the frame and in texture coordinates, agrees in sign on the whole.
+                let agrees = [1, 2].iter().all(|&k| {
+                    let (e, d) = (add(p[k], -1.0, p[0]), [uv[k][0] - uv[0][0], uv[k][1] - uv[0][1]]);
+                    dot(e, [x, y, z]) * d[0] + dot(e, bitangent) * d[1] > 0.0
+                });
+                all += length(area);
+                if agrees && dot(area, n) > 0.0 {
+                    right += length(area);
+                }
+            }
+            assert!(right / all > 0.98, "{name}: only {right} of {all}");
+        }
+    }
+
+    #[test]
+    fn a_sphere_and_a_plane_have_their_areas() {
+        let area = |mesh: &Mesh| -> f64 {
+            let p = |i: u32| wide(mesh.positions[i as usize]);
+            let faces = mesh.indices.as_chunks::<3>().0.iter();
+            faces.map(|&[a, b, c]| 0.5 * length(cross(add(p(b), -1.0, p(a)), add(p(c), -1.0, p(a))))).sum()
+        };
+        // An inscribed polyhedron of cells of 2.8 degrees misses about (2.8 degrees)² / 6 of the area.
+        assert!((area(&Mesh::sphere()) / (4.0 * PI) - 1.0).abs() < 1e-3);
+        assert!((area(&Mesh::plane()) - 2.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn rounding_a_coarse_sphere_brings_it_closer_to_the_sphere() {
+        // An octahedron: its flat faces come within 1/√3 of the centre.
+        let text = b"v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
+            f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+        let mesh = Mesh::from_obj("octahedron", text).expect("a mesh");
+        let least = mesh.positions.iter().map(|&p| length(wide(p))).fold(f64::MAX, f64::min);
+        assert_eq!(mesh.indices.len(), 3 * 8 * PARTS * PARTS);
+        assert!(least > 0.75, "{least}");
+    }
+
+    #[test]
+    fn a_file_with_normals_and_coordinates_keeps_them() {
+        let text = b"v 0 0 0\nv 2 0 0\nv 0 2 0\nvt 0 0\nvt 3 0\nvt 0 3\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\n";
+        let mesh = Mesh::from_obj("triangle", text).expect("a mesh");
+        assert_eq!(mesh.indices, [0, 1, 2]);
+        // y up became z up.
+        assert_eq!(mesh.normals, [[0.0, -1.0, 0.0]; 3]);
+        assert_eq!(mesh.tangents, [[1.0, 0.0, 0.0, 1.0]; 3]);
+        assert_eq!(mesh.uvs, [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]]);
+        // The same file mirrored: v grows to the other side.
+        let text = b"v 0 0 0\nv 2 0 0\nv 0 2 0\nvt 0 0\nvt 3 0\nvt 0 -3\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\n";
+        assert_eq!(Mesh::from_obj("triangle", text).expect("a mesh").tangents, [[1.0, 0.0, 0.0, -1.0]; 3]);
+    }
+
+    #[test]
+    fn what_is_no_mesh_is_refused_with_a_reason() {
+        for (text, part) in [
+            (&b""[..], "no triangle"),
+            (b"v 0 0 0\n", "no triangle"),
+            (b"v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "no triangle"),
+            (b"v 0 0 0\nf 1 2 3\n", "out of bounds"),
+            (b"v 0 0 x\n", "position parse error"),
+            (b"v 0 0 nan\nv 0 1 0\nv 1 0 0\nf 1 2 3\n", "not finite"),
+            (b"\x89PNG\r\n\xff\xfe", "no Wavefront OBJ"),
+        ] {
+            let error = Mesh::from_obj("a.obj", text).expect_err("no mesh").to_string();
+            assert!(error.starts_with("a.obj: ") && error.contains(part), "{error}");
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! What people read of generated files, as texts: no mathematics, no type logic, no code but this list of names.
+
+/// The files of kernels in WGSL.
+pub const WGSL: &str = include_str!("../wgsl.tera");
+/// The files of kernels in GLSL.
+pub const GLSL: &str = include_str!("../glsl.tera");
+/// The files of kernels in Rust.
+pub const RUST: &str = include_str!("../rust.tera");
+/// What the kernels in Rust are generic over.
+pub const REAL: &str = include_str!("../real.rs.tera");
+
+macro_rules! texts {
+    ($folder:literal: $($name:literal = $file:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../", $folder, "/", $file)))),*]
+    };
+}
+
+/// What surrounds the kernels in a whole shader, by the names with which the templates include each other.
+pub const PICTURE: &[(&str, &str)] = texts!["picture":
+    "picture/head" = "head.tera",
+    "picture/shade.wgsl" = "shade.wgsl.tera",
+    "picture/shade.glsl" = "shade.glsl.tera",
+    "picture/vertex.glsl" = "vertex.glsl.tera",
+    "picture/check.wgsl" = "check.wgsl.tera",
+    "picture/check.glsl" = "check.glsl.tera",
+];
+
+/// The explorer's page, by the paths at which it is served.
+pub const EXPLORER: &[(&str, &str)] = texts!["explorer":
+    "index.html" = "index.html",
+    "style.css" = "style.css",
+    "app.js" = "app.js",
+    "figures.js" = "figures.js",
+    "webgl.js" = "webgl.js",
+    "webgpu.js" = "webgpu.js",
+    "shaders/display.wgsl" = "display.wgsl",
+    "shaders/display.frag" = "display.frag",
+];
