@@ -67,7 +67,7 @@ fn errors(report: &Report) -> File {
         "![Error over the angle, order 5](error_order5.svg)".to_owned(),
         "![Error over the angle, order 8](error_order8.svg)".to_owned(),
         "## Laws\n\nThe largest error of band l begins with this term in L = lβ. The whole law is the closed form that the \
-         planner takes (`codegen/src/law.rs`), dashed in the plots."
+         planner takes (`codegen/src/promise/law.rs`), dashed in the plots."
             .to_owned(),
         table(&["method", "error"], laws),
         "## Figure 3 of Křivánek et al. 2005\n\nThe paper plots the largest error, the average error and that of a Phong \
@@ -438,7 +438,7 @@ fn proven(report: &Report) -> File {
     let inputs = bounds.iter().map(|row| row.inputs).min().unwrap_or(0);
     let parts = [
         format!(
-            "The f32 rounding error of each kernel: what `codegen/src/bound.rs` proves for every input of its domain, the \
+            "The f32 rounding error of each kernel: what `codegen/src/promise/bound` proves for every input of its domain, the \
              largest that {inputs} seeded inputs reach, and how many times the one is the other; on the left where a \
              multiply-add is rounded twice, on the right where it is rounded once. The measure is that of the file's \
              head: relative to the norm of a band (for the basis: to one; for sums: to coefficients of which each band has \

@@ -40,7 +40,7 @@ pub const LARGEST_CONDITION: f64 = 40.0;
 /// P_6^1, at azimuth π/3.
 ///
 /// ```
-/// use zonal_codegen::math::{exact::Exact, zhf::Lobe};
+/// use zonal_codegen::{families::zhf::lobes::Lobe, math::exact::Exact};
 /// let lobe: Lobe = "P2,0#1 1/4".parse()?;
 /// assert_eq!(lobe.xyz(), [(); 3].map(|()| Exact::sqrt_ratio(1, 3)));
 /// # Ok::<(), zonal_codegen::families::zhf::lobes::LobeError>(())
