@@ -90,7 +90,7 @@ pub fn files_of(functions: &[Function]) -> Result<Vec<File>, GenerateError> {
     let orders: BTreeSet<usize> = functions.iter().map(|function| function.spec.order).collect();
     let modules: Vec<Module> = orders
         .iter()
-        .flat_map(|&order| Group::ALL.into_iter().filter_map(move |group| Some((order, group))))
+        .flat_map(|&order| Group::ALL.map(|group| (order, group)))
         .filter_map(|(order, group)| module(order, group, functions))
         .collect();
     let tasks: Vec<(&Module, Target)> =
@@ -104,7 +104,7 @@ pub fn files_of(functions: &[Function]) -> Result<Vec<File>, GenerateError> {
     })?;
     let shader = |(module, target): &(&Module, Target)| -> Result<File, GenerateError> {
         let path = format!("{target}/{}.{}", module.name, target.extension);
-        Ok(File { path, text: module.text(*target)? })
+        Ok(File { path, text: module.text(target)? })
     };
     let shaders: Result<Vec<File>, GenerateError> = tasks.par_iter().with_max_len(1).map(shader).collect();
     let rust: Result<Vec<File>, GenerateError> = orders.par_iter().map(|&order| rust_file(order, functions)).collect();

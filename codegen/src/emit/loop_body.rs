@@ -57,7 +57,7 @@ impl Printer<'_> {
         let (shape, language) = (Shape::Array(len), self.dialect.language);
         let of = match &language.generic {
             Some(generic) => {
-                let number = generic.table.0.to_owned();
+                let number = generic.table.number.to_owned();
                 language.type_of(&Numbers { scalar: number.clone(), signal: number }, shape, Kind::Scalar)
             }
             None => self.dialect.type_of(shape, Kind::Scalar),
@@ -68,7 +68,7 @@ impl Printer<'_> {
         lines.push("   ".to_owned());
         for (i, value) in table.values.iter().enumerate() {
             let value = match &language.generic {
-                Some(generic) => (generic.table.1)(value),
+                Some(generic) => (generic.table.literal)(value),
                 None => self.dialect.literal(value),
             };
             let comma = if i + 1 < len { "," } else { "" };
@@ -168,7 +168,7 @@ impl Printer<'_> {
         if self.kernel.tables.iter().any(|table| table.name == name) {
             let item = format!("{}_{name}{place}", self.prefix);
             return match &self.dialect.language.generic {
-                Some(generic) => (generic.table.2)(&item),
+                Some(generic) => (generic.table.convert)(&item),
                 None => item,
             };
         }

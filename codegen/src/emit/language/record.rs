@@ -223,6 +223,17 @@ pub struct Statements {
     pub tail: bool,
 }
 
+/// The numbers of a table in a language whose functions are generic over theirs.
+#[derive(Clone, Copy, Debug)]
+pub struct TableNumbers {
+    /// Their type.
+    pub number: &'static str,
+    /// One of them.
+    pub literal: fn(&Exact) -> String,
+    /// How one becomes a number of a kernel.
+    pub convert: fn(&str) -> String,
+}
+
 /// What a language needs whose functions are generic over their numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Generic {
@@ -232,8 +243,8 @@ pub struct Generic {
     pub bounds: [&'static str; 2],
     /// What stands behind the name of each in a call.
     pub arguments: [&'static str; 2],
-    /// The type of the numbers in a table, a number of one, and how it becomes a number of a kernel.
-    pub table: (&'static str, fn(&Exact) -> String, fn(&str) -> String),
+    /// The numbers of its tables.
+    pub table: TableNumbers,
     /// The type of the numbers in a constant.
     pub constant: &'static str,
     /// An array of a number of each channel as a number of a signal; the number of channels is three.

@@ -1,7 +1,7 @@
 //! Rust, generic over the numbers of parameters and of the signal.
 
 use crate::emit::language::record::{
-    Arrays, Float, Generic, Language, MultiplyAdd, Spelling, Statements, Type, Types, Way, Words,
+    Arrays, Float, Generic, Language, MultiplyAdd, Spelling, Statements, TableNumbers, Type, Types, Way, Words,
 };
 use crate::ir::kernel::Shape;
 use crate::ir::op::Op;
@@ -51,7 +51,11 @@ pub static RUST: Language = Language {
         numbers: ["T", "V"],
         bounds: ["<T: Real>", "<T: Real, V: Signal<T>>"],
         arguments: ["::<T>", "::<T, V>"],
-        table: ("f64", |value| format!("{:?}", value.to_f64()), |item| format!("T::lit({item})")),
+        table: TableNumbers {
+            number: "f64",
+            literal: |value| format!("{:?}", value.to_f64()),
+            convert: |item| format!("T::lit({item})"),
+        },
         constant: "f32",
         channels: "[T; 3]",
     }),
