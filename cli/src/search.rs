@@ -6,6 +6,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use zonal_cli::terminal::{Failure, out};
+// Names a family: the search for its lobes is a command.
 use zonal_codegen::families::zhf::lobes::{HIGHEST_SIZE, Mode, Record, Records, chosen};
 use zonal_codegen::families::zhf::search::{self, Search, Task};
 use zonal_codegen::files::{self, File};

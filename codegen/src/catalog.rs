@@ -1,6 +1,7 @@
 //! The checked-in set: every family at every order from 2 to 10, as a file an order, a
 //! group and a language, with a table of costs and a list of all kernels.
 
+// Names a language: the checked-in set is in these, whichever others zonal knows.
 use crate::emit::language::{self, GLSL, RUST, Target, WGSL};
 use crate::emit::validate::validate;
 use crate::emit::{Function, Module, support};

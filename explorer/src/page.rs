@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use zonal_cli::terminal::Failure;
 use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::Function;
+// Names a language: these are what browsers take.
 use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::emit::validate::validate;
 use zonal_codegen::environment::Map;

@@ -4,7 +4,9 @@ use crate::{Progress, each};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
+// Names a language: bytes are counted of these.
 use zonal_codegen::emit::language::{GLSL, WGSL};
+// Names a family: these neither turn a signal nor serve one that does.
 use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::EVAL;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
@@ -40,7 +42,6 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    // Names a family: these neither turn a signal nor serve one that does.
     const OTHERS: [&Family; 6] = [&EVAL, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
     let turns = |spec: &Spec| !OTHERS.contains(&spec.family);
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()

@@ -4,6 +4,7 @@
 use crate::papers::TABLE_2;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
+// Names a family: its lobes are what is measured.
 use zonal_codegen::families::zhf::lobes::{self, Lobe, LobeSet, Mode};
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::math::tables::x90;

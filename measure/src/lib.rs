@@ -9,6 +9,7 @@ pub mod costs;
 pub mod errors;
 pub mod factorisation;
 pub mod fronts;
+mod markdown;
 pub mod methods;
 pub mod numbers;
 pub mod papers;

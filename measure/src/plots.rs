@@ -3,7 +3,7 @@
 use crate::errors::{LOBE, MAX, MEAN};
 use crate::factorisation::sparsity;
 use crate::methods::named;
-use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
+use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke, file, key};
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::families::family::SMALL_ANGLE_DEGREES;
@@ -14,14 +14,6 @@ const PLOTTED: [(&str, usize); 4] = [("taylor1", 4), ("taylor15", 1), ("taylor2"
 const EXACT: usize = 6;
 const LAW: usize = 7;
 const ANGLES: [f64; 9] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
-
-pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
-    Key { label: label.to_owned(), colour, stroke }
-}
-
-pub(crate) fn file(name: &str, picture: &Picture) -> File {
-    File { name: format!("{name}.svg"), text: picture.svg() }
-}
 
 fn method_keys() -> Vec<Key> {
     let label = |name| named(name).map_or("", |method| method.label);

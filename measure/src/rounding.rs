@@ -6,6 +6,7 @@ use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::family::Measure;
+// Names a family: weights and samples of lobes are no signal whose bands could be compared.
 use zonal_codegen::families::zhf::{ZHF_TAILORED, ZHF_WEIGHTS};
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;

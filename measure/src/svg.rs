@@ -1,6 +1,7 @@
 //! Charts as SVG text: panels with axes, lines and points, and a legend. Colours are those of Okabe and Ito, which people
 //! with any colour vision can tell apart; lines differ in dashes too where they would lie close.
 
+use crate::File;
 use std::fmt::Write;
 
 /// The colours of Okabe and Ito, darkest first where it matters.
@@ -359,4 +360,14 @@ mod tests {
         assert!(axis.place(1e-3).abs() < 1e-12 && (axis.place(10.0) - 1.0).abs() < 1e-12);
         assert!((axis.place(0.1) - 0.5).abs() < 1e-12);
     }
+}
+
+/// An entry of a legend.
+pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
+    Key { label: label.to_owned(), colour, stroke }
+}
+
+/// The file of a picture.
+pub(crate) fn file(name: &str, picture: &Picture) -> File {
+    File { name: format!("{name}.svg"), text: picture.svg() }
 }

@@ -1,9 +1,11 @@
 //! The tables of a report, as Markdown. No figure is typed here: what the papers print comes from [`crate::papers`].
+//! One file: a page of docs/measure a function.
 
 use crate::bounds::{Bounds, Pair};
 use crate::errors::{LEVELS, LOBE, MAX, MEAN, NORMS, RMS, SHOWN};
 use crate::factorisation::{Shared, sparsity};
 use crate::fronts::{Plan, TURNS};
+use crate::markdown::{file, perhaps, short, table};
 use crate::methods::{METHODS, named};
 use crate::papers::{Column, ERRATA, LOBES, SPARSITY, TABLE_2, recomputed};
 use crate::plots::dense_operations;
@@ -12,44 +14,6 @@ use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::families::Spec;
 use zonal_codegen::promise::law;
 use zonal_codegen::scene::Job;
-
-const HEAD: &str = "<!-- Written by `cargo measure`; do not edit. -->";
-
-/// Three significant digits.
-pub(crate) fn short(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-2..1e4).contains(&size) {
-        let text = format!("{value:.1e}");
-        return text.replace(".0e", "e");
-    }
-    let decimals = (2 - size.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.decimals$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
-pub(crate) fn perhaps(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".to_owned(), short)
-}
-
-/// A table with its rows.
-pub(crate) fn table(columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let mut text = format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()));
-    for row in rows {
-        text += &format!("| {} |\n", row.join(" | "));
-    }
-    text
-}
-
-pub(crate) fn file(name: &str, title: &str, parts: &[String]) -> File {
-    let body: Vec<&str> = parts.iter().map(|part| part.trim_end()).collect();
-    File { name: format!("{name}.md"), text: format!("{HEAD}\n\n# {title}\n\n{}\n", body.join("\n\n")) }
-}
 
 fn degrees(value: f64) -> String {
     format!("{value}°")

@@ -22,9 +22,11 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 use tera::{Context, Tera};
 use zonal_codegen::emit::dialect::Dialect;
+// Names a language: pictures are drawn in these.
 use zonal_codegen::emit::language::{GLSL, Target, WGSL, shader};
 use zonal_codegen::emit::{Function, Limit, Module, docs};
 use zonal_codegen::families::Spec;
+// Names a family: the reflectance of an anisotropic surface is turned about its normal.
 use zonal_codegen::families::axis::ROTATE_Z;
 use zonal_codegen::families::text::usual;
 use zonal_codegen::generate;

@@ -2,6 +2,7 @@
 //! knows nothing of adapters.
 
 use zonal_codegen::environment::{Map, Projection};
+// Names a family: a picture knows the tilt as two of its ways.
 use zonal_codegen::families::tilt::TILT;
 use zonal_codegen::families::{SmallAngle, Spec};
 use zonal_codegen::fault::Fault;

@@ -2,6 +2,7 @@
 //! without a GPU.
 
 pub mod command;
+pub mod house;
 pub mod shader;
 
 use serde_json::Value;

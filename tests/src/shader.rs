@@ -2,6 +2,7 @@
 //! validates the text; each value of its module then becomes a run of 32-bit words in one memory, so that an
 //! access copies only the words that it names. The arithmetic is `f32`, operation by operation, as Rust rounds
 //! it. This module knows the language of shaders and nothing of the generator.
+//! One file: one evaluator, its values, built-in functions and statements.
 
 use std::fmt::Debug;
 

@@ -3,7 +3,7 @@
 
 use crate::families::family::Spec;
 use crate::ir::code::Code;
-use crate::ir::domain::Domain;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::Param;
 use crate::promise::accuracy::{Accuracy, MARGIN};
 use crate::promise::built::Built;

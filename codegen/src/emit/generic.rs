@@ -3,6 +3,7 @@
 
 use crate::emit::dialect::Dialect;
 use crate::emit::function::WrapperText;
+// Names a language: a module of Rust is laid out as crates are, which no other language has.
 use crate::emit::language::RUST;
 use crate::emit::language::record::{Generic, Numbers, Way};
 use crate::emit::module::{Function, Limit, Module};

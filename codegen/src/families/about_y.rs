@@ -6,8 +6,8 @@ use crate::families::loops;
 use crate::families::parts::params::{rotated, signal};
 use crate::families::parts::phases::phases;
 use crate::families::parts::small_angle::{Powers, SmallAngle, between_z, small_rotation, sources};
-use crate::ir::domain::Domain;
 use crate::ir::graph::Id;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 
 const BY_BAND: ByBand = ByBand {

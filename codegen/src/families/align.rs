@@ -5,7 +5,7 @@ use crate::families::parts::bands::{each_band, y_band, z_band};
 use crate::families::parts::params::{normal, rotated, signal};
 use crate::families::parts::phases::{Phase, multiples, y_phases};
 use crate::families::parts::sums::inner;
-use crate::ir::domain::Domain;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel};
 
 /// `rotate:n:align`.

@@ -4,7 +4,7 @@ use crate::families::family::{Does, Family, Job, Spec};
 use crate::families::parts::bands::{constant_band, each_band, y_band, z_band};
 use crate::families::parts::params::{rotated, signal};
 use crate::families::parts::phases::{multiples, phases, y_phases};
-use crate::ir::domain::Domain;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::tables;

@@ -421,7 +421,7 @@ impl Spec {
 
     /// [`Spec::max_angle`] in degrees, cut off after two decimals.
     pub fn max_degrees(&self) -> Option<f64> {
-        self.max_angle().map(crate::ir::domain::degrees)
+        self.max_angle().map(crate::ir::kernel::degrees)
     }
 
     /// Its operations, in the form that it names.

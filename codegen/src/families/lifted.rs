@@ -10,9 +10,9 @@ use crate::families::family::{Does, Family, Group, Job, MAX_ORDER, Measure, Spec
 use crate::families::parts::bands::{each_band, z_band};
 use crate::families::parts::params::{quaternion, rotated, signal};
 use crate::families::parts::phases::{Phase, half_tangent_of_quaternion, multiples, phases, phases_of_quaternion};
-use crate::ir::domain::{Domain, Held, Made, OfAngle, POLAR};
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Kernel, Shape};
+use crate::ir::kernel::{Domain, Held, Made, OfAngle, POLAR};
 use crate::math::exact::Exact;
 use crate::math::tables;
 use std::ops::RangeInclusive;

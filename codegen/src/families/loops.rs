@@ -2,8 +2,8 @@
 //! the straight lines of the other files do.
 
 use crate::families::family::small_angle;
-use crate::ir::domain::Domain;
 use crate::ir::graph::Kind;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Param, Shape};
 use crate::ir::program::{Int, LoopKernel, Name, Num, Stmt, Table};
 use crate::math::exact::Exact;

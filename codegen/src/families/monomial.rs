@@ -5,8 +5,8 @@
 use crate::families::family::{Family, Group, Measure, Proof, Spec};
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::phases::{Phase, turn};
-use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::index::index;

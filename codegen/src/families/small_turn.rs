@@ -8,8 +8,8 @@ use crate::families::parts::phases::{phases, phases_of_quaternion};
 use crate::families::parts::small_angle::{Powers, SmallAngle, between_z, small_rotation, sources};
 use crate::families::parts::sums::inner;
 use crate::ir::code::Branch;
-use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::ir::listing::Listing;
 

@@ -5,7 +5,7 @@ use crate::families::family::{Does, Family, Job, Spec};
 use crate::families::parts::bands::{constant_band, each_band, z_band};
 use crate::families::parts::params::{rotated, signal};
 use crate::families::parts::phases::{Phase, multiples};
-use crate::ir::domain::Domain;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::tables;
 

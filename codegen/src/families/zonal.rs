@@ -3,7 +3,7 @@
 use crate::families::family::{Family, Group, Spec};
 use crate::families::parts::columns;
 use crate::families::parts::params::rotated;
-use crate::ir::domain::Domain;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 
 /// `rotate:n:zonal`.

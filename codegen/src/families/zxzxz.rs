@@ -4,8 +4,8 @@ use crate::families::family::{Family, Group, Spec};
 use crate::families::parts::bands::{constant_band, each_band, z_band};
 use crate::families::parts::params::{quaternion, rotated, signal};
 use crate::families::parts::phases::{multiples, phases_of_quaternion};
-use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel};
 use crate::math::tables;
 

@@ -8,9 +8,9 @@ use crate::families::parts::bands::{zyz_apply, zyz_from_quaternion};
 use crate::families::parts::params::{quaternion, rotated, signal};
 use crate::families::parts::phases::{Euler, Phase, YPhases, euler, phases, phases_of_quaternion};
 use crate::families::parts::usual::{FROM_QUATERNION, is_tensor};
-use crate::ir::domain::{Domain, Held, Made, OfAngle};
 use crate::ir::graph::Id;
 use crate::ir::kernel::{Builder, Kernel, Shape};
+use crate::ir::kernel::{Domain, Held, Made, OfAngle};
 
 /// `rotate:n:zyz`, from order 4 on `rotate:n`.
 pub static ZYZ: Family = Family {

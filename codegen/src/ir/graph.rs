@@ -1,6 +1,7 @@
 //! The expression graph: nodes that are simplified and shared as they are made, so that a kernel is never larger than
 //! its recurrence asks. It knows arithmetic and nothing of harmonics, text or targets.
 
+pub use crate::ir::op::Kind;
 use crate::ir::op::Op;
 use crate::math::exact::Exact;
 use std::collections::HashMap;
@@ -8,15 +9,6 @@ use std::collections::HashMap;
 /// The place of a node in its [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
-
-/// What a value is: a parameter of the kernel, or linear in its signal (one number a channel).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// One number, shared by all channels of a signal.
-    Scalar,
-    /// Linear in the signal: as many numbers as the signal has channels.
-    Signal,
-}
 
 /// A leaf, or one operation. Signs stand outside of products: a negation is never a factor, and of two summands at most
 /// the second is one. Neither a difference nor a multiply-add is ever made here.

@@ -1,8 +1,10 @@
 //! A kernel: named parameters, a graph, and the outputs that it computes. Families in `kernels/` build it through
 //! [`Builder`]; the interpreter and the printers read it.
+//! What a parameter may be is its *domain*: the one word from which the sentence in a function's head, the samples, the
+//! proof's regions, the inputs of tests and the JSON of test vectors are made.
 
-use crate::ir::domain::Domain;
 use crate::ir::graph::{Graph, Id, Kind};
+use std::fmt;
 
 /// The shape of a parameter or a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -114,4 +116,157 @@ impl Builder {
         let result_kind = outputs.iter().map(|&id| self.graph.kind(id)).max().unwrap_or(Kind::Scalar);
         Kernel { params: self.params, graph: self.graph, outputs, result, result_kind, result_doc: doc.into() }
     }
+}
+
+/// What a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Domain {
+    /// Coefficients, or what else the result is linear in: any numbers, one a channel.
+    Signal,
+    /// A direction, of unit length.
+    Direction,
+    /// A normal, of unit length, on either side of the horizon.
+    Normal,
+    /// A normal of unit length whose z is not negative.
+    Hemisphere,
+    /// A normal of unit length at most this angle in radians from z.
+    Tilt(f64),
+    /// A unit quaternion.
+    Quaternion,
+    /// A unit quaternion whose y angle, in Rz(α) Ry(β) Rz(γ), is at most this in radians, and which is turned
+    /// approximately.
+    SmallTurn(f64),
+    /// A unit quaternion whose y angle is at most this in radians, and which is turned exactly: tangents of half its
+    /// multiples are taken.
+    BoundedTurn(f64),
+    /// A rotation matrix, by columns.
+    Rotation,
+    /// The cosine and the sine of any angle, or several such pairs.
+    Phases,
+    /// An angle of at most this size in radians.
+    Angle(f64),
+    /// The sine of half an angle from 0 to this in radians.
+    HalfSine(f64),
+    /// What another kernel returns.
+    Made(Made),
+}
+
+/// A kernel that makes another one's parameter.
+#[derive(Clone, Copy)]
+pub struct Made {
+    /// Its family's name.
+    pub by: &'static str,
+    /// Its order.
+    pub order: usize,
+    /// It.
+    pub kernel: fn(usize) -> Kernel,
+    /// The largest y angle in radians that it takes, if it does not take every rotation.
+    pub max_angle: Option<f64>,
+    /// What each number that it returns is a function of.
+    pub holds: fn(usize) -> Vec<Held>,
+}
+
+impl fmt::Debug for Made {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{} within {:?}", self.by, self.order, self.max_angle)
+    }
+}
+
+impl PartialEq for Made {
+    fn eq(&self, other: &Self) -> bool {
+        (self.by, self.order) == (other.by, other.order)
+    }
+}
+
+/// A number that a set-up hands on: a function of one of a rotation's angles, as a proof has to know it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Which angle: 0 and up, in the order of the results; [`POLAR`] is the y angle of a quaternion.
+    pub circle: usize,
+    /// Which function of it.
+    pub of: OfAngle,
+}
+
+/// The circle of a quaternion's y angle.
+pub const POLAR: usize = 2;
+
+/// A function of an angle θ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OfAngle {
+    /// cos kθ; what follows it is sin kθ.
+    Cos(usize),
+    /// sin kθ.
+    Sin(usize),
+    /// sin²θ / 2.
+    HalfSquare,
+    /// sin θ cos θ.
+    Product,
+    /// A coupling of a lifted band: Σ factor · tan(kθ/2) in the outer shear, Σ factor · sin kθ in the inner one.
+    Shear {
+        /// The band.
+        l: usize,
+        /// Which of its couplings.
+        at: usize,
+        /// In which shear.
+        inner: bool,
+    },
+}
+
+impl Domain {
+    /// The largest angle in radians, if it is bounded.
+    pub fn max_angle(self) -> Option<f64> {
+        match self {
+            Self::Tilt(most)
+            | Self::SmallTurn(most)
+            | Self::BoundedTurn(most)
+            | Self::Angle(most)
+            | Self::HalfSine(most) => Some(most),
+            Self::Made(made) => made.max_angle,
+            _ => None,
+        }
+    }
+
+    /// The part of it within an angle in radians, where it is bounded by one.
+    #[must_use]
+    pub fn within(self, angle: f64) -> Self {
+        match self {
+            Self::Tilt(most) => Self::Tilt(most.min(angle)),
+            Self::SmallTurn(most) => Self::SmallTurn(most.min(angle)),
+            Self::BoundedTurn(most) => Self::BoundedTurn(most.min(angle)),
+            Self::Angle(most) => Self::Angle(most.min(angle)),
+            Self::HalfSine(most) => Self::HalfSine(most.min(angle)),
+            Self::Made(made) => Self::Made(Made { max_angle: made.max_angle.map(|most| most.min(angle)), ..made }),
+            _ => self,
+        }
+    }
+
+    /// Whether it is the signal.
+    pub fn is_signal(self) -> bool {
+        self == Self::Signal
+    }
+
+    /// For which values of a parameter of this name a kernel's promises hold, in words; none for a signal.
+    pub fn in_words(self, name: &str) -> Option<String> {
+        let most = self.max_angle().map(degrees).unwrap_or_default();
+        let words = match self {
+            Self::Signal => return None,
+            Self::Direction => format!("for {name} of unit length"),
+            Self::Normal => format!("for every {name} of unit length"),
+            Self::Hemisphere => format!("for every {name} of unit length with {name}.z >= 0"),
+            Self::Quaternion => format!("for every unit {name}"),
+            Self::Rotation => "for every rotation matrix".to_owned(),
+            Self::Phases => "for every angle".to_owned(),
+            Self::Tilt(_) | Self::SmallTurn(_) | Self::Angle(_) => format!("for an angle up to {most} degrees"),
+            Self::BoundedTurn(_) => format!("for an angle up to {most} degrees about y"),
+            Self::HalfSine(_) => format!("with a {name} up to {most} degrees"),
+            Self::Made(Made { max_angle: Some(_), .. }) => format!("for an angle up to {most} degrees about y"),
+            Self::Made(_) => "for every angle".to_owned(),
+        };
+        Some(words)
+    }
+}
+
+/// An angle in degrees, cut off after two decimals.
+pub fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 100.0 + 1e-6).floor() / 100.0
 }

@@ -2,7 +2,6 @@
 //! the operations in any form, and the interpreter. It knows arithmetic and nothing of harmonics, text or targets.
 
 pub mod code;
-pub mod domain;
 pub mod eval;
 pub mod graph;
 pub mod kernel;

@@ -2,7 +2,14 @@
 //! hold the same [`Op`], each of its own operands. What a table cannot say stands elsewhere: the arithmetic in
 //! [`crate::ir::eval`], the text in each language's file, the enclosure in [`crate::promise::bound`].
 
-use crate::ir::graph::Kind;
+/// What a value is: a parameter of the kernel, or linear in its signal (one number a channel).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// One number, shared by all channels of a signal.
+    Scalar,
+    /// Linear in the signal: as many numbers as the signal has channels.
+    Signal,
+}
 
 /// How the two parts of a fused operation are signed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

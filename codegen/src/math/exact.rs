@@ -4,6 +4,7 @@
 //! An [`Exact`] is a finite sum of `q·√d·π^(k/2)·ln(1+√2)^j`, held in a canonical form, so that a zero, a one or
 //! a repeated constant is recognised without an epsilon. What no such sum can express (a quotient of sums, a root of
 //! a polynomial) is a [`Real`] of 512 fractional bits. Either is rounded once, to the nearest `f32` or `f64`.
+//! One file: a term, sums of terms and how they are rounded know each other from within.
 
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};

@@ -4,6 +4,7 @@
 use super::text::{percent, row, table};
 use crate::emit::Constants;
 use crate::environment::{MapError, Projection};
+// Names a family: evaluation is what an environment's coefficients are for.
 use crate::families::basis;
 use crate::families::family::{MIN_ORDER, Spec};
 use crate::generate;

@@ -9,8 +9,8 @@
 use crate::families::all::ALL;
 use crate::families::family::{ByBand, Does, Family, Job, MIN_ORDER, SMALL_ANGLE_DEGREES, Spec};
 use crate::families::parts::small_angle::SmallAngle;
-use crate::ir::domain::Domain;
 use crate::ir::graph::Kind;
+use crate::ir::kernel::Domain;
 use crate::ir::listing::Listing;
 use crate::promise::law::{self, Error};
 use crate::scene::budget::Norm;

@@ -1,6 +1,7 @@
 //! From a scene to specs, and why. Kernels that the scene names are taken as they are; for a rotation that it bounds,
 //! every method that does the job is built, counted and measured, and the cheapest that keeps the error is chosen; for
 //! an environment, the smallest order whose missing bands cost less than the budget. All figures are the kernels' own.
+//! One file: a contest of methods, its verdicts and the plan that they come to.
 
 pub mod environment;
 pub mod mixtures;

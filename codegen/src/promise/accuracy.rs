@@ -1,6 +1,7 @@
 //! How exact a kernel is: the rounding error of its f32 form, proven ([`crate::promise::bound`]) and, against its f64 form, measured
 //! over seeded inputs; for an approximate rotation the error of the method at an angle, computed from its matrix.
 
+// Names a family: what every approximate rotation is compared with.
 use crate::families::axis;
 use crate::families::family::{AngleAs, MAX_ORDER, Measure, Spec};
 use crate::ir::code::Code;

@@ -1,8 +1,8 @@
 //! Inputs to try a kernel on: seeded, the extremes among them. They use no transcendental function, so that they are
 //! the same to the last bit on every machine, and every number is an f32.
 
-use crate::ir::domain::Domain;
 use crate::ir::eval::{Contraction, Program};
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::Param;
 use crate::ir::listing::Listing;
 

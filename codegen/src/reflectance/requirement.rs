@@ -184,6 +184,7 @@ impl Requirement {
 
     fn count(&mut self, brdf: &Brdf) {
         let rotation = |order: usize| {
+            // Names a family: the exact rotation is what a renderer that turns the light does.
             let spec: Spec = format!("rotate:{order}").parse().expect("is a spec");
             spec.code().cost(1).total
         };
@@ -202,6 +203,7 @@ impl Requirement {
 
     /// The relative rms error over views and frames.
     fn measure(&self, light: &[[f64; 3]], brdf: &Brdf) -> f64 {
+        // Names a family: z, y, z turns what is asked whether it is symmetric.
         let spec: Spec = format!("rotate:{}:zyz", self.max_order).parse().expect("is a spec");
         let rotate = Program::<f64>::new(&Listing::new(&spec.kernel()));
         let channel = |c: usize| -> Vec<f64> { light.iter().map(|value| value[c]).collect() };

@@ -3,6 +3,7 @@
 
 use super::manifest::Locator;
 use super::{Located, Order};
+// Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
 use crate::families::text::{hint, usual};
 use crate::families::tilt::TILT;

@@ -5,6 +5,7 @@ use crate::numbers::{Half, Twin};
 use crate::stability::truth::{Band, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
+// Names a family: its recurrence is what is measured.
 use zonal_codegen::families::loops::basis_loop;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;

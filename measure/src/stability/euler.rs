@@ -6,6 +6,7 @@ use crate::stability::truth::{Pair, turn};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal::glam::{Mat3, Quat};
+// Names a family: its set-up is what is measured.
 use zonal_codegen::families::zyz::angles;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
@@ -204,7 +205,7 @@ pub fn multiples(progress: &dyn Progress) -> Vec<Multiples> {
 mod tests {
     use super::*;
     use zonal_codegen::families::parts::phases::{multiples, phases};
-    use zonal_codegen::ir::domain::Domain;
+    use zonal_codegen::ir::kernel::Domain;
 
     /// What is measured is what the kernels do.
     #[test]

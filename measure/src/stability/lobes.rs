@@ -5,6 +5,7 @@ use crate::numbers::Twin;
 use crate::stability::truth::{Band, Rotation, Swap, distance};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
+// Names a family: its lobes are what is measured.
 use zonal_codegen::families::zhf::lobes::{HIGHEST_SIZE, Lobe, Record, a_hat, chosen, records};
 use zonal_codegen::ir::eval::Number;
 use zonal_codegen::math::exact::Exact;

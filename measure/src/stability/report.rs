@@ -8,9 +8,9 @@ use super::recursion;
 use super::rotation::Way;
 use super::special::{BAND, QUATERNIONS, SPECS, VALUES};
 use crate::File;
-use crate::plots::{file as picture, key};
-use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke};
-use crate::tables::{file, perhaps, short, table};
+use crate::markdown::{file, perhaps, short, table};
+use crate::svg::{Axis, Key, Panel, Picture, Series, Stroke, file as picture, key};
+// Names a family: the bound of its conditions is said.
 use zonal_codegen::families::zhf::lobes::LARGEST_CONDITION;
 
 /// What the issue of the basis in f32 asks for.

@@ -7,11 +7,12 @@ use crate::stability::recursion::Matrices;
 use crate::stability::truth::{Pair, Rotation, Swap, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
+// Names a family: its loop is what is measured.
 use zonal_codegen::families::loops::rotate_loop;
 use zonal_codegen::families::parts::bands::{y_band, z_band};
 use zonal_codegen::families::parts::phases::{YPhases, phases};
-use zonal_codegen::ir::domain::Domain;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::kernel::Domain;
 use zonal_codegen::ir::kernel::{Builder, Param, Shape};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::ir::program::{LoopKernel, Stmt};

@@ -9,5 +9,6 @@ pub mod devices;
 pub mod gpu;
 pub mod job;
 pub mod report;
+pub mod row;
 pub mod system;
 pub mod wrap;

@@ -1,8 +1,8 @@
 //! Starts the bench, and the table of what it found.
 
-use crate::bench::Row;
 use crate::cases::INPUTS;
 use crate::devices::COLUMNS;
+use crate::row::Row;
 use crate::system;
 use std::collections::BTreeMap;
 use std::process::Command;

@@ -1,5 +1,6 @@
 //! The command line as a user sees it: bad input of every kind gets one clear message, an exit code and no file; what
 //! the commands print can be read back.
+//! One file: a test a command.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -143,7 +144,7 @@ fn unknown_methods_are_refused() {
     refused("name = \"a\"\n[[kernel]]\nspec = \"\"\n", "3:9", &["is no family"]);
     let folder = Folder::new();
     let message = fails(&folder, &["show", "rotate:5:zxz"]);
-    assert!(message.contains("SPEC:1:10]") && message.contains("did you mean"), "{message}");
+    assert!(message.contains("--> SPEC:1:10\n") && message.contains("did you mean"), "{message}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod environment;
 mod fixture;
 mod goldens;
 mod half;
+mod house;
 mod laws;
 mod loops;
 mod methods;

@@ -1,5 +1,6 @@
 //! The evaluator of shader text, held against the same arithmetic written in Rust. Each sample exists in WGSL and in
 //! GLSL, and both must give the same bits and the same counts.
+//! One file: a small shader a case, and what it gives.
 
 use std::sync::LazyLock;
 

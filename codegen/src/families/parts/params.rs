@@ -1,7 +1,7 @@
 //! The parameters that families share, each with its domain, and the end of a rotation's kernel.
 
-use crate::ir::domain::Domain;
 use crate::ir::graph::Id;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 
 /// Declares the signal `c` of n² coefficients.

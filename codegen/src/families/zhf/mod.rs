@@ -11,8 +11,8 @@ use crate::families::parts::columns;
 use crate::families::parts::params::{matrix, rotated, signal};
 use crate::families::parts::sums::inner;
 use crate::families::zhf::lobes::{LobeSet, shared_free};
-use crate::ir::domain::Domain;
 use crate::ir::graph::Id;
+use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 

@@ -5,6 +5,7 @@
 //! with neither a transcendental function nor the order of threads in it. So a search gives the same sets on every
 //! machine, and one that was interrupted ends as if it had not been. A try is guided by f64, where a zero can only be
 //! guessed; what it finds is kept by what exact numbers say of it ([`Record::new`]), never by the guess.
+//! One file: the grid, the annealing and the state that both keep.
 
 use crate::families::zhf::lobes::{HIGHEST_SIZE, Lobe, Mode, Record, RecordError};
 use crate::math::exact::Exact;

@@ -2,6 +2,7 @@
 //! of a column are functions of that lobe's direction alone. Each is as large as it is anywhere on the sphere, whatever
 //! the rotation; their norms add as squares.
 
+// Names a family: the norm of turned lobes is that of their own matrix.
 use crate::families::zhf::lobes;
 use crate::ir::listing::{Listing, Op, Operand};
 use crate::math::linear::singular_values;

@@ -12,7 +12,7 @@
 //! 2 u + u |cos β|, and sin β = 2 √(AB), by 5.5 u sin β: as one vector 5.87 u; and with a normal's x² + y², off by 2 u,
 //! which leaves its inverse root by 3 u and (x, y) or x² + y² times that by 4 u.
 
-use crate::ir::domain::POLAR;
+use crate::ir::kernel::POLAR;
 use crate::ir::listing::{Listing, Op, Operand, Sign};
 use crate::promise::bound::boxes;
 use crate::promise::bound::roundoff::{Both, INPUT, U};

@@ -2,9 +2,9 @@
 //! bounded one by one.
 
 use crate::families::family::Spec;
-use crate::ir::domain::{Domain, Held, Made, OfAngle, POLAR};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
+use crate::ir::kernel::{Domain, Held, Made, OfAngle, POLAR};
 use crate::ir::listing::{Listing, Op, Operand, Step};
 use crate::math::exact::Exact;
 use crate::promise::bound::norm::{Matrix, SLACK};

@@ -1,6 +1,7 @@
 //! A part of a listing, run on enclosures: every scalar is an interval with a bound of its f32 error, every number that is
 //! linear in the signal an interval and an error weight for each number of the signal that it depends on. Both ways of
 //! contraction are bounded at once. docs/MATH.md#enclosures-with-error-weights has the rules.
+//! One file: scalars, signals and their errors share one layout.
 
 use crate::ir::eval::Number;
 use crate::ir::graph::Kind;

@@ -5,9 +5,10 @@ use std::io::Write;
 use std::path::Path;
 use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::language::{Arrays, GLSL};
-use zonal_gpu_tests::bench::{ARRAYS, Row};
+use zonal_gpu_tests::bench::ARRAYS;
 use zonal_gpu_tests::devices::COLUMNS;
 use zonal_gpu_tests::report::{self, Measured};
+use zonal_gpu_tests::row::Row;
 
 fn measure(mode: &str) -> Measured {
     let _turn = crate::turn();
