@@ -1,20 +1,18 @@
 //! The manifest of a scene as TOML holds it: its tables, and how they become a scene whose values know their places.
 
-use super::picture::{self, BrdfTable, PictureTable};
-use super::{Environment, Job, Light, Located, Maps, Norm, Order, Precision, Rotation, Scene, Wanted};
 use crate::emit::language::{self, Arrays, Target};
-use crate::families::family::{MAX_ORDER, MIN_ORDER};
+use crate::families::family::Job;
 use crate::families::text::hint;
 use crate::files;
+use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
+use crate::scene::located::{Located, Locator, Order};
+use crate::scene::picture::{self, BrdfTable, PictureTable};
+use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
 use serde::Deserialize;
-use serde::de::{Deserializer, Visitor};
 use serde_spanned::Spanned;
-use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
-
-/// The most signals that a rotation may turn: beyond it, only what is done for each of them counts.
-const MAX_SIGNALS: usize = 1_000_000;
 
 /// The manifest as TOML holds it.
 #[derive(Deserialize)]
@@ -66,36 +64,6 @@ struct RotationTable {
     name: Option<Spanned<String>>,
 }
 
-impl<'de> Deserialize<'de> for Order {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OrderVisitor;
-        impl Visitor<'_> for OrderVisitor {
-            type Value = Order;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "an order from {MIN_ORDER} to {MAX_ORDER} or \"environment\"")
-            }
-            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Order, E> {
-                match usize::try_from(value) {
-                    Ok(order) if (MIN_ORDER..=MAX_ORDER).contains(&order) => Ok(Order::Number(order)),
-                    _ => {
-                        Err(E::custom(format!("order {value} is out of range: orders are {MIN_ORDER} to {MAX_ORDER}")))
-                    }
-                }
-            }
-            fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Order, E> {
-                self.visit_i64(i64::try_from(value).unwrap_or(i64::MAX))
-            }
-            fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Order, E> {
-                match value {
-                    "environment" => Ok(Order::Environment),
-                    other => Err(E::custom(format!("`{other}` is no order: write a number, or \"environment\""))),
-                }
-            }
-        }
-        deserializer.deserialize_any(OrderVisitor)
-    }
-}
-
 /// What a fault of the TOML itself says, with a suggestion for a word that was mistyped.
 fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic {
     let message = error.message().trim().replace('\n', "; ");
@@ -114,55 +82,51 @@ fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic 
     }
 }
 
-/// Locates what serde found.
-pub(super) struct Locator(Arc<Source>);
+/// The largest scene that is read, in bytes.
+const MAX_BYTES: usize = 1 << 20;
 
-impl Locator {
-    pub(super) fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
-        let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
-        Located { value: spanned.into_inner(), place }
-    }
-
-    /// A value that may be left out, which then stands at another's place.
-    fn or_default<T: Default, U>(&self, value: Option<Spanned<T>>, place: &Spanned<U>) -> Located<T> {
-        match value {
-            Some(value) => self.at(value),
-            None => {
-                let place = Place { source: Arc::clone(&self.0), span: place.span() };
-                Located { value: T::default(), place }
-            }
+impl Scene {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be read or is no scene.
+    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|error| {
+            Diagnostic::nowhere(format!("{name}: cannot be read ({error})"), "check the path: a scene is a TOML file")
+        })?;
+        if bytes.len() > MAX_BYTES {
+            let message = format!("{name}: is larger than a scene may be ({} of {MAX_BYTES} bytes)", bytes.len());
+            return Err(Diagnostic::nowhere(message, "a scene is a TOML file of a few lines"));
         }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let message = format!("{name}: is no text (byte {} is not UTF-8)", error.utf8_error().valid_up_to());
+            Diagnostic::nowhere(message, "a scene is a TOML file")
+        })?;
+        Self::parse(&name, &text, Maps::Folder(path.parent().unwrap_or(Path::new("")).to_owned()))
     }
 
-    /// A number within bounds, of which the lower may be excluded.
-    fn number(&self, spanned: Spanned<f64>, what: &str, least: f64, most: f64) -> Result<Located<f64>, Diagnostic> {
-        let located = self.at(spanned);
-        match located.value > least && located.value <= most {
-            true => Ok(located),
-            false => Err(Diagnostic::at(
-                &located.place,
-                format!("{what} {} is out of range", located.value),
-                format!("write a number above {least} and up to {most}"),
-            )),
+    /// Reads the text of a scene. `name` is what errors call it.
+    ///
+    /// # Errors
+    ///
+    /// If it is no TOML, or a key is unknown, missing, or of the wrong type or range.
+    pub fn parse(name: &str, text: &str, maps: Maps) -> Result<Self, Diagnostic> {
+        let source = Arc::new(Source { name: name.to_owned(), text: text.to_owned() });
+        if text.trim().is_empty() {
+            let message = format!("{name}: is empty");
+            return Err(Diagnostic::nowhere(
+                message,
+                "begin with `name = \"...\"`, then a `[[kernel]]` with its `spec`",
+            ));
         }
-    }
-
-    fn signals(&self, spanned: Spanned<i64>) -> Result<usize, Diagnostic> {
-        let located = self.at(spanned);
-        let count = usize::try_from(located.value).ok().filter(|count| (1..=MAX_SIGNALS).contains(count));
-        count.ok_or_else(|| {
-            let message = format!("{} signals are out of range", located.value);
-            Diagnostic::at(&located.place, message, format!("write a number from 1 to {MAX_SIGNALS}"))
-        })
-    }
-
-    fn angle(&self, spanned: Spanned<f64>) -> Result<Located<f64>, Diagnostic> {
-        self.number(spanned, "an angle in degrees of", 0.0, 180.0)
+        read(text, source, maps)
     }
 }
 
 /// Reads the text of a scene.
-pub(super) fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic> {
+fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic> {
     let manifest: Manifest = toml::from_str(text).map_err(|error| toml_diagnostic(&error, &source))?;
     let locate = Locator(source);
     let mut scene = Scene::new(locate.at(manifest.name));

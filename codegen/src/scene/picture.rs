@@ -1,8 +1,6 @@
 //! The tables of a scene that a picture of it is made from: its reflectance, its object and its camera. Who draws is
 //! another package; here is what may be asked of it.
 
-use super::manifest::Locator;
-use super::{Located, Order};
 // Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
 use crate::families::text::{hint, usual};
@@ -10,6 +8,7 @@ use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
 use crate::reflectance::brdf::Brdf;
 use crate::scene::diagnostic::Diagnostic;
+use crate::scene::located::{Located, Locator, Order};
 use serde::{Deserialize, Serialize};
 use serde_spanned::Spanned;
 use std::fmt;

@@ -11,6 +11,7 @@
 //!   lobes about the ω_d. To rotate it is to rotate these: `c'_m = Σ_d z_d y_l^m(Rω_d)`. (The paper writes the lobes
 //!   as y_l^0 turned to ω_d, its equations 7 to 9; a lobe here is √((2l+1)/4π) times that, and its equation 9 lacks
 //!   the inverse of this factor.)
+//!
 //! One file: lobes, their sets and the records that they are read from.
 
 use std::fmt;

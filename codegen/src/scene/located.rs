@@ -1,0 +1,113 @@
+//! Values of a scene and where they were written, as serde finds them.
+
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
+use crate::scene::diagnostic::{Diagnostic, Place, Source};
+use serde::Deserialize;
+use serde::de::{Deserializer, Visitor};
+use serde_spanned::Spanned;
+use std::fmt;
+use std::sync::Arc;
+
+/// The most signals that a rotation may turn: beyond it, only what is done for each of them counts.
+const MAX_SIGNALS: usize = 1_000_000;
+
+/// A value and where it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Where.
+    pub place: Place,
+}
+
+/// An order in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// A number of bands.
+    Number(usize),
+    /// As many as the environment needs.
+    Environment,
+}
+
+impl<'de> Deserialize<'de> for Order {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OrderVisitor;
+        impl Visitor<'_> for OrderVisitor {
+            type Value = Order;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "an order from {MIN_ORDER} to {MAX_ORDER} or \"environment\"")
+            }
+            fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<Order, E> {
+                match usize::try_from(value) {
+                    Ok(order) if (MIN_ORDER..=MAX_ORDER).contains(&order) => Ok(Order::Number(order)),
+                    _ => {
+                        Err(E::custom(format!("order {value} is out of range: orders are {MIN_ORDER} to {MAX_ORDER}")))
+                    }
+                }
+            }
+            fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Order, E> {
+                self.visit_i64(i64::try_from(value).unwrap_or(i64::MAX))
+            }
+            fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Order, E> {
+                match value {
+                    "environment" => Ok(Order::Environment),
+                    other => Err(E::custom(format!("`{other}` is no order: write a number, or \"environment\""))),
+                }
+            }
+        }
+        deserializer.deserialize_any(OrderVisitor)
+    }
+}
+
+/// Locates what serde found.
+pub(super) struct Locator(pub(super) Arc<Source>);
+
+impl Locator {
+    pub(super) fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
+        let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
+        Located { value: spanned.into_inner(), place }
+    }
+
+    /// A value that may be left out, which then stands at another's place.
+    pub(super) fn or_default<T: Default, U>(&self, value: Option<Spanned<T>>, place: &Spanned<U>) -> Located<T> {
+        match value {
+            Some(value) => self.at(value),
+            None => {
+                let place = Place { source: Arc::clone(&self.0), span: place.span() };
+                Located { value: T::default(), place }
+            }
+        }
+    }
+
+    /// A number within bounds, of which the lower may be excluded.
+    pub(super) fn number(
+        &self,
+        spanned: Spanned<f64>,
+        what: &str,
+        least: f64,
+        most: f64,
+    ) -> Result<Located<f64>, Diagnostic> {
+        let located = self.at(spanned);
+        match located.value > least && located.value <= most {
+            true => Ok(located),
+            false => Err(Diagnostic::at(
+                &located.place,
+                format!("{what} {} is out of range", located.value),
+                format!("write a number above {least} and up to {most}"),
+            )),
+        }
+    }
+
+    pub(super) fn signals(&self, spanned: Spanned<i64>) -> Result<usize, Diagnostic> {
+        let located = self.at(spanned);
+        let count = usize::try_from(located.value).ok().filter(|count| (1..=MAX_SIGNALS).contains(count));
+        count.ok_or_else(|| {
+            let message = format!("{} signals are out of range", located.value);
+            Diagnostic::at(&located.place, message, format!("write a number from 1 to {MAX_SIGNALS}"))
+        })
+    }
+
+    pub(super) fn angle(&self, spanned: Spanned<f64>) -> Result<Located<f64>, Diagnostic> {
+        self.number(spanned, "an angle in degrees of", 0.0, 180.0)
+    }
+}
