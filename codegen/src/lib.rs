@@ -12,7 +12,7 @@
 //!                                                       └─▶ accuracy: rounding measured, method error computed
 //! ```
 //!
-//! From a build script, start at [`builder::Builder`]; for one kernel's text, cost and error, at [`built::Built`] and
+//! From a build script, start at [`builder::Builder`]; for one kernel's text, cost and error, at [`promise::built::Built`] and
 //! [`emit::Module`].
 //!
 //! ```

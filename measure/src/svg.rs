@@ -320,6 +320,16 @@ impl Picture {
     }
 }
 
+/// An entry of a legend.
+pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
+    Key { label: label.to_owned(), colour, stroke }
+}
+
+/// The file of a picture.
+pub(crate) fn file(name: &str, picture: &Picture) -> File {
+    File { name: format!("{name}.svg"), text: picture.svg() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -360,14 +370,4 @@ mod tests {
         assert!(axis.place(1e-3).abs() < 1e-12 && (axis.place(10.0) - 1.0).abs() < 1e-12);
         assert!((axis.place(0.1) - 0.5).abs() < 1e-12);
     }
-}
-
-/// An entry of a legend.
-pub(crate) fn key(label: &str, colour: usize, stroke: Stroke) -> Key {
-    Key { label: label.to_owned(), colour, stroke }
-}
-
-/// The file of a picture.
-pub(crate) fn file(name: &str, picture: &Picture) -> File {
-    File { name: format!("{name}.svg"), text: picture.svg() }
 }

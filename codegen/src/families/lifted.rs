@@ -163,7 +163,7 @@ fn half_tangent(g: &mut Graph, half: Id, beta: &[Phase], k: usize) -> Id {
     g.mul(over, inverse)
 }
 
-/// The kernel `lifted`: what [`rotate`] takes, from a unit quaternion; done once for many signals.
+/// The kernel `lifted`: what [`ROTATE_LIFTED`] takes, from a unit quaternion; done once for many signals.
 pub fn lifted(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let q = quaternion(&mut builder, Domain::BoundedTurn(max_angle(order)));

@@ -363,7 +363,7 @@ impl Section {
         self.outputs.iter().all(|&output| depth[output] <= 1)
     }
 
-    /// Runs it with the roots' values; `roundoff` is [`U`], or 0 to have errors only from the roots' own errors.
+    /// Runs it with the roots' values; `roundoff` is [`U`](crate::promise::bound::roundoff::U), or 0 to have errors only from the roots' own errors.
     pub fn run(&self, values: &[Enclosure], starts: &[Start], roundoff: f64, run: &mut Run) {
         let entries = self.from.len();
         for list in [&mut run.mid, &mut run.radius].into_iter().chain(&mut run.weight) {
