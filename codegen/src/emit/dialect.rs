@@ -73,7 +73,7 @@ impl Dialect {
     }
 
     /// Returns the name of the struct that a value is passed in, if it is: it says how many items of which type.
-    fn structure(self, of: &Type) -> Option<String> {
+    pub fn structure(self, of: &Type) -> Option<String> {
         let item = || of.item.chars().filter(char::is_ascii_alphanumeric).collect::<String>();
         let length = of.length.filter(|_| self.arrays == Arrays::Struct)?;
         Some(format!("zonal_{length}_{}s", item()))

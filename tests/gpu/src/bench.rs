@@ -31,8 +31,7 @@ pub enum Mode {
     Arrays,
 }
 
-/// The kernels that are run with their arrays in structs and by reference. `rotate:4:loop` is not among them: naga's GLSL front
-/// end refuses its argument's constructor beside the table of J, where WebGL2 takes it.
+/// The kernels that are run with their arrays in structs and by reference.
 pub const ARRAYS: [&str; 13] = [
     "basis:4",
     "eval:4",
@@ -45,8 +44,8 @@ pub const ARRAYS: [&str; 13] = [
     "tilt:4:rgb",
     "rotate_adaptive:4",
     "zhf:3:rgb",
-    "taylor15:4:loop:rgb",
-    "basis:4:loop",
+    "taylor15:4:rgb:loop",
+    "rotate:4:loop",
 ];
 
 /// Where the constants of a text are: every literal with a point that is not zero, outside comments.

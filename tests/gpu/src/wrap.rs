@@ -73,9 +73,21 @@ impl Call {
             true => format!("{}({}, {}, {})", dialect.number(kind), next(), next(), next()),
             false => next(),
         };
+        // A structure is filled item by item: naga's GLSL front end takes the constructor of an array inside that of a
+        // structure for another type in some of the texts that other compilers accept.
+        let mut filled = String::new();
         let mut argument = |param: &Param| {
             let numbers: Vec<String> = (0..param.shape.len()).map(|_| number(param.kind)).collect();
-            dialect.argument(param.shape, param.kind, &numbers)
+            if dialect.structure(&dialect.type_of(param.shape, param.kind)).is_none() {
+                return dialect.argument(param.shape, param.kind, &numbers);
+            }
+            let name = format!("given_{}", param.name);
+            let passed = dialect.passed(param.shape, param.kind);
+            filled += &format!("{}\n    ", (dialect.language.statements.variable)(&passed, &name));
+            for (place, number) in numbers.iter().enumerate() {
+                filled += &format!("{} = {number};\n    ", dialect.component(&name, param.shape, place));
+            }
+            name
         };
         let arguments: Vec<String> = function.built.code.params().iter().map(&mut argument).collect();
         let (shape, kind) = function.built.code.result();
@@ -89,7 +101,7 @@ impl Call {
         };
         let vector = |i: usize| format!("vec4({})", [0, 1, 2, 3].map(|j| number(VECTOR * i + j)).join(", "));
         let vectors = (0..output_vectors(function)).map(vector).collect();
-        Self { statements: call(function, dialect, arguments), vectors }
+        Self { statements: filled + &call(function, dialect, arguments), vectors }
     }
 }
 
