@@ -26,4 +26,5 @@ mod search;
 mod shader_evaluator;
 mod shaders;
 mod tables;
+mod toy_language;
 mod zhf_tables;
