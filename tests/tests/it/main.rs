@@ -3,6 +3,7 @@
 mod accuracy;
 mod bounds;
 mod brdf;
+mod broken_families;
 mod builder;
 mod catalog;
 mod citations;
