@@ -16,6 +16,7 @@ mod house;
 mod laws;
 mod loops;
 mod methods;
+mod packages;
 mod plans;
 mod proofs;
 mod properties;
