@@ -1,29 +1,70 @@
 #!/usr/bin/env bash
-# The whole test command: packages, format, lints, every test, the fixture crate, documentation. It stops at the first
-# failure, and says before each part how many seconds have gone.
+# The test command. Without an argument it runs all that has to pass: packages, format, lints, every test, the fixture
+# crate, documentation. `quick` runs what finds most faults within minutes, before a commit: it installs nothing and needs
+# neither a driver nor a browser. It stops at the first failure, says before each part how many seconds have gone, and at
+# the end how many each part took.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-step() { printf '\n== %s (%d s)\n' "$1" "$SECONDS"; }
+usage() {
+    cat >&2 <<'END'
+usage: tests/run.sh [quick]
+  without an argument: all that has to pass
+  quick: format, unit tests, goldens, properties, the house and the catalogue, before a commit
+END
+    exit 2
+}
 
+names=()
+seconds=()
+part() {
+    local name=$1 start=$SECONDS
+    printf '\n== %s (%d s)\n' "$name" "$start"
+    names+=("$name")
+    "${@:2}"
+    seconds+=($((SECONDS - start)))
+}
+
+table() {
+    local status=$? i
+    ((${#names[@]})) || return
+    printf '\n'
+    for i in "${!names[@]}"; do
+        printf '%6s s  %s\n' "${seconds[i]:-failed}" "${names[i]}"
+    done
+    ((status)) || printf '\n== everything passed (%d s)\n' "$SECONDS"
+}
+
+quick() {
+    part "format" cargo fmt --all --check
+    part "unit tests" cargo test --quiet -p zonal-codegen --lib
+    # Filters of the test program: the modules that find most and take least.
+    part "goldens, properties, the house" cargo test --quiet -p zonal-tests --test it -- \
+        goldens properties broken_families toy_language house citations
+    part "catalogue" cargo zonal catalog --check
+}
+
+whole() {
+    local component
+    for component in rustfmt clippy; do
+        cargo "${component/rustfmt/fmt}" --version >/dev/null 2>&1 || rustup component add "$component"
+    done
+    part "packages" tests/install.sh
+    part "format" cargo fmt --all --check
+    part "lints" cargo clippy --quiet --workspace --all-targets -- -D warnings
+    part "runtime without std" cargo check --quiet -p zonal --no-default-features --features libm
+    part "tests" cargo test --workspace --no-fail-fast
+    part "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
+}
+
+case "$#:${1-}" in
+    0:) run=whole ;;
+    1:quick) run=quick ;;
+    *) usage ;;
+esac
 command -v cargo >/dev/null || {
     echo "cargo is missing: install a Rust toolchain from https://rustup.rs, then run this again" >&2
     exit 1
 }
-for part in rustfmt clippy; do
-    cargo "${part/rustfmt/fmt}" --version >/dev/null 2>&1 || rustup component add "$part"
-done
-
-step "packages"
-tests/install.sh
-step "format"
-cargo fmt --all --check
-step "lints"
-cargo clippy --quiet --workspace --all-targets -- -D warnings
-step "runtime without std"
-cargo check --quiet -p zonal --no-default-features --features libm
-step "tests"
-cargo test --workspace --no-fail-fast
-step "documentation"
-RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
-step "everything passed"
+trap table EXIT
+"$run"
