@@ -1,6 +1,6 @@
 //! Test vectors: what the interpreter gives in f32 and f64 for seeded inputs or for those of a file, as JSON that an
 //! engine's own tests can read. Arrays are nested as the parameters are: pairs by pairs, a matrix by columns, an RGB
-//! signal by triples.
+//! signal by triples. Beside each parameter stands for which of its values the kernel's promises hold; null for a signal.
 
 use super::spec_of;
 use serde_json::{Map, Value, json};
@@ -197,7 +197,14 @@ pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Resu
         .collect();
     let parameters: Vec<Value> = params
         .iter()
-        .map(|param| json!({"name": param.name, "shape": lengths(param.shape, param.kind, spec.rgb), "doc": param.doc}))
+        .map(|param| {
+            json!({
+                "name": param.name,
+                "shape": lengths(param.shape, param.kind, spec.rgb),
+                "doc": param.doc,
+                "domain": param.domain.in_words(param.name),
+            })
+        })
         .collect();
     drop(bar);
     out_json(&json!({

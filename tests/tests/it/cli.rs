@@ -427,6 +427,27 @@ fn vectors_read_their_own_inputs() {
 }
 
 #[test]
+fn vectors_say_the_domain_of_each_parameter_in_words() {
+    let folder = Folder::new();
+    for (spec, domains) in [
+        ("basis:4", &[Some("for dir of unit length")][..]),
+        ("tilt:3:rgb", &[Some("for every n of unit length with n.z >= 0"), None]),
+        ("rotate:3:angles", &[Some("for every angle"), None]),
+        ("rotate:5:lf3", &[Some("for every angle"), Some("for an angle up to 25 degrees"), None]),
+        ("lifted:5", &[Some("for an angle up to 30 degrees about y")]),
+    ] {
+        let vectors: Value = serde_json::from_str(&folder.run(["vectors", spec, "--count", "1"]).out).expect("JSON");
+        let found: Vec<Option<&str>> = vectors["parameters"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|param| param.get("domain").expect("is said").as_str())
+            .collect();
+        assert_eq!(found, domains, "{spec}");
+    }
+}
+
+#[test]
 fn vectors_take_lists_flat_or_nested_and_grey() {
     let folder = Folder::new();
     let results = |spec: &str, inputs: &str| {
