@@ -102,7 +102,8 @@ pub fn write(folder: &Path, files: &[File]) -> Result<usize, FileError> {
     write_below(folder, &files)
 }
 
-/// The same for files that need not be text: paths below the folder, with `/`, and bytes.
+/// Writes files that need not be text, given as paths below the folder, with `/`, and bytes, all or none as [`write()`] does,
+/// and returns how many changed.
 ///
 /// # Errors
 ///

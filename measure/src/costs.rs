@@ -24,7 +24,7 @@ pub struct Costs {
     pub order: usize,
     /// Multiplications, additions and multiply-adds for one channel.
     pub operations: usize,
-    /// The same for three channels.
+    /// Multiplications, additions and multiply-adds for three channels.
     pub operations_rgb: usize,
     /// Multiplications and multiply-adds for one channel: what Nowrouzezahrai et al. 2012 count.
     pub products: usize,

@@ -20,7 +20,7 @@ pub struct Column {
     pub order: usize,
     /// A rotation about z.
     pub z: usize,
-    /// The same by recurrences.
+    /// A rotation about z by recurrences.
     pub z_optimised: usize,
     /// A rotation about x by 90 degrees.
     pub x: usize,

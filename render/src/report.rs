@@ -34,7 +34,7 @@ const POINTS: usize = 800;
 pub struct Case {
     /// The name of the reflectance.
     pub brdf: &'static str,
-    /// The same, as specs write it.
+    /// The reflectance as scenes write it.
     pub text: String,
     /// Against the exact kernel's picture, by method.
     pub against_exact: [Errors; 4],

@@ -22,7 +22,7 @@ const BY_BAND: ByBand = ByBand {
         "a tilt is exact in bands 1 and 2 and takes `lf3` or `lf5` in the others",
         "write it as in `tilt:5:lf5` or `tilt:5:exact+exact+lf3+lf5`",
     ],
-    plane: |order, methods| tilt(order, methods, false),
+    plane: |order, methods| tilt(order, methods, Stored::Plainly),
 };
 
 /// A family's kernels with lf3 and with lf5.
@@ -48,7 +48,7 @@ pub static TILT: Family = Family {
         ),
     },
     by_band: Some(BY_BAND),
-    kernel: |spec| tilt(spec.order, &spec.methods, false),
+    kernel: |spec| tilt(spec.order, &spec.methods, Stored::Plainly),
     does: |_, _| vec![Does::job(Job::Tilt)],
     shown: |order| match order {
         2 | 3 => Spec::new(&TILT, order).both(),
@@ -70,7 +70,7 @@ pub static TILT_PRESCALED: Family = Family {
         )
     },
     by_band: Some(BY_BAND),
-    kernel: |spec| tilt(spec.order, &spec.methods, true),
+    kernel: |spec| tilt(spec.order, &spec.methods, Stored::Divided),
     acts: Acts::Bands,
     shown: |order| if order > 3 { both_shears(&TILT_PRESCALED, order) } else { vec![] },
     ..Family::PLAIN
@@ -87,7 +87,10 @@ pub static TILT_SCALE: Family = Family {
             "Divides the coefficients of order {order} as `tilt_prescaled:{order}` takes them; done once, when they are stored."
         )
     },
-    kernel: |spec| rescale(spec.order, false),
+    kernel: |spec| {
+        let doc = "the coefficients as `tilt_prescaled` takes them";
+        rescaled(spec.order, doc, |scale| &Exact::one() / &scale)
+    },
     acts: Acts::Bands,
     shown: |order| if order > 3 { Spec::new(&TILT_SCALE, order).both() } else { vec![] },
     ..Family::PLAIN
@@ -104,7 +107,10 @@ pub static TILT_UNSCALE: Family = Family {
             "The inverse of `tilt_scale:{order}`: for tilted coefficients, or for a light that they are multiplied with."
         )
     },
-    kernel: |spec| rescale(spec.order, true),
+    kernel: |spec| {
+        let doc = "the coefficients that were scaled; those of a light, to be multiplied with scaled ones";
+        rescaled(spec.order, doc, |scale| scale)
+    },
     acts: Acts::Bands,
     shown: |order| if order > 3 { Spec::new(&TILT_UNSCALE, order).both() } else { vec![] },
     ..Family::PLAIN
@@ -177,15 +183,32 @@ fn unit(l: usize) -> Exact {
     Exact::int(product.powf(1.0 / l as f64).round() as i64)
 }
 
-/// What row m of band l takes from m + 1: the ladder's coupling, or what [`scale`] makes of it.
-fn from_above(l: usize, m: usize, prescaled: bool) -> Exact {
-    if prescaled { unit(l) } else { tables::ladder(l, m + 1) }
+/// How the coefficients are stored that are tilted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stored {
+    /// As they are.
+    Plainly,
+    /// Each divided by [`scale`].
+    Divided,
 }
 
-/// What row m takes from m − 1.
-fn from_below(l: usize, m: usize, prescaled: bool) -> Exact {
-    let a = tables::ladder(l, m);
-    if prescaled { &(&a * &a) / &unit(l) } else { a }
+impl Stored {
+    /// What row m of band l takes from m + 1: the ladder's coupling, or what [`scale`] makes of it.
+    fn from_above(self, l: usize, m: usize) -> Exact {
+        match self {
+            Self::Plainly => tables::ladder(l, m + 1),
+            Self::Divided => unit(l),
+        }
+    }
+
+    /// What row m takes from m − 1.
+    fn from_below(self, l: usize, m: usize) -> Exact {
+        let a = tables::ladder(l, m);
+        match self {
+            Self::Plainly => a,
+            Self::Divided => &(&a * &a) / &unit(l),
+        }
+    }
 }
 
 /// What a coefficient is divided by where it is stored for `tilt_prescaled`: one in bands 0 to 2; in a higher band it
@@ -215,15 +238,8 @@ struct Row {
 impl Shear {
     /// `constant` + `linear` · u times (nx, ny), times each row's coupling to the row above, the last row's to the row
     /// below.
-    fn new(
-        g: &mut Graph,
-        n: &Normal,
-        l: usize,
-        parity: usize,
-        [constant, linear]: [Exact; 2],
-        prescaled: bool,
-    ) -> Self {
-        let (above, below) = (|m| from_above(l, m, prescaled), |m| from_below(l, m, prescaled));
+    fn new(g: &mut Graph, n: &Normal, l: usize, parity: usize, [constant, linear]: [Exact; 2], stored: Stored) -> Self {
+        let (above, below) = (|m| stored.from_above(l, m), |m| stored.from_below(l, m));
         let own = |m: usize| if m < l { above(m) } else { below(m) };
         let first = own(parity);
         let factor = g.affine(&(&first * &linear), n.u, &(&first * &constant));
@@ -278,31 +294,31 @@ impl Shear {
 }
 
 /// Three or five shears, β the tilt. With sin β for β the series' second coefficient takes c₀/6 more.
-fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: SmallAngle, prescaled: bool) -> Vec<Id> {
+fn shears(g: &mut Graph, band: &[Id], n: &Normal, method: SmallAngle, stored: Stored) -> Vec<Id> {
     let l = band.len() / 2;
     let mut x = band.to_vec();
     for ParityShear { parity, series: [first, third] } in parity_shears(l, method) {
         let third = &third + &(&first / &Exact::int(6));
-        Shear::new(g, n, l, parity, [first, third], prescaled).apply(g, &mut x, l);
+        Shear::new(g, n, l, parity, [first, third], stored).apply(g, &mut x, l);
     }
     x
 }
 
 /// The kernels `tilt` and `tilt_prescaled`, with `methods[l − 1]` for band l: exact for bands 1 and 2, shears for the
 /// others.
-fn tilt(order: usize, methods: &[SmallAngle], prescaled: bool) -> Kernel {
+fn tilt(order: usize, methods: &[SmallAngle], stored: Stored) -> Kernel {
     let mut builder = Builder::new();
     let domain = match methods.iter().all(|method| *method == SmallAngle::Exact) {
         true => Domain::Hemisphere,
         false => Domain::Tilt(small_angle()),
     };
     let n = normal(&mut builder, domain);
-    let c = match prescaled {
-        true => {
+    let c = match stored {
+        Stored::Divided => {
             let doc = format!("the coefficients as `tilt_scale:{order}` stores them");
             builder.param("c", Shape::Array(order * order), Domain::Signal, doc)
         }
-        false => signal(&mut builder, order),
+        Stored::Plainly => signal(&mut builder, order),
     };
     let g = &mut builder.graph;
     let one = g.constant(Exact::one());
@@ -312,27 +328,20 @@ fn tilt(order: usize, methods: &[SmallAngle], prescaled: bool) -> Kernel {
         0 => band.to_vec(),
         1 => band_1(g, band, &n),
         2 => band_2(g, band, &n),
-        _ => shears(g, band, &n, methods[l - 1], prescaled),
+        _ => shears(g, band, &n, methods[l - 1], stored),
     });
-    let doc = if prescaled { "the tilted coefficients, scaled alike" } else { "the tilted coefficients" };
+    let doc = match stored {
+        Stored::Plainly => "the tilted coefficients",
+        Stored::Divided => "the tilted coefficients, scaled alike",
+    };
     builder.finish(out, Shape::Array(order * order), doc)
 }
 
-/// The kernels `tilt_scale` and `tilt_unscale`: each coefficient divided by [`scale`], or multiplied by it.
-fn rescale(order: usize, unscale: bool) -> Kernel {
+/// The kernels `tilt_scale` and `tilt_unscale`: each coefficient times what `factor` makes of its [`scale`].
+fn rescaled(order: usize, doc: &str, factor: impl Fn(Exact) -> Exact) -> Kernel {
     let mut builder = Builder::new();
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;
-    let out = coefficients(order)
-        .zip(&c)
-        .map(|((l, m), &value)| {
-            let scale = scale(l, m);
-            g.scale(&if unscale { scale } else { &Exact::one() / &scale }, value)
-        })
-        .collect();
-    let doc = match unscale {
-        true => "the coefficients that were scaled; those of a light, to be multiplied with scaled ones",
-        false => "the coefficients as `tilt_prescaled` takes them",
-    };
+    let out = coefficients(order).zip(&c).map(|((l, m), &value)| g.scale(&factor(scale(l, m)), value)).collect();
     builder.finish(out, Shape::Array(order * order), doc)
 }

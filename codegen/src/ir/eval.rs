@@ -34,7 +34,7 @@ pub trait Number:
     fn nearest(value: &Exact) -> Self;
     /// The number nearest to an f64.
     fn from_f64(value: f64) -> Self;
-    /// The same value as f64.
+    /// Returns the number as f64, which holds it exactly.
     fn to_f64(self) -> f64;
     /// √self.
     fn root(self) -> Self;

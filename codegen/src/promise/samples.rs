@@ -214,7 +214,7 @@ fn tilted(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
     [x * cos, x * sin, z]
 }
 
-/// The same in the plane of x and z.
+/// A unit vector in the plane of x and z within `max_angle` of z; the extremes are those of [`tilted`].
 fn tilted_by(random: &mut Random, i: usize, max_angle: f64) -> [f64; 3] {
     const FRACTIONS: [f64; 5] = [0.0, 1e-8, 1.0, 1e-4, 1e-20];
     // The tangent of the tilt stays below that of the largest: no trigonometry, the same bits everywhere.

@@ -41,7 +41,7 @@ pub const ROUGHNESSES: [f64; 2] = [0.05, 1.0];
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Brdf {
-    /// The same in all directions.
+    /// Equal in all directions.
     Lambert,
     /// A cosine lobe around the mirrored view.
     Phong {

@@ -117,7 +117,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// The same as [`Display`](fmt::Display), since this is what a build script that returns the error shows.
+/// As [`Display`](fmt::Display) writes it, since this is what a build script that returns the error shows.
 impl fmt::Debug for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

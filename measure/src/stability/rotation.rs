@@ -32,7 +32,7 @@ pub enum Way {
     Quaternion,
     /// The loop, its set-up in f64 and the multiples of the angles too.
     WideSetup,
-    /// The same, and the quaternion normalised in f64 first.
+    /// The loop, its set-up and multiples in f64, the quaternion normalised in f64 first.
     Normalised,
     /// The loop, from correctly rounded (cos, sin) of the angles.
     Pairs,

@@ -53,7 +53,7 @@ pub struct Outcome {
     pub finite: bool,
     /// The largest error of the band over its norm, where both are finite.
     pub error: Option<f64>,
-    /// The same error in units of the smallest f32.
+    /// That error in units of the smallest f32.
     pub units: Option<f64>,
 }
 

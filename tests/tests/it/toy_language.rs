@@ -97,7 +97,7 @@ fn variable(of: &Type, name: &str) -> String {
 
 static C99: Language = C;
 
-/// The same with one rounding where a product and a sum are one operation.
+/// C with one rounding where a product and a sum are one operation.
 static FUSED: Language = Language { name: "c99_fused", multiply_add: MultiplyAdd::Call("fmaf"), ..C };
 
 /// A language whose record is wrong: C has no such function.

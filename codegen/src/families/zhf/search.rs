@@ -480,7 +480,7 @@ impl Set {
         Some(next)
     }
 
-    /// The same with its inverses computed anew.
+    /// Returns the set with its inverses computed anew, without what many changes have rounded off.
     fn fresh(&self, grid: &Grid) -> Option<Self> {
         let part = |part: &Rc<Part>| Part::new(grid, part.l, part.members.clone(), &self.pool).map(Rc::new);
         let parts: Option<Vec<Rc<Part>>> = self.parts.iter().map(part).collect();

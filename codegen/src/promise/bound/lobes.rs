@@ -66,7 +66,7 @@ impl Prover<'_> {
     }
 }
 
-/// The same listing with some operands taken for others and equal operations done once.
+/// Returns the listing with some operands taken for others and equal operations done once.
 fn alike(listing: &Listing, other: impl Fn(Operand) -> Option<Operand>) -> Listing {
     let mut listing = listing.clone();
     let mut places: Vec<Operand> = Vec::new();

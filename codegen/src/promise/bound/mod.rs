@@ -59,12 +59,13 @@ impl Bound {
     }
 }
 
-/// The bound of a spec's kernel in any form.
+/// Returns the bound of a spec's kernel in any form.
 pub fn of(spec: &Spec, code: &Code) -> Option<Bound> {
     within(spec, code, None)
 }
 
-/// The same for an approximate rotation by at most this angle in radians, which is at most [`Spec::max_angle`].
+/// Returns the bound of a spec's kernel in any form, for an approximate rotation by at most `max_angle` radians, which is at
+/// most [`Spec::max_angle`]. None where the proof takes too long or does not know what it meets.
 pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound> {
     let prove = |spec: &Spec, listing: &Listing| prove_within(spec, listing, max_angle);
     match code {
@@ -84,7 +85,7 @@ pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound>
     }
 }
 
-/// The bound of a spec's kernel, laid out. None for a listing whose set-up is not recognised.
+/// Returns the bound of a spec's kernel, laid out. None for a listing whose set-up is not recognised.
 pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
     prove_within(spec, listing, spec.max_angle())
 }

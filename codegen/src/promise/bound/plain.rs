@@ -7,7 +7,7 @@ use crate::math::exact::Exact;
 /// A value: nothing where it is zero, else an operand and whether its negation is meant.
 type Signed = Option<(Operand, bool)>;
 
-/// The same function, but for the signs of its results.
+/// Returns a listing that computes what the given one does, but for the signs of its results.
 pub fn plain(listing: &Listing) -> Listing {
     let mut steps: Vec<Step> = Vec::new();
     let mut known: Vec<Signed> = Vec::new();
