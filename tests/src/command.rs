@@ -17,7 +17,7 @@ pub fn zonal() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
     PATH.get_or_init(|| {
         let build = Command::new(env!("CARGO"))
-            .args(["build", "--quiet", "--package", "zonal-cli", "--bin", "zonal"])
+            .args(["build", "--quiet", "--workspace", "--bin", "zonal"])
             .args(["--message-format", "json"])
             .current_dir(repository(""))
             .output()
