@@ -4,6 +4,7 @@
 pub mod command;
 pub mod house;
 pub mod shader;
+pub mod turns;
 
 use serde_json::Value;
 use std::path::PathBuf;
@@ -12,7 +13,9 @@ use zonal_codegen::catalog::standard;
 use zonal_codegen::emit::Function;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
-use zonal_codegen::ir::eval::{Contraction, Number, Program};
+use zonal_codegen::ir::code::{self, Code};
+use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::kernel::Kernel;
 use zonal_codegen::ir::listing::Listing;
 
 /// A path below the repository.
@@ -58,12 +61,17 @@ pub fn catalogue() -> &'static [Function] {
 
 /// A kernel that can be run again and again.
 #[derive(Clone, Debug)]
-pub struct Runner<T>(Program<T>);
+pub struct Runner<T>(code::Runner<T>);
 
 impl<T: Number> Runner<T> {
-    /// The kernel of a spec.
+    /// The kernel of a spec, in the form that it names.
     pub fn new(spec: &Spec) -> Self {
-        Self(Program::new(&Listing::new(&spec.kernel())))
+        Self(spec.code().runner())
+    }
+
+    /// A kernel in straight lines.
+    pub fn of(kernel: &Kernel) -> Self {
+        Self(Code::Straight(Listing::new(kernel)).runner())
     }
 
     /// Runs it unfused on inputs that are rounded to `T`.

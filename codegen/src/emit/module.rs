@@ -91,7 +91,8 @@ impl Function {
     ///
     /// # Errors
     ///
-    /// If the language has no f16 and the function needs it, or cannot pass arrays as it is asked to.
+    /// If the language has no f16 and the function needs it, if it cannot pass arrays as it is asked to, or if it has no
+    /// operators on vectors and the function has three channels.
     pub fn dialect(&self, target: Target, arrays: Option<Arrays>) -> Result<Dialect, Limit> {
         if self.spec.half && target.half.is_none() {
             let why = format!("{} f16", language::only(|language| language.half.is_some()));
@@ -109,6 +110,11 @@ impl Function {
         }
         let plain = Dialect::new(target);
         let rgb = self.spec.rgb && target.generic.is_none();
+        if rgb && !target.vector_operators {
+            let why = format!("{} has no operators on vectors, which a signal of three channels needs", target.title);
+            let help = "leave `rgb` out and call the function once a channel, or name another target".to_owned();
+            return Err(self.limit(target, why, help));
+        }
         Ok(Dialect { rgb, half: self.spec.half, arrays: arrays.unwrap_or(plain.arrays), ..plain })
     }
 

@@ -91,13 +91,23 @@ pub enum Measure {
     Through(fn(usize) -> Kernel),
 }
 
-/// How a rounding bound is proven, where the measure and the parameters' domains do not say it.
+/// What a kernel does to the bands of its signal, where its error is measured by bands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acts {
+    /// It turns or reflects the signal as its parameters say: no band mixes with another, and each keeps its norm but for the
+    /// error of an approximate method.
+    Turns,
+    /// Something else, to each band by itself.
+    Bands,
+    /// A constant map that mixes bands.
+    Mixes,
+}
+
+/// How a rounding bound is proven, where the measure, the bands and the parameters' domains do not say it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// Values, sums or bands, as the measure says.
+    /// Values, sums, bands or all of them at once, as the measure and what is done to the bands say.
     Auto,
-    /// A constant map that mixes bands.
-    Mixed,
     /// Lobes that are turned: stages of three scalars are directions.
     Lobes,
     /// Not at all: the measured worst case times a margin is promised.
@@ -242,6 +252,8 @@ pub struct Family {
     pub branch: Option<fn(&Spec) -> Branch>,
     /// What its error is measured against.
     pub measure: Measure,
+    /// What it does to the bands of its signal.
+    pub acts: Acts,
     /// How its error is proven.
     pub proof: Proof,
     /// The largest y angle in radians, if it does not take every angle.
@@ -275,6 +287,7 @@ impl Family {
         kernel: |spec| unreachable!("`{}` has no kernel", spec.family.name),
         branch: None,
         measure: Measure::Bands,
+        acts: Acts::Turns,
         proof: Proof::Auto,
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],

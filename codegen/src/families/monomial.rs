@@ -2,7 +2,7 @@
 //! one operation a channel, which is the floor for n² free coefficients, and only the powers of x + iy are shared besides
 //! (docs/MATH.md#monomials). The coefficients are turned once, when they are stored, by `to_monomial`.
 
-use crate::families::family::{Family, Group, Measure, Proof, Spec};
+use crate::families::family::{Acts, Family, Group, Measure, Spec};
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::phases::{Phase, turn};
 use crate::ir::graph::{Graph, Id};
@@ -41,7 +41,7 @@ pub static TO_MONOMIAL: Family = Family {
         )
     },
     kernel: |spec| from_harmonics(spec.order),
-    proof: Proof::Mixed,
+    acts: Acts::Mixes,
     shown: |order| Spec::new(&TO_MONOMIAL, order).both(),
     ..Family::PLAIN
 };

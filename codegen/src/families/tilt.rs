@@ -2,7 +2,7 @@
 //! Bands 1 and 2 are exact closed forms; from band 3 on three or five parity shears, regular at n = z and odd in (nx, ny), so
 //! that the inverse is the same code with −n (docs/MATH.md#the-tilt).
 
-use crate::families::family::{AngleAs, ByBand, Does, Family, Group, Job, Spec, Spelled, small_angle};
+use crate::families::family::{Acts, AngleAs, ByBand, Does, Family, Group, Job, Spec, Spelled, small_angle};
 use crate::families::parts::bands::each_band;
 use crate::families::parts::params::{normal, signal};
 use crate::families::parts::small_angle::{ParityShear, SmallAngle, names, parity_shears};
@@ -71,6 +71,7 @@ pub static TILT_PRESCALED: Family = Family {
     },
     by_band: Some(BY_BAND),
     kernel: |spec| tilt(spec.order, &spec.methods, true),
+    acts: Acts::Bands,
     shown: |order| if order > 3 { both_shears(&TILT_PRESCALED, order) } else { vec![] },
     ..Family::PLAIN
 };
@@ -87,6 +88,7 @@ pub static TILT_SCALE: Family = Family {
         )
     },
     kernel: |spec| rescale(spec.order, false),
+    acts: Acts::Bands,
     shown: |order| if order > 3 { Spec::new(&TILT_SCALE, order).both() } else { vec![] },
     ..Family::PLAIN
 };
@@ -103,6 +105,7 @@ pub static TILT_UNSCALE: Family = Family {
         )
     },
     kernel: |spec| rescale(spec.order, true),
+    acts: Acts::Bands,
     shown: |order| if order > 3 { Spec::new(&TILT_UNSCALE, order).both() } else { vec![] },
     ..Family::PLAIN
 };

@@ -6,7 +6,7 @@ use crate::wrap::{self, VECTOR};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::language::Target;
-use zonal_codegen::families::family::{Measure, Proof};
+use zonal_codegen::families::family::{Acts, Measure};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::graph::Kind;
@@ -165,7 +165,7 @@ impl Cases {
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         let family = function.spec.family;
-        let by_band = matches!(family.measure, Measure::Bands) && family.proof != Proof::Mixed;
+        let by_band = matches!(family.measure, Measure::Bands) && family.acts != Acts::Mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
         for case in 0..count {

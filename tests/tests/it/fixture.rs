@@ -9,6 +9,9 @@ use std::time::SystemTime;
 use serde_json::Value;
 use zonal_tests::repository;
 
+/// Where crates of users are built, those of other tests too.
+pub(crate) const USERS: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/fixture");
+
 /// Runs cargo on the fixture and returns what it printed. Its packages are those of the workspace, so that nothing is
 /// fetched.
 fn cargo(command: &str, options: &[&str]) -> String {
@@ -16,7 +19,7 @@ fn cargo(command: &str, options: &[&str]) -> String {
         .args([command, "--offline", "--manifest-path"])
         .arg(repository("tests/fixture/Cargo.toml"))
         .args(options)
-        .env("CARGO_TARGET_DIR", concat!(env!("CARGO_TARGET_TMPDIR"), "/fixture"))
+        .env("CARGO_TARGET_DIR", USERS)
         .output()
         .expect("cargo runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();

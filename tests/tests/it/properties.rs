@@ -1,255 +1,453 @@
-//! What rotations promise, over random and extreme rotations: the group law, inverses, the identity, norms, each method
-//! at its own bound; and where bad numbers may spread.
+//! What every family promises by its record: whatever the record says of a kernel, that it turns, that it is linear, that it
+//! has another form, is tried on seeded inputs, extremes first. A new family is tested by existing, and fails where
+//! nothing can be tested of it. That the basis is orthonormal is checked by itself, since the others rest on it.
 
-use zonal_codegen::families::Spec;
-use zonal_codegen::promise::accuracy::method_errors;
-use zonal_codegen::promise::samples::{Random, inputs};
-use zonal_tests::{Runner, band_error, norm, quaternion_product, spec};
+use half::f16;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
+use zonal_codegen::emit::language::WGSL;
+use zonal_codegen::families::family::{Acts, Measure, Proof};
+use zonal_codegen::families::parts::small_angle::parity_shears;
+use zonal_codegen::families::{ALL, Family, Form, SmallAngle, Spec};
+use zonal_codegen::generate::build;
+use zonal_codegen::ir::eval::Number;
+use zonal_codegen::promise::accuracy::Meaning;
+use zonal_codegen::promise::law;
+use zonal_codegen::promise::samples::inputs;
+use zonal_tests::shader::Language;
+use zonal_tests::turns::{
+    Matrix, Origin, Parameters, Sphere, Trial, Turn, composed, gauss_legendre, identity, inverse, places, product,
+    transposed, turn, whole,
+};
+use zonal_tests::{Runner, larger, norm};
 
-/// Every way to rotate by a quaternion.
-fn quaternion_rotations(order: usize) -> Vec<Spec> {
-    let methods: &[&str] = if order <= 3 { &["zyz", "zxzxz", "tensor"] } else { &["zyz", "zxzxz"] };
-    methods.iter().map(|method| spec(&format!("rotate:{order}:{method}"))).collect()
+/// The orders at which families are tried; all that a kernel is made of is there at the last.
+const ORDERS: RangeInclusive<usize> = 2..=5;
+/// How many inputs each kernel is tried on.
+const COUNT: usize = 40;
+/// The first input that is none of the extremes.
+const ORDINARY: usize = 16;
+/// What f64 may round off a band of norm one: some hundred operations of 1.1e-16 each, amplified by a lobe set's condition
+/// or a lifted rotation's tangents at most a few times.
+const ROUNDING: f64 = 1e-13;
+
+/// Whether a property is the kernel's, and if so, what contradicts it.
+type Tried = Result<bool, String>;
+
+/// What tries a property on a kernel.
+type Property = fn(&Spec) -> Tried;
+
+/// All properties, each with its name.
+pub(crate) const PROPERTIES: [(&str, Property); 10] = [
+    ("finite", is_finite),
+    ("linear", is_linear),
+    ("bands", bands_do_not_mix),
+    ("norms", norms_are_kept),
+    ("turns", it_turns_as_it_says),
+    ("identity", no_turn_changes_nothing),
+    ("group", turns_are_undone_and_composed),
+    ("loop", the_loop_is_the_same),
+    ("some bands", some_bands_are_the_same),
+    ("half", f16_errs_by_its_roundoff),
+];
+
+/// What every kernel has, whatever it does.
+pub(crate) const OF_ALL: &str = "finite";
+
+fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(what()) }
 }
 
-/// Rotations and signals, extremes first, and random quaternions for a second rotation.
-fn trials(spec: &Spec, count: usize) -> Vec<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    let params = spec.kernel().params;
-    let first = inputs(&params, 31, count, None);
-    let mut random = Random::new(37);
-    first.into_iter().map(|input| (input[0].clone(), random.unit::<4>().to_vec(), input[1].clone())).collect()
+/// A kernel and what it is tried on.
+struct Subject {
+    runner: Runner<f64>,
+    parameters: Parameters,
+    trials: Vec<Trial>,
 }
 
-fn conjugate(q: &[f64]) -> Vec<f64> {
-    vec![-q[0], -q[1], -q[2], q[3]]
-}
+impl Subject {
+    fn new(spec: &Spec) -> Self {
+        let parameters = Parameters::new(spec.code().params());
+        Self { runner: Runner::new(spec), trials: parameters.trials(31, COUNT), parameters }
+    }
 
-fn unit(q: &[f64]) -> Vec<f64> {
-    q.iter().map(|x| x / norm(q)).collect()
-}
-
-#[test]
-fn rotations_form_a_group() {
-    for order in [2, 3, 4, 6, 10] {
-        for spec in quaternion_rotations(order) {
-            let rotate = Runner::<f64>::new(&spec);
-            for (a, b, c) in trials(&spec, 120) {
-                let (a, b) = (unit(&a), unit(&b));
-                let once = rotate.run(&[unit(&quaternion_product(&a, &b)), c.clone()]);
-                let twice = rotate.run(&[a.clone(), rotate.run(&[b, c.clone()])]);
-                // Three rotations of some 1e-15 each (goldens.rs measures one).
-                assert!(band_error(&twice, &once) <= 3e-14, "{spec} at {a:?}");
-                let back = rotate.run(&[conjugate(&a), rotate.run(&[a.clone(), c.clone()])]);
-                assert!(band_error(&back, &c) <= 3e-14, "{spec} at {a:?}");
-            }
-        }
+    fn run(&self, origins: &[Origin], signal: &[f64]) -> Vec<f64> {
+        self.runner.run(&self.parameters.inputs(origins, signal))
     }
 }
 
-#[test]
-fn rotations_keep_the_norm_of_every_band_in_f32() {
-    for order in [3, 5, 8, 10] {
-        for spec in quaternion_rotations(order) {
-            let rotate = Runner::<f32>::new(&spec);
-            let bound = zonal_codegen::promise::built::Built::new(&spec).accuracy.rounding_f32;
-            for (q, _, c) in trials(&spec, 200) {
-                let out = rotate.run(&[q.clone(), c.clone()]);
-                for l in 0..order {
-                    let range = l * l..(l + 1) * (l + 1);
-                    let (before, after) = (norm(&c[range.clone()]), norm(&out[range]));
-                    // The quaternion itself is rounded: its norm is one within 1.2e-7, band l of a vector-and-tensor
-                    // rotation grows with the 2l-th power of it.
-                    let slack = bound + 2.0 * l as f64 * 1.2e-7;
-                    assert!((after / before - 1.0).abs() <= slack, "{spec}, band {l} at {q:?}");
-                }
-            }
-        }
-    }
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    norm(&a.iter().zip(b).map(|(x, y)| x - y).collect::<Vec<_>>())
 }
 
-/// Order 2 returns its input to the last bit; the others, whose constants are rounded, within a few roundings, printed.
-#[test]
-fn the_identity_changes_nothing_or_a_few_roundings() {
-    for order in 2..=10 {
-        for spec in quaternion_rotations(order) {
-            for q in [vec![0.0, 0.0, 0.0, 1.0], vec![0.0, 0.0, 0.0, -1.0]] {
-                let (_, _, c) = trials(&spec, 1).remove(0);
-                let narrow = Runner::<f32>::new(&spec).run(&[q.clone(), c.clone()]);
-                let ulps = narrow.iter().zip(&c).map(|(got, want)| {
-                    (got - want).abs() / (f64::from(f32::EPSILON) * want.abs().max(f64::MIN_POSITIVE))
-                });
-                let worst = ulps.fold(0.0, f64::max);
-                let error = band_error(&narrow, &c);
-                println!("{spec} at w = {}: {error:.1e} of a band's norm, {worst:.0} ulps at worst", q[3]);
-                if order == 2 && spec.to_string() == "rotate:2" {
-                    assert_eq!(narrow, c, "{spec}: to the last bit");
-                }
-                // 3e-7 is five roundings of a band's largest value.
-                assert!(error <= 3e-7, "{spec}: {error:e}");
-            }
-        }
-    }
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|x| x.to_bits()).collect()
 }
 
-#[test]
-fn z_and_y_rotations_add_their_angles() {
-    for order in [2, 5, 10] {
-        for family in ["rotate_z", "rotate_y"] {
-            let spec = spec(&format!("{family}:{order}"));
-            let rotate = Runner::<f64>::new(&spec);
-            let mut random = Random::new(41);
-            for (_, _, c) in trials(&spec, 60) {
-                let ([a, b], [p, q]) = (random.unit::<2>(), random.unit::<2>());
-                let sum = vec![a * p - b * q, a * q + b * p];
-                let twice = rotate.run(&[vec![a, b], rotate.run(&[vec![p, q], c.clone()])]);
-                assert!(band_error(&twice, &rotate.run(&[sum, c.clone()])) <= 3e-14, "{spec}");
-                let back = rotate.run(&[vec![a, -b], rotate.run(&[vec![a, b], c.clone()])]);
-                assert!(band_error(&back, &c) <= 3e-14, "{spec}");
-            }
-        }
+fn is_finite(spec: &Spec) -> Tried {
+    let (narrow, wide) = (Runner::<f32>::new(spec), Runner::<f64>::new(spec));
+    for input in inputs(spec.code().params(), 29, COUNT, None) {
+        let all = [narrow.run(&input), wide.run(&input)].concat();
+        ensure(all.iter().all(|x| x.is_finite()), || format!("{input:?} makes {all:?}"))?;
     }
+    Ok(true)
 }
 
-/// An approximate rotation differs from the exact one by its method error at most, whatever the signal, and shears are
-/// undone exactly by the shears of the opposite angle.
-#[test]
-fn approximate_rotations_keep_their_bounds() {
-    for order in [3, 5, 8] {
-        for method in ["taylor1", "taylor15", "taylor2", "lf3"] {
-            let spec = spec(&format!("{method}:{order}"));
-            let (small, exact) =
-                (Runner::<f64>::new(&spec), Runner::<f64>::new(&zonal_tests::spec(&format!("rotate_y:{order}"))));
-            for degrees in [0.1f64, 1.0, 5.0, 15.0, 30.0] {
-                let beta = degrees.to_radians();
-                let bound = method_errors(&spec, &[beta])[0];
-                for (_, _, c) in trials(&spec, 40) {
-                    let got = small.run(&[vec![beta], c.clone()]);
-                    let want = exact.run(&[vec![beta.cos(), beta.sin()], c.clone()]);
-                    let error = band_error(&got, &want);
-                    assert!(error <= bound * 1.000_001 + 1e-14, "{spec} at {degrees}: {error:e} above {bound:e}");
-                    if method == "lf3" {
-                        let back = small.run(&[vec![-beta], got]);
-                        assert!(band_error(&back, &c) <= 1e-13, "{spec} at {degrees}");
+/// Sums of signals become sums, a signal times a power of two becomes that to the last bit, and zeros stay zeros.
+fn is_linear(spec: &Spec) -> Tried {
+    if !spec.family.has_signal() {
+        return Ok(false);
+    }
+    let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
+    for (i, trials) in subject.trials.windows(2).enumerate() {
+        let (origins, x, y) = (&trials[0].origins, &trials[0].signal, &trials[1].signal);
+        let of = |signal: &[f64]| subject.run(origins, signal);
+        let (fx, fy) = (of(x), of(y));
+        let sum = |x: &[f64], y: &[f64]| -> Vec<f64> { x.iter().zip(y).map(|(a, b)| 0.75 * a - 1.5 * b).collect() };
+        let size = [x, y, &fx, &fy].map(|list| norm(list)).iter().sum::<f64>();
+        let error = difference(&of(&sum(x, y)), &sum(&fx, &fy));
+        ensure(error <= ROUNDING * size, || format!("sums: {error:e} of {size} at {origins:?}"))?;
+        let zeros = vec![0.0; x.len()];
+        let inputs = subject.parameters.inputs(origins, &zeros);
+        let nothing = [of(&zeros), narrow.run(&inputs)].concat();
+        ensure(nothing.iter().all(|&x| x == 0.0), || format!("zeros become {nothing:?} at {origins:?}"))?;
+        let scaled =
+            |list: &[f64], exponent: i32| -> Vec<f64> { list.iter().map(|x| x * 2f64.powi(exponent)).collect() };
+        for exponent in [-300, 300] {
+            let same = bits(&of(&scaled(x, exponent))) == bits(&scaled(&fx, exponent));
+            ensure(same, || format!("2^{exponent} times {x:?} at {origins:?}"))?;
+        }
+        // In f32 products of tiny parameters and small signals are subnormal.
+        for exponent in [-60, 60].into_iter().filter(|_| i >= ORDINARY) {
+            let of = |signal: &[f64]| narrow.run(&subject.parameters.inputs(origins, signal));
+            let same = bits(&of(&scaled(x, exponent))) == bits(&scaled(&of(x), exponent));
+            ensure(same, || format!("2^{exponent} times {x:?} at {origins:?} in f32"))?;
+        }
+    }
+    Ok(true)
+}
+
+/// A bad number in one band stays in that band: infinite, NaN, huge or denormal.
+fn bands_do_not_mix(spec: &Spec) -> Tried {
+    let family = spec.family;
+    if !matches!(family.measure, Measure::Bands) || family.acts == Acts::Mixes {
+        return Ok(false);
+    }
+    let (subject, narrow, order) = (Subject::new(spec), Runner::<f32>::new(spec), spec.order);
+    for Trial { origins, signal } in subject.trials.iter().skip(ORDINARY).take(4) {
+        let run = |signal: &[f64]| narrow.run(&subject.parameters.inputs(origins, signal));
+        let clean = run(signal);
+        // A loop may read beyond its band and multiply by zero, which stops finite numbers alone.
+        let bad = [1e38, 1e-38, 1e-45, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        for bad in bad.into_iter().filter(|bad| bad.is_finite() || spec.form == Form::Unrolled) {
+            for band in 0..order {
+                for place in places(band, order, signal.len()) {
+                    let mut spoilt = signal.clone();
+                    spoilt[place] = bad;
+                    let got = run(&spoilt);
+                    for l in (0..order).filter(|&l| l != band) {
+                        let range = places(l, order, clean.len());
+                        let same = bits(&got[range.clone()]) == bits(&clean[range]);
+                        ensure(same, || format!("{bad} in band {band} reaches band {l} at {origins:?}"))?;
                     }
                 }
             }
         }
     }
+    Ok(true)
 }
 
-#[test]
-fn tilts_are_undone_by_the_opposite_normal() {
-    for order in 2..=10 {
-        let spec = spec(&format!("tilt:{order}"));
-        let tilt = Runner::<f64>::new(&spec);
-        for (_, _, c) in trials(&spec, 5) {
-            let mut random = Random::new(43);
-            for _ in 0..20 {
-                let [x, y] = random.unit::<2>().map(|v| v * 0.3);
-                let z = (1.0 - x * x - y * y).sqrt();
-                let there = tilt.run(&[vec![x, y, z], c.clone()]);
-                let back = tilt.run(&[vec![-x, -y, z], there]);
-                assert!(band_error(&back, &c) <= 1e-13, "{spec}");
+/// Whether it turns its signal, and without an error but rounding's.
+fn turns_exactly(spec: &Spec) -> bool {
+    matches!(spec.family.measure, Measure::Bands) && spec.family.acts == Acts::Turns && !spec.is_approximate()
+}
+
+fn norms_are_kept(spec: &Spec) -> Tried {
+    if !turns_exactly(spec) {
+        return Ok(false);
+    }
+    let (subject, order) = (Subject::new(spec), spec.order);
+    for Trial { origins, signal } in &subject.trials {
+        let out = subject.run(origins, signal);
+        for l in 0..order {
+            let [before, after] = [signal, &out].map(|list| norm(&list[places(l, order, list.len())]));
+            let error = (after / before - 1.0).abs();
+            ensure(error <= ROUNDING, || format!("band {l} changes by {error:e} at {origins:?}"))?;
+        }
+    }
+    Ok(true)
+}
+
+/// The orthogonal matrix by which a kernel turns band 1, which is (−y, z, −x).
+fn of_band_1(run: impl Fn(&[f64]) -> Vec<f64>, order: usize) -> Result<Matrix, String> {
+    let mut matrix = Matrix::default();
+    for (axis, (place, sign)) in [(3, -1.0), (1, -1.0), (2, 1.0)].into_iter().enumerate() {
+        let mut signal = vec![0.0; order * order];
+        signal[place] = sign;
+        let out = run(&signal);
+        matrix[3 * axis..3 * axis + 3].copy_from_slice(&[-out[3], -out[1], out[2]]);
+    }
+    let square = product(&transposed(&matrix), &matrix);
+    let error = difference(&square, &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    ensure(error <= ROUNDING, || format!("band 1 is turned by {matrix:?}"))?;
+    Ok(matrix)
+}
+
+/// Each band is turned as the parameters say, or, where they do not say it, as band 1 is; an approximate rotation errs by at
+/// most its method's law. A set-up is tried through what it is made for.
+fn it_turns_as_it_says(spec: &Spec) -> Tried {
+    let (family, order) = (spec.family, spec.order);
+    let through = match family.measure {
+        Measure::Through(rotation) => Some(Runner::<f64>::of(&rotation(order))),
+        Measure::Bands if family.acts == Acts::Turns => None,
+        _ => return Ok(false),
+    };
+    let (subject, sphere) = (Subject::new(spec), Sphere::new(order));
+    for (i, Trial { origins, signal }) in subject.trials.iter().enumerate() {
+        let run = |signal: &[f64]| match &through {
+            Some(rotation) => rotation.run(&[subject.run(origins, &[]), signal.to_vec()]),
+            None => subject.run(origins, signal),
+        };
+        let mut signal = match &through {
+            Some(_) => (0..order * order).map(|place| ((i + 1) * (place + 3)) as f64 % 7.0 - 2.5).collect(),
+            None => signal.clone(),
+        };
+        let matrix = match turn(spec, origins) {
+            Some(Turn::Whole(matrix)) => matrix,
+            Some(Turn::Axis(matrix)) => {
+                // A spin about the axis changes nothing of a zonal signal.
+                if signal.len() == order * order {
+                    (0..signal.len()).filter(|place| *place != place.isqrt() * (place.isqrt() + 1)).for_each(|place| {
+                        signal[place] = 0.0;
+                    });
+                }
+                matrix
+            }
+            None => of_band_1(run, order)?,
+        };
+        let (got, want) = (run(&signal), sphere.turned(&matrix, &whole(&signal, order)));
+        // The quadrature rounds as much in every band.
+        let rounding = ROUNDING * norm(&signal);
+        let angle = matrix[6].hypot(matrix[7]).atan2(matrix[8]);
+        for (l, law) in law::errors(spec, angle).into_iter().enumerate() {
+            let range = places(l, order, order * order);
+            let (error, size) = (difference(&got[range.clone()], &want[range.clone()]), norm(&want[range]));
+            let most = law.max * (1.0 + 1e-9) * size + rounding;
+            ensure(error <= most, || format!("band {l} errs by {error:e}, not {most:e}, at {origins:?}"))?;
+        }
+    }
+    Ok(true)
+}
+
+/// Where the parameters say no rotation, f32 rounds a few times: 3e-7 is five roundings of a band's largest value, and
+/// lobes are as many terms to sum.
+fn no_turn_changes_nothing(spec: &Spec) -> Tried {
+    let order = spec.order;
+    if !matches!(spec.family.measure, Measure::Bands) || spec.family.acts != Acts::Turns {
+        return Ok(false);
+    }
+    let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
+    let mut tried = false;
+    for Trial { origins, signal } in &subject.trials {
+        let none: Vec<Origin> = origins.iter().map(identity).collect();
+        // A kernel without parameters turns always, and one that leaves a spin open may do it at z.
+        let zonal = signal.len() == order;
+        if none.is_empty() || (matches!(turn(spec, &none), Some(Turn::Axis(_))) && !zonal) {
+            continue;
+        }
+        let out = narrow.run(&subject.parameters.inputs(&none, signal));
+        let want = whole(signal, order);
+        for l in 0..order {
+            let range = places(l, order, want.len());
+            let (error, size) = (difference(&out[range.clone()], &want[range.clone()]), norm(&want[range]));
+            let most = if spec.family.proof == Proof::Lobes { 6e-7 } else { 3e-7 };
+            ensure(error <= most * size, || format!("band {l} changes by {:e}", error / size))?;
+        }
+        tried = true;
+    }
+    Ok(tried)
+}
+
+/// Shears of both parities are undone by those of the opposite angle.
+fn is_invertible(method: SmallAngle, l: usize) -> bool {
+    method == SmallAngle::Exact || !parity_shears(l, method).is_empty()
+}
+
+/// What turns exactly, or by shears, is undone by the inverse's parameters; what turns exactly is composed.
+fn turns_are_undone_and_composed(spec: &Spec) -> Tried {
+    let (family, order) = (spec.family, spec.order);
+    let undone = spec.methods.iter().zip(1..).all(|(&method, l)| is_invertible(method, l));
+    if !matches!(family.measure, Measure::Bands) || family.acts != Acts::Turns || !undone {
+        return Ok(false);
+    }
+    let subject = Subject::new(spec);
+    if subject.parameters.signal_length() != Some(order * order) {
+        return Ok(false);
+    }
+    let mut tried = false;
+    for trials in subject.trials.windows(2) {
+        let (a, b, signal) = (&trials[0].origins, &trials[1].origins, &trials[0].signal);
+        let once = subject.run(a, signal);
+        let close = |got: &[f64], want: &[f64], what: &str| {
+            let error = (0..order).map(|l| {
+                let range = places(l, order, want.len());
+                difference(&got[range.clone()], &want[range.clone()]) / norm(&want[range])
+            });
+            let error = error.fold(0.0, larger);
+            ensure(error <= 3.0 * ROUNDING, || format!("{what}: {error:e} at {a:?}, {b:?}"))
+        };
+        let back: Option<Vec<Origin>> = a.iter().map(inverse).collect();
+        if let Some(back) = back.filter(|back| !back.is_empty()) {
+            close(&subject.run(&back, &once), signal, "there and back")?;
+            tried = true;
+        }
+        let both: Option<Vec<Origin>> = a.iter().zip(b).map(|(a, b)| composed(a, b)).collect();
+        if let Some(both) = both.filter(|both| !both.is_empty() && !spec.is_approximate()) {
+            close(&subject.run(a, &subject.run(b, signal)), &subject.run(&both, signal), "one after the other")?;
+            tried = true;
+        }
+    }
+    Ok(tried)
+}
+
+fn the_loop_is_the_same(spec: &Spec) -> Tried {
+    let looped = spec.clone().looped();
+    if !spec.family.looped.is_some_and(|family| (family.has)(spec)) || spec.form == Form::Loop {
+        return Ok(false);
+    }
+    let (subject, again) = (Subject::new(spec), Runner::<f64>::new(&looped));
+    for Trial { origins, signal } in &subject.trials {
+        let input = subject.parameters.inputs(origins, signal);
+        let (want, got) = (subject.runner.run(&input), again.run(&input));
+        let error = difference(&got, &want);
+        ensure(error <= ROUNDING * norm(&want), || format!("the loop is {error:e} off at {origins:?}"))?;
+    }
+    Ok(true)
+}
+
+/// A kernel of some bands is that of all of them with nothing in the others.
+fn some_bands_are_the_same(spec: &Spec) -> Tried {
+    if !spec.family.some_bands || !spec.is_whole() || spec.form == Form::Loop {
+        return Ok(false);
+    }
+    let (subject, order) = (Subject::new(spec), spec.order);
+    // Every set of bands but none and all.
+    for set in 1..(1usize << order) - 1 {
+        let bands: Vec<usize> = (0..order).filter(|l| set >> l & 1 == 1).collect();
+        let some = Subject::new(&Spec { bands: bands.clone(), ..spec.clone() });
+        let packed = |list: &[f64]| -> Vec<f64> {
+            bands.iter().flat_map(|&l| &list[l * l..(l + 1) * (l + 1)]).copied().collect()
+        };
+        for Trial { origins, signal } in subject.trials.iter().step_by(5) {
+            let mut other = signal.clone();
+            (0..order).filter(|l| !bands.contains(l)).flat_map(|l| l * l..(l + 1) * (l + 1)).for_each(|place| {
+                if let Some(x) = other.get_mut(place) {
+                    *x = 0.0;
+                }
+            });
+            let want = subject.run(origins, &other);
+            let want = if want.len() == order * order { packed(&want) } else { want };
+            let got = some.run(origins, &if signal.is_empty() { vec![] } else { packed(signal) });
+            let error = difference(&got, &want);
+            ensure(got.len() == want.len() && error <= ROUNDING * (1.0 + norm(signal)), || {
+                format!("bands {bands:?} are {error:e} off at {origins:?}")
+            })?;
+        }
+    }
+    Ok(true)
+}
+
+/// f16 errs by its unit roundoff as f32 does by its own, on inputs that both hold, and once more by what it does to constants.
+fn f16_errs_by_its_roundoff(spec: &Spec) -> Tried {
+    if !spec.takes_half() {
+        return Ok(false);
+    }
+    let half = Spec { half: true, ..spec.clone() };
+    let (tiny, narrow, wide) = (Runner::<f16>::new(&half), Runner::<f32>::new(spec), Runner::<f64>::new(spec));
+    let (measure, meaning) = (spec.family.measure, Meaning::of(spec));
+    let (mut worst_half, mut worst) = (0.0, 0.0);
+    for input in inputs(spec.code().params(), 47, COUNT, None) {
+        let input: Vec<Vec<f64>> =
+            input.iter().map(|list| list.iter().map(|&x| f16::from_f64(x).to_f64()).collect()).collect();
+        let want = meaning.apply(wide.run(&input));
+        let error = |got: Vec<f64>| measure.error(&meaning.apply(got), &want, spec.order);
+        worst_half = larger(worst_half, error(tiny.run(&input)) / f16::UNIT_ROUNDOFF);
+        worst = larger(worst, error(narrow.run(&input)) / f32::UNIT_ROUNDOFF);
+    }
+    ensure(worst_half <= 4.0 * worst.max(1.0), || format!("f16 errs by {worst_half} of its roundoff, f32 by {worst}"))?;
+    Ok(true)
+}
+
+/// The scalar kernels of a family that the catalogue shows at the orders that are tried.
+pub(crate) fn specs(family: &Family) -> Vec<Spec> {
+    ORDERS.flat_map(family.shown).filter(|spec| !spec.rgb).collect()
+}
+
+/// The properties of a family's kernels; each contradiction with its kernel and its property.
+pub(crate) fn tried(specs: &[Spec]) -> (BTreeSet<&'static str>, Vec<(String, &'static str)>) {
+    let (mut held, mut faults) = (BTreeSet::new(), Vec::new());
+    for spec in specs {
+        for (name, property) in PROPERTIES {
+            match property(spec) {
+                Ok(true) => _ = held.insert(name),
+                Ok(false) => {}
+                Err(fault) => faults.push((format!("{spec}: {name}: {fault}"), name)),
             }
         }
     }
+    (held, faults)
 }
 
-/// The nodes and weights of Gauss and Legendre on [−1, 1], by Newton's method.
-fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let legendre = |x: f64| -> (f64, f64) {
-        let (mut last, mut value) = (1.0, x);
-        for k in 2..=count {
-            let k = k as f64;
-            (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
+#[test]
+fn every_family_has_the_properties_that_its_record_says() {
+    let all: Vec<_> = ALL.par_iter().with_max_len(1).map(|family| (family, tried(&specs(family)))).collect();
+    let mut families: BTreeMap<&str, Vec<String>> = PROPERTIES.iter().map(|(name, _)| (*name, vec![])).collect();
+    let mut faults = Vec::new();
+    for (family, (held, found)) in all {
+        faults.extend(found.into_iter().map(|(fault, _)| fault));
+        if !held.iter().any(|name| *name != OF_ALL) {
+            faults.push(format!("{family:?}: nothing can be tested of it"));
         }
-        (value, count as f64 * (x * value - last) / (x * x - 1.0))
-    };
-    (0..count)
-        .map(|i| {
-            let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
-            for _ in 0..10 {
-                let (value, slope) = legendre(x);
-                x -= value / slope;
-            }
-            let slope = legendre(x).1;
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
+        held.iter().for_each(|name| families.get_mut(name).expect("is listed").push(format!("{family:?}")));
+    }
+    families
+        .iter()
+        .for_each(|(name, families)| println!("{name}: {} of {}, {}", families.len(), ALL.len(), families.join(", ")));
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(families.values().all(|families| !families.is_empty()), "{families:?}");
+}
+
+#[test]
+fn three_channels_are_three_scalars() {
+    let with_signal = ALL.iter().filter(|family| family.has_signal());
+    let lowest = |family: &&Family| ORDERS.map(family.shown).find(|specs| !specs.is_empty()).expect("is shown");
+    let specs: Vec<Spec> = with_signal.flat_map(lowest).filter(|spec| spec.rgb).collect();
+    assert!(specs.len() > 25);
+    build(&specs).par_iter().for_each(|function| crate::shaders::check(function, &WGSL, Language::Wgsl));
 }
 
 #[test]
 fn the_basis_is_orthonormal() {
-    // n nodes in z and 2n in φ integrate products of order n exactly.
-    for order in [2usize, 5, 10] {
-        let basis = Runner::<f64>::new(&spec(&format!("basis:{order}")));
-        let size = order * order;
-        let mut gram = vec![0.0; size * size];
-        for (z, weight) in gauss_legendre(order) {
-            for j in 0..2 * order {
-                let phi = j as f64 * std::f64::consts::PI / order as f64;
-                let s = (1.0 - z * z).sqrt();
-                let y = basis.run(&[vec![s * phi.cos(), s * phi.sin(), z]]);
-                for (a, ya) in y.iter().enumerate() {
-                    for (b, yb) in y.iter().enumerate() {
-                        gram[a * size + b] += ya * yb * weight * std::f64::consts::PI / order as f64;
-                    }
-                }
-            }
-        }
-        for a in 0..size {
-            for b in 0..size {
-                let want = if a == b { 1.0 } else { 0.0 };
-                let error = (gram[a * size + b] - want).abs();
+    for order in [2, 5, 10] {
+        for (a, row) in Sphere::new(order).gram().into_iter().enumerate() {
+            for (b, got) in row.into_iter().enumerate() {
+                let error = (got - f64::from(u8::from(a == b))).abs();
                 assert!(error <= 1e-13, "order {order}: entry {a}, {b} is {error:e} off");
             }
         }
     }
 }
 
-/// A bad number in one band stays in that band: infinite, NaN, huge or denormal.
+/// The quadrature itself: x^2k integrates to 2 / (2k + 1) up to twice the number of nodes.
 #[test]
-fn bands_do_not_mix() {
-    for text in
-        ["rotate:6", "rotate:6:zxzxz", "tilt:6", "lf3:6", "taylor15:6", "rotate_z:6", "swap_yz:6", "rotate:3", "zhf:6"]
-    {
-        let spec = spec(text);
-        let params = spec.kernel().params;
-        let clean = inputs(&params, 47, 20, Some(0.2)).pop().expect("twenty inputs");
-        let runner = Runner::<f32>::new(&spec);
-        let want = runner.run(&clean);
-        let signal = clean.len() - 1;
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e38, 1e-38, 1e-45] {
-            for band in 0..spec.order {
-                let mut input = clean.clone();
-                input[signal][band * band + band] = bad;
-                let got = runner.run(&input);
-                for l in (0..spec.order).filter(|l| *l != band) {
-                    let range = l * l..(l + 1) * (l + 1);
-                    assert_eq!(got[range.clone()], want[range], "{spec}: {bad} in band {band} reached band {l}");
-                }
-            }
-        }
-    }
-}
-
-/// Signals of any size are rotated to the same relative accuracy until a square overflows, which no kernel takes.
-#[test]
-fn huge_and_small_signals_keep_their_relative_accuracy() {
-    for text in ["rotate:5", "rotate:3", "tilt:5", "lf3:5", "eval:5"] {
-        let spec = spec(text);
-        let params = spec.kernel().params;
-        let (narrow, wide) = (Runner::<f32>::new(&spec), Runner::<f64>::new(&spec));
-        for exponent in [-60, -100, 60, 100] {
-            let scale = 2f64.powi(exponent);
-            for input in inputs(&params, 53, 40, Some(0.2)) {
-                let mut scaled = input.clone();
-                let last = scaled.len() - 1;
-                scaled[last].iter_mut().for_each(|x| *x *= scale);
-                let (got, want) = (narrow.run(&scaled), wide.run(&input));
-                let difference: Vec<f64> = got.iter().zip(&want).map(|(a, b)| a / scale - b).collect();
-                assert!(norm(&difference) <= 4e-6 * norm(&input[last]), "{spec} at 2^{exponent}");
-            }
+fn the_quadrature_is_exact() {
+    for count in [2, 5, 10] {
+        let nodes = gauss_legendre(count);
+        for power in 0..2 * count as i32 {
+            let got: f64 = nodes.iter().map(|(x, weight)| weight * x.powi(power)).sum();
+            let want = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
+            assert!((got - want).abs() <= 1e-14, "{count} nodes, x^{power}: {got}");
         }
     }
 }

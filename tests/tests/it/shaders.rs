@@ -53,7 +53,8 @@ fn channels_of(value: &Value, shape: Shape, kind: Kind, channels: usize) -> Vec<
     }
 }
 
-fn check(function: &Function, target: Target, language: Language) {
+/// Prints a function, runs its text channel by channel on seeded inputs, and compares it with the interpreter.
+pub(crate) fn check(function: &Function, target: Target, language: Language) {
     let text = Module::of(function.clone()).text(target).expect("the catalogue fits its targets");
     let name = function.shader_name();
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));

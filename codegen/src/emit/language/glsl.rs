@@ -30,6 +30,7 @@ pub static GLSL: Language = Language {
     brackets: shader::constructor,
     columns: false,
     trailing_comma: false,
+    vector_operators: true,
     multiply_add: MultiplyAdd::Infix,
     spelling,
     statements: Statements {

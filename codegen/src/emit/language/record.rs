@@ -39,6 +39,8 @@ pub struct Language {
     pub columns: bool,
     /// Whether a comma stands after the last item of a value.
     pub trailing_comma: bool,
+    /// Whether vectors are added and multiplied with operators: where they are not, no signal has three channels.
+    pub vector_operators: bool,
     /// How a product and a sum are written as one operation.
     pub multiply_add: MultiplyAdd,
     /// How an operation is written.
@@ -191,6 +193,8 @@ pub enum MultiplyAdd {
     /// As a method of the signal, so that its type decides: `fma`, `fms` and `fnma`, and for the product of two signals
     /// `times` and those with `times_` in front.
     Methods,
+    /// As a function of this name, of two factors and a summand.
+    Call(&'static str),
 }
 
 /// How an operation is written.
@@ -298,6 +302,14 @@ impl Language {
                     Sign::MinusProduct => ["fnma", "times_fnma"],
                 };
                 method(if of_signals(&a, &b) { of_two } else { plain }, &[a, b, c], kind)
+            }
+            Op::Fma(a, b, c, sign) if let MultiplyAdd::Call(name) = self.multiply_add => {
+                let [a, c] = match sign {
+                    Sign::Plus => [a, c],
+                    Sign::MinusAddend => [a, self.operation(Op::Neg(c))],
+                    Sign::MinusProduct => [self.operation(Op::Neg(a)), c],
+                };
+                Text::atom(format!("{name}({})", listed(&[a, b, c])), kind)
             }
             Op::Fma(a, b, c, sign) => {
                 let product = Text::infix(&a, "*", &b);

@@ -23,6 +23,7 @@ pub static RUST: Language = Language {
     brackets: |_| ("[".to_owned(), "]"),
     columns: true,
     trailing_comma: true,
+    vector_operators: true,
     multiply_add: MultiplyAdd::Methods,
     spelling,
     statements: Statements {

@@ -25,6 +25,7 @@ pub static WGSL: Language = Language {
     brackets: shader::constructor,
     columns: false,
     trailing_comma: false,
+    vector_operators: true,
     multiply_add: MultiplyAdd::Infix,
     spelling,
     statements: Statements {

@@ -5,7 +5,7 @@
 pub mod lobes;
 pub mod search;
 
-use crate::families::family::{Family, Group, Proof, Spec};
+use crate::families::family::{Acts, Family, Group, Proof, Spec};
 use crate::families::parts::bands::each_band;
 use crate::families::parts::columns;
 use crate::families::parts::params::{matrix, rotated, signal};
@@ -57,6 +57,7 @@ pub static ZHF_WEIGHTS: Family = Family {
         )
     },
     kernel: |spec| weights_of(spec.order),
+    acts: Acts::Bands,
     shown: |order| Spec::new(&ZHF_WEIGHTS, order).both(),
     ..FACTORISED
 };
@@ -72,6 +73,7 @@ pub static ZHF_TAILORED: Family = Family {
         )
     },
     kernel: |spec| tailored(spec.order),
+    acts: Acts::Bands,
     shown: |order| Spec::new(&ZHF_TAILORED, order).both(),
     ..FACTORISED
 };

@@ -28,7 +28,7 @@ pub mod roundoff;
 pub mod section;
 mod sweep;
 
-use crate::families::family::{MAX_ORDER, Measure, Proof, Spec};
+use crate::families::family::{Acts, MAX_ORDER, Measure, Proof, Spec};
 use crate::ir::code::Code;
 use crate::ir::listing::Listing;
 use plain::plain;
@@ -93,7 +93,6 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
     let prover = Prover::new(spec, listing, max_angle)?;
     match (spec.family.proof, spec.family.measure) {
         (Proof::Nothing, _) => None,
-        (Proof::Mixed, _) => Bound::of(&prover.mixed()?, true),
         (Proof::Lobes, _) => Bound::of(&prover.turned_lobes()?, true),
         (Proof::Auto, Measure::Absolute) => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
         (Proof::Auto, Measure::Whole) => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
@@ -101,6 +100,7 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
             let rotation = Listing::new(&rotation(spec.order));
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)
         }
+        (Proof::Auto, Measure::Bands) if spec.family.acts == Acts::Mixes => Bound::of(&prover.mixed()?, true),
         (Proof::Auto, Measure::Bands) => Bound::of(&prover.bands()?, true),
     }
 }

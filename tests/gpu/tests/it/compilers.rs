@@ -1,15 +1,20 @@
 //! Every text of the catalogue under compilers that are not naga: glslangValidator for each version of GLSL that a file
-//! is meant for, spirv-val for the SPIR-V that naga makes of WGSL.
+//! is meant for, spirv-val for the SPIR-V that naga makes of WGSL. And the files of `generated/` together, as somebody has
+//! them who copies several: all of GLSL under glslangValidator, each file twice; of WGSL, which has no guards, the first
+//! orders under naga, and the names of all.
 
 use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::emit::Function;
-use zonal_codegen::emit::language::{Arrays, GLSL, WGSL};
+use zonal_codegen::emit::language::{Arrays, GLSL, Target, WGSL};
+use zonal_codegen::families::Group;
 use zonal_gpu_tests::system::compile;
 use zonal_gpu_tests::wrap;
-use zonal_tests::catalogue;
+use zonal_tests::{catalogue, repository};
 
 /// The versions of GLSL that a file is meant for.
 const VERSIONS: [&str; 3] = ["300 es", "330", "450"];
@@ -106,4 +111,83 @@ fn spirv_val_accepts_what_naga_makes_of_every_wgsl_text() {
         })
     };
     all_compile("spirv", "spv", spirv, validate);
+}
+
+/// The checked-in files of some orders in one language, each with its name.
+fn group_files(target: Target, orders: impl Iterator<Item = usize>) -> Vec<(String, String)> {
+    orders
+        .flat_map(|order| Group::ALL.map(|group| format!("{target}/sh{order}_{}.{}", group.name(), target.extension)))
+        .map(|name| {
+            let path = repository("generated").join(&name);
+            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            (name, text)
+        })
+        .collect()
+}
+
+/// A fragment shader of files, one after the other, that uses nothing of them.
+fn together<'a>(version: &str, files: impl Iterator<Item = &'a String>) -> String {
+    let text: String = files.map(String::as_str).collect();
+    let precision = if version.ends_with("es") { "precision highp float;\n" } else { "" };
+    format!("#version {version}\n{precision}{text}\nout vec4 colour;\nvoid main() {{ colour = vec4(1.0); }}\n")
+}
+
+#[test]
+fn glslang_accepts_all_group_files_together_and_each_of_them_twice() {
+    let (folder, files) = (folder("glsl together"), group_files(&GLSL, ORDERS));
+    assert_eq!(files.len(), ORDERS.count() * Group::ALL.len());
+    VERSIONS.par_iter().for_each(|version| {
+        let texts = || files.iter().map(|(_, text)| text);
+        let path = folder.join(format!("{version}.frag"));
+        std::fs::write(&path, together(version, texts().chain(texts()))).expect("the target folder can be written");
+        glslang(&[path]).unwrap_or_else(|error| panic!("{error}"));
+    });
+}
+
+#[test]
+fn glslang_refuses_a_group_file_twice_without_its_guard() {
+    let (folder, files) = (folder("glsl twice"), group_files(&GLSL, 2..=2));
+    let bare =
+        |text: &str| text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect();
+    let texts: Vec<String> = files.iter().map(|(_, text)| bare(text)).collect();
+    let path = folder.join("twice.frag");
+    let check = |text: String| {
+        std::fs::write(&path, text).expect("the target folder can be written");
+        glslang(std::slice::from_ref(&path))
+    };
+    assert_eq!(check(together(VERSIONS[0], texts.iter())), Ok(()));
+    let refused = check(together(VERSIONS[0], texts.iter().chain(&texts))).expect_err("a function stands twice");
+    assert!(refused.contains("function already has a body"), "{refused}");
+}
+
+/// What a file of WGSL declares for all that stand beside it.
+fn declared(text: &str) -> Vec<&str> {
+    let keywords = ["fn", "const", "struct", "alias", "override", "var"];
+    let words = text.lines().filter_map(|line| line.split_once(' ')).filter(|(first, _)| keywords.contains(first));
+    words.filter_map(|(_, rest)| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next()).collect()
+}
+
+#[test]
+fn naga_accepts_the_wgsl_group_files_of_the_first_orders_together() {
+    let text: String = group_files(&WGSL, 2..=4).into_iter().map(|(_, text)| text).collect();
+    let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    validator.validate(&module).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+    // What the next test reads is what naga does, but that it renames what ends in a digit.
+    assert_eq!(declared(&text).len(), module.functions.len() + module.constants.len());
+}
+
+#[test]
+fn no_name_stands_in_two_wgsl_group_files() {
+    let files = group_files(&WGSL, ORDERS);
+    let mut places: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for (file, text) in &files {
+        // What a module begins with would have to stand before everything else.
+        assert!(!text.lines().any(|line| ["enable ", "requires "].iter().any(|word| line.starts_with(word))), "{file}");
+        declared(text).into_iter().for_each(|name| places.entry(name).or_default().push(file));
+    }
+    let functions = catalogue().iter().map(Function::shader_name);
+    assert!(functions.clone().count() > 700);
+    functions.for_each(|name| assert!(places.contains_key(name.as_str()), "{name} is in no file"));
+    places.iter().for_each(|(name, files)| assert_eq!(files.len(), 1, "{name} stands in {files:?}"));
 }
