@@ -42,3 +42,4 @@ pub mod plan;
 pub mod promise;
 pub mod reflectance;
 pub mod scene;
+mod threads;
