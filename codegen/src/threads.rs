@@ -11,13 +11,13 @@ use std::thread;
 ///
 /// If `work` or the iterator does, with what it says.
 pub fn map<T, R: Send>(items: impl IntoIterator<Item = T, IntoIter: Send>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let items = items.into_iter().enumerate();
+    let items = items.into_iter();
     let most = items.size_hint().1.unwrap_or(usize::MAX);
     let count = thread::available_parallelism().map_or(1, usize::from).min(most);
     if count < 2 {
-        return items.map(|(_, item)| work(item)).collect();
+        return items.map(work).collect();
     }
-    let items = Mutex::new(items);
+    let items = Mutex::new(items.enumerate());
     let some = || {
         let mut done = Vec::new();
         loop {
