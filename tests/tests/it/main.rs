@@ -8,6 +8,7 @@ mod catalog;
 mod citations;
 mod cli;
 mod environment;
+mod examples;
 mod fixture;
 mod goldens;
 mod half;
