@@ -22,6 +22,8 @@ step "lints"
 cargo clippy --quiet --workspace --all-targets -- -D warnings
 step "runtime without std"
 cargo check --quiet -p zonal --no-default-features --features libm
+step "generator without its checkers"
+cargo check --quiet -p zonal-codegen --no-default-features
 step "tests"
 cargo test --workspace --no-fail-fast
 step "documentation"
