@@ -53,6 +53,7 @@ whole() {
     part "format" cargo fmt --all --check
     part "lints" cargo clippy --quiet --workspace --all-targets -- -D warnings
     part "runtime without std" cargo check --quiet -p zonal --no-default-features --features libm
+    part "generator without its checkers" cargo check --quiet -p zonal-codegen --no-default-features
     part "tests" cargo test --workspace --no-fail-fast
     part "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
 }

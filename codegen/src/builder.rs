@@ -11,6 +11,10 @@
 //! }
 //! ```
 //!
+//! What is generated is parsed and validated before it is written, unless this crate is built without its feature `check`
+//! (`default-features = false`), by which a build script compiles half as long; then nothing is parsed before the compilers
+//! of its user read it.
+//!
 //! Then `include!(concat!(env!("OUT_DIR"), "/kernels.rs"));` in a module of its own, and `include_str!` for the shaders.
 
 use crate::emit::language::{self, Arrays, Target};
@@ -54,7 +58,10 @@ enum Origin {
 }
 
 /// Generates kernels: collects what is wanted, then [`generate`](Self::generate)s, [`write`](Self::write)s or
-/// [`check`](Self::check)s.
+/// [`check`](Self::check)s what is written already.
+///
+/// Every text is parsed and validated, by the feature `check` of this crate. Without that feature nothing is parsed: the
+/// files are what zonal printed. Its own tests have checked the kernels of its catalogue.
 #[derive(Clone, Debug)]
 pub struct Builder {
     origin: Origin,
@@ -137,7 +144,8 @@ impl Builder {
         Ok(Plan::new(&self.resolved()?)?)
     }
 
-    /// The files: one a language and a report of costs, `<name>.md`. They were parsed and validated.
+    /// The files: one a language and a report of costs, `<name>.md`. They were parsed and validated, if this
+    /// crate has its feature `check`.
     ///
     /// # Errors
     ///
@@ -193,7 +201,7 @@ impl From<Scene> for Builder {
     }
 }
 
-/// The files of a plan, validated.
+/// Returns the files of a plan, validated if this crate has its feature `check`.
 ///
 /// # Errors
 ///

@@ -6,8 +6,8 @@ use crate::emit::{Function, Limit, Module};
 use crate::families::family::Spec;
 use crate::files::File;
 use crate::promise::built::Built;
-use rayon::prelude::*;
-use std::collections::BTreeMap;
+use crate::threads;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Why a set of kernels could not be generated.
@@ -23,19 +23,14 @@ pub enum GenerateError {
 
 /// Builds the kernels of specs, each once whatever its channels, in parallel.
 pub fn build(specs: &[Spec]) -> Vec<Function> {
-    let mut bases: BTreeMap<Spec, Option<Arc<Built>>> = specs.iter().map(|spec| (spec.base(), None)).collect();
-    bases.par_iter_mut().for_each(|(spec, built)| *built = Some(Arc::new(Built::new(spec))));
-    specs
-        .iter()
-        .map(|spec| Function {
-            built: bases[&spec.base()].clone().expect("every base was built"),
-            spec: spec.clone(),
-            name: None,
-        })
-        .collect()
+    let bases: BTreeSet<Spec> = specs.iter().map(Spec::base).collect();
+    let built = threads::map(&bases, |spec| Arc::new(Built::new(spec)));
+    let built: BTreeMap<&Spec, Arc<Built>> = bases.iter().zip(built).collect();
+    let function = |spec: &Spec| Function { built: built[&spec.base()].clone(), spec: spec.clone(), name: None };
+    specs.iter().map(function).collect()
 }
 
-/// Prints and validates one module in one language.
+/// Prints and validates one module in one language, by [`validate`].
 pub fn file(module: &Module, target: Target, path: String) -> Result<File, GenerateError> {
     let text = module.text(target)?;
     validate(target, &path, &text)?;

@@ -1,32 +1,8 @@
-//! Two number types for the interpreter: binary16, rounded after every operation, and a pair of doubles, which is what
-//! the rounding of f64 is measured against.
+//! A number type for the interpreter: a pair of doubles, which is what the rounding of f64 is measured against.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use zonal_codegen::ir::eval::Number;
 use zonal_codegen::math::exact::{Exact, Real};
-
-/// A binary16, held as the f64 of the same value.
-///
-/// A sum, a difference, a product, a quotient or a root of two such numbers is rounded from its f64, which has more than
-/// twice the bits, so that rounding twice changes nothing.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Half(f64);
-
-impl Half {
-    const MAX: f64 = 65504.0;
-
-    /// The nearest binary16, ties to even.
-    pub fn round(value: f64) -> Self {
-        if value == 0.0 || !value.is_finite() {
-            return Self(value);
-        }
-        // The exponent of the last bit: ten below the first, and never below that of the denormal numbers.
-        let exponent = ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-        let unit = 2f64.powi((exponent - 10).max(-24));
-        let rounded = (value / unit).round_ties_even() * unit;
-        Self(if rounded.abs() > Self::MAX { f64::INFINITY.copysign(value) } else { rounded })
-    }
-}
 
 /// A number as the sum of two doubles, the second below half a unit in the last place of the first: 106 bits.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -74,13 +50,6 @@ macro_rules! operators {
     )* };
 }
 
-operators! { Half:
-    Add add |a, b| Self::round(a.0 + b.0);
-    Sub sub |a, b| Self::round(a.0 - b.0);
-    Mul mul |a, b| Self::round(a.0 * b.0);
-    Div div |a, b| Self::round(a.0 / b.0);
-}
-
 operators! { Twin:
     Add add |a, b| {
         let sum = two_sum(a.high, b.high);
@@ -98,40 +67,10 @@ operators! { Twin:
     };
 }
 
-impl Neg for Half {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
 impl Neg for Twin {
     type Output = Self;
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
-    }
-}
-
-impl Number for Half {
-    const ONE: Self = Self(1.0);
-    const ZERO: Self = Self(0.0);
-    // The smallest binary16: what f32's tiny number would be is zero here.
-    const TINY: Self = Self(1.0 / 16_777_216.0);
-    const UNIT_ROUNDOFF: f64 = 1.0 / 2048.0;
-    fn nearest(value: &Exact) -> Self {
-        Self::round(value.to_f64())
-    }
-    fn from_f64(value: f64) -> Self {
-        Self::round(value)
-    }
-    fn to_f64(self) -> f64 {
-        self.0
-    }
-    fn root(self) -> Self {
-        Self::round(self.0.sqrt())
-    }
-    fn fused(self, b: Self, c: Self) -> Self {
-        Self::round(self.0 * b.0 + c.0)
     }
 }
 
@@ -169,38 +108,6 @@ impl Number for Twin {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn halves_round_to_even_and_overflow() {
-        for (value, rounded) in [
-            (1.0 + 1.0 / 2048.0, 1.0),
-            (1.0 + 3.0 / 2048.0, 1.0 + 2.0 / 1024.0),
-            (1.0 + 1.01 / 2048.0, 1.0 + 1.0 / 1024.0),
-            (65519.0, 65504.0),
-            (65520.0, f64::INFINITY),
-            (1.6 * 2f64.powi(-24), 2.0 * 2f64.powi(-24)),
-            (0.4 * 2f64.powi(-24), 0.0),
-        ] {
-            assert_eq!(Half::round(value).0, rounded, "{value}");
-            assert_eq!(Half::round(-value).0, -rounded, "{value}");
-        }
-    }
-
-    /// The crate half rounds f32 as hardware does.
-    #[test]
-    fn halves_are_those_of_the_crate_half() {
-        let mut random = zonal_codegen::promise::samples::Random::new(16);
-        for _ in 0..200_000 {
-            let value = f32::from_bits(random.bits() as u32);
-            let (own, other) = (Half::round(f64::from(value)).0, half::f16::from_f32(value).to_f64());
-            assert!(own.to_bits() == other.to_bits() || own.is_nan() && other.is_nan(), "{value}: {own}, not {other}");
-        }
-        // Most of those overflow or vanish: once more where they do neither.
-        for _ in 0..200_000 {
-            let value = (random.signed() * 2f64.powi((random.bits() % 44) as i32 - 27)) as f32;
-            assert_eq!(Half::round(f64::from(value)).0, half::f16::from_f32(value).to_f64(), "{value}");
-        }
-    }
 
     #[test]
     fn twins_hold_a_hundred_bits() {

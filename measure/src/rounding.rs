@@ -1,7 +1,7 @@
 //! The rounding error of each kernel in f16, f32 and f64: the largest error of any band, relative to the band's norm,
 //! over seeded inputs, the extremes among them, with products fused and not. f64 is measured against pairs of doubles.
 
-use crate::numbers::{Half, Twin};
+use crate::numbers::Twin;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use zonal_codegen::families::Spec;
@@ -10,6 +10,7 @@ use zonal_codegen::families::family::Measure;
 use zonal_codegen::families::zhf::{ZHF_TAILORED, ZHF_WEIGHTS};
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::math::half::Half;
 use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on.

@@ -1,4 +1,4 @@
-//! The command `zonal`, built once and run as a user runs it, and folders that vanish after a test.
+//! The command `zonal`, built once and run as a user runs it, the examples, and folders that vanish after a test.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -15,21 +15,34 @@ use crate::repository;
 /// If it does not compile.
 pub fn zonal() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
-    PATH.get_or_init(|| {
-        let build = Command::new(env!("CARGO"))
-            .args(["build", "--quiet", "--package", "zonal-cli", "--bin", "zonal"])
-            .args(["--message-format", "json"])
-            .current_dir(repository(""))
-            .output()
-            .expect("cargo runs");
-        assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
-        let messages = String::from_utf8_lossy(&build.stdout).into_owned();
-        let executable = messages
-            .lines()
-            .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-            .find_map(|message| message["executable"].as_str().map(PathBuf::from));
-        executable.expect("cargo names the executable")
-    })
+    PATH.get_or_init(|| built(["--bin", "zonal"]))
+}
+
+/// The path of an example of a package.
+///
+/// # Panics
+///
+/// If it does not compile.
+pub fn example(name: &str) -> PathBuf {
+    built(["--example", name])
+}
+
+/// Builds one program and returns its path. It is built with the features that the whole workspace has: with those of its
+/// own package, what the tests have compiled would be compiled again.
+fn built(program: [&str; 2]) -> PathBuf {
+    let build = Command::new(env!("CARGO"))
+        .args(["build", "--quiet", "--message-format", "json", "--workspace"])
+        .args(program)
+        .current_dir(repository(""))
+        .output()
+        .expect("cargo runs");
+    assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
+    let messages = String::from_utf8_lossy(&build.stdout).into_owned();
+    let executable = messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from));
+    executable.expect("cargo names the executable")
 }
 
 /// How a run of the command ended.

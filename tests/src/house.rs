@@ -5,6 +5,7 @@
 use crate::repository;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use zonal_codegen::families::text::family_names;
 
 /// The packages whose imports are looked at, by the folder of their sources.
@@ -263,6 +264,61 @@ pub fn names() -> Vec<Named> {
                 let own = above.take(14).find_map(|line| line.trim_start().strip_prefix(&marker));
                 found.push(Named { place: format!("{name}:{}", at + 1), what, reason: own.map(str::to_owned) });
             }
+        }
+    }
+    found
+}
+
+/// A library or a program of the workspace as cargo knows it.
+#[derive(Clone, Debug, serde::Deserialize)]
+pub struct Target {
+    kind: Vec<String>,
+    /// Its first file.
+    src_path: PathBuf,
+    /// Whether cargo looks for unit tests in it.
+    pub test: bool,
+    /// Whether cargo looks for examples in its documentation.
+    pub doctest: bool,
+}
+
+/// All libraries and programs of the workspace.
+///
+/// # Panics
+///
+/// If cargo does not list them.
+pub fn targets() -> Vec<Target> {
+    #[derive(serde::Deserialize)]
+    struct Package {
+        targets: Vec<Target>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Workspace {
+        packages: Vec<Package>,
+    }
+    let listed = Command::new(env!("CARGO"))
+        .args(["metadata", "--no-deps", "--format-version", "1", "--offline"])
+        .current_dir(repository(""))
+        .output()
+        .expect("cargo runs");
+    let workspace: Workspace = serde_json::from_slice(&listed.stdout).expect("cargo lists the workspace as JSON");
+    let targets = workspace.packages.into_iter().flat_map(|package| package.targets);
+    targets.filter(|target| target.kind.iter().any(|kind| kind == "lib" || kind == "bin")).collect()
+}
+
+/// What of a target cargo is told not to look for and is there all the same: its file, and what was found.
+pub fn overlooked(target: &Target) -> Vec<String> {
+    let folder = target.src_path.parent().expect("a file is in a folder");
+    let of_target = match target.kind.iter().any(|kind| kind == "lib") {
+        true => files(folder),
+        false => vec![target.src_path.clone()],
+    };
+    let mut found = Vec::new();
+    for (looks, mark) in [(target.test, "#[test]"), (target.doctest || target.kind == ["bin"], "/// ```")] {
+        let has = |path: &&PathBuf| {
+            std::fs::read_to_string(path).is_ok_and(|text| text.lines().any(|line| line.trim_start().starts_with(mark)))
+        };
+        if !looks {
+            found.extend(of_target.iter().filter(has).map(|path| format!("{}: {mark}", path.display())));
         }
     }
     found

@@ -50,9 +50,10 @@ impl Map {
             Format::Radiance => {
                 let mut image = Radiance::new(name, bytes)?;
                 let mut texels = Vec::with_capacity(image.width * image.height);
+                let mut planes: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; image.width]);
                 for _ in 0..image.height {
-                    let [r, g, b] = image.row()?.planes();
-                    texels.extend((0..image.width).map(|x| [r[x], g[x], b[x]]));
+                    image.row()?.read(planes.each_mut().map(Vec::as_mut_slice));
+                    texels.extend((0..image.width).map(|x| planes.each_ref().map(|plane| plane[x])));
                 }
                 Self { width: image.width, height: image.height, texels }.checked(name)
             }

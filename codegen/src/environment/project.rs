@@ -4,16 +4,14 @@
 use super::error::MapError;
 use super::map::{Format, Map, format, solid_angle};
 use super::radiance::{Radiance, Row};
-use super::waves::Waves;
+use super::waves::{Waves, dot};
 use crate::math::quadrature::gauss_legendre_5;
-use rayon::prelude::*;
+use crate::threads;
 use std::f64::consts::PI;
 use std::path::Path;
 
 /// How many rows are summed before they are added to the others.
 const BAND: usize = 16;
-/// How many such bands are held while a file is read.
-const BATCH: usize = 16;
 
 /// A function on the sphere, one for each of R, G and B, as the coefficients of its first bands.
 ///
@@ -31,9 +29,6 @@ pub struct Projection {
     /// bound.
     pub beyond: f64,
 }
-
-/// Three channels of a row.
-type Planes = [Vec<f64>; 3];
 
 /// What projects rows of a size.
 struct Projector {
@@ -62,29 +57,36 @@ impl Projector {
         Part { coefficients: vec![[0.0; 3]; self.order * self.order], energy: 0.0 }
     }
 
-    /// The rows from `first` on.
-    fn part(&self, first: usize, rows: impl Iterator<Item = Planes>) -> Part {
+    /// The rows from `first` on, each of which `read` writes over three planes.
+    fn part<R>(&self, first: usize, rows: &[R], read: impl Fn(&R, [&mut [f64]; 3])) -> Part {
         let mut part = self.nothing();
-        for (y, planes) in (first..).zip(rows) {
-            let squares: f64 = planes.iter().map(|plane| plane.iter().map(|v| v * v).sum::<f64>()).sum();
+        let mut planes: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; self.width]);
+        for (y, row) in (first..).zip(rows) {
+            read(row, planes.each_mut().map(Vec::as_mut_slice));
+            let squares: f64 = planes.iter().map(|plane| dot(plane, plane)).sum();
             part.energy += solid_angle(self.width, self.height, y) * squares;
             let zonal = self.zonal(y);
             for (channel, plane) in planes.iter().enumerate() {
-                let integrals = self.waves.integrals(plane);
-                let mut place = 0;
-                for (m, [cos, sin]) in integrals.into_iter().enumerate() {
-                    for l in m..self.order {
-                        let centre = l * (l + 1);
-                        part.coefficients[centre + m][channel] += zonal[place] * cos;
-                        if m > 0 {
-                            part.coefficients[centre - m][channel] += zonal[place] * sin;
-                        }
-                        place += 1;
-                    }
-                }
+                self.add(&zonal, &self.waves.integrals(plane), channel, &mut part.coefficients);
             }
         }
         part
+    }
+
+    /// Adds the products of what was integrated over the polar angle and over the azimuth.
+    fn add(&self, zonal: &[f64], integrals: &[[f64; 2]], channel: usize, sums: &mut [[f64; 3]]) {
+        let mut place = 0;
+        for (m, [cos, sin]) in integrals.iter().enumerate() {
+            let mut l = m;
+            while l < self.order {
+                let centre = l * (l + 1);
+                sums[centre + m][channel] += zonal[place] * cos;
+                if m > 0 {
+                    sums[centre - m][channel] += zonal[place] * sin;
+                }
+                (place, l) = (place + 1, l + 1);
+            }
+        }
     }
 
     /// For each m, for each l from m on, the basis at azimuth 0 integrated over the polar angle θ of row `y` with weight
@@ -147,13 +149,19 @@ impl Map {
     /// If the map was made by hand and has fewer texels than its size says; see [`Map::checked`].
     pub fn project(&self, order: usize) -> Projection {
         let projector = Projector::new(order, self.width, self.height);
-        let planes = |y: usize| {
-            let row = &self.texels[y * self.width..(y + 1) * self.width];
-            [0, 1, 2].map(|channel| row.iter().map(|texel| texel[channel]).collect())
+        let read = |row: &&[[f64; 3]], [red, green, blue]: [&mut [f64]; 3]| {
+            let mut x = 0;
+            while x < row.len() {
+                (red[x], green[x], blue[x]) = (row[x][0], row[x][1], row[x][2]);
+                x += 1;
+            }
         };
-        let bands = (0..self.height).step_by(BAND).collect::<Vec<_>>().into_par_iter();
-        let part = |first: usize| projector.part(first, (first..self.height.min(first + BAND)).map(planes));
-        projector.whole(bands.map(part).collect::<Vec<_>>())
+        let part = |first: usize| {
+            let rows: Vec<_> =
+                (first..self.height.min(first + BAND)).map(|y| &self.texels[y * self.width..][..self.width]).collect();
+            projector.part(first, &rows, read)
+        };
+        projector.whole(threads::map((0..self.height).step_by(BAND), part))
     }
 }
 
@@ -187,18 +195,17 @@ impl Projection {
         };
         let (width, height) = (image.width, image.height);
         let projector = Projector::new(order, width, height);
-        let mut parts: Vec<Part> = Vec::new();
-        let mut is_black = true;
-        for first in (0..height).step_by(BAND * BATCH) {
-            let count = (height - first).min(BAND * BATCH);
-            let rows = (0..count).map(|_| image.row()).collect::<Result<Vec<Row>, MapError>>()?;
-            is_black = is_black && rows.iter().all(Row::is_black);
-            let band = |(i, rows): (usize, &[Row])| projector.part(first + i * BAND, rows.iter().map(Row::planes));
-            parts.par_extend(rows.par_chunks(BAND).enumerate().map(band));
-        }
-        match is_black {
+        let bands = (0..height).step_by(BAND).map(|first| {
+            let rows = (first..height.min(first + BAND)).map(|_| image.row());
+            rows.collect::<Result<Vec<Row>, MapError>>().map(|rows| (first, rows))
+        });
+        let part = |band: Result<(usize, Vec<Row>), MapError>| {
+            band.map(|(first, rows)| projector.part(first, &rows, Row::read))
+        };
+        let whole = projector.whole(threads::map(bands, part).into_iter().collect::<Result<Vec<Part>, MapError>>()?);
+        match whole.energy() == 0.0 {
             true => Err(MapError::Black { name: name.to_owned() }),
-            false => Ok((projector.whole(parts), [width, height])),
+            false => Ok((whole, [width, height])),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Radiance HDR, row by row: each texel is three mantissas and one exponent of eight bits, whose rows are run-length
 //! encoded, byte by byte or, before 1991, texel by texel. Ward's format as `image` and Radiance's own tools read it; a
-//! header's exposure is left alone.
+//! header's exposure is left alone. Loops over texels are plain ones over slices, since a build script compiles them
+//! without optimisation: an iterator or an index of a vector costs several calls a texel there.
 
 use super::error::{MapError, check_size};
 
@@ -15,34 +16,32 @@ pub(super) struct Radiance<'a> {
     pub height: usize,
 }
 
+/// What a mantissa is multiplied with, by its exponent: 0 for an exponent of 0, which is black whatever the mantissas
+/// are, or 2^(e − 136).
+const SCALES: [f64; 256] = {
+    let (mut scales, mut e) = ([0.0; 256], 1);
+    while e < 256 {
+        // An f64 is 2 to the power of its exponent less 1023, above 52 bits of its mantissa.
+        scales[e] = f64::from_bits((e as u64 + 1023 - 136) << 52);
+        e += 1;
+    }
+    scales
+};
+
 /// A row as it is stored: the mantissas of R, G and B, and the exponents.
 pub(super) struct Row([Vec<u8>; 4]);
 
 impl Row {
-    /// The linear radiance of R, G and B, as f32 holds it.
-    pub fn planes(&self) -> [Vec<f64>; 3] {
-        let Self([r, g, b, exponents]) = self;
-        // An exponent of 0 is black whatever the mantissas are.
-        let scale = |e: usize| if e == 0 { 0.0 } else { f64::exp2(e as f64 - 136.0) };
-        let scales: [f64; 256] = std::array::from_fn(scale);
-        [r, g, b].map(|mantissas| {
-            let mut plane = vec![0.0; mantissas.len()];
-            for (i, value) in plane.iter_mut().enumerate() {
-                *value = mantissas[i] as f64 * scales[exponents[i] as usize];
-            }
-            plane
-        })
-    }
-
-    /// Whether every texel is zero.
-    pub fn is_black(&self) -> bool {
-        let Self([r, g, b, exponents]) = self;
-        exponents.iter().enumerate().all(|(i, &e)| e == 0 || (r[i], g[i], b[i]) == (0, 0, 0))
-    }
-
-    fn set(&mut self, places: std::ops::Range<usize>, texel: [u8; 4]) {
-        for (plane, byte) in self.0.iter_mut().zip(texel) {
-            plane[places.clone()].fill(byte);
+    /// Writes the linear radiance of R, G and B, as f32 holds it, over planes that are as long as the row.
+    pub fn read(&self, [red, green, blue]: [&mut [f64]; 3]) {
+        let [r, g, b, exponents] = self.0.each_ref().map(Vec::as_slice);
+        let mut x = 0;
+        while x < exponents.len() {
+            let scale = SCALES[exponents[x] as usize];
+            red[x] = r[x] as f64 * scale;
+            green[x] = g[x] as f64 * scale;
+            blue[x] = b[x] as f64 * scale;
+            x += 1;
         }
     }
 }
@@ -104,20 +103,15 @@ impl<'a> Radiance<'a> {
     /// If the file ends in it, or it is longer than the header says.
     pub fn row(&mut self) -> Result<Row, MapError> {
         let mut row = Row(std::array::from_fn(|_| vec![0; self.width]));
-        let first = self.texel()?;
-        if matches!(first, [2, 2, high, _] if high < 128) {
+        if matches!(self.bytes, [2, 2, high, _, ..] if *high < 128) {
+            self.take(4)?;
             for plane in &mut row.0 {
                 self.plane(plane)?;
             }
         } else {
-            self.old_row(first, &mut row)?;
+            self.old_row(&mut row)?;
         }
         Ok(row)
-    }
-
-    fn texel(&mut self) -> Result<[u8; 4], MapError> {
-        let texel = self.take(4)?;
-        Ok([texel[0], texel[1], texel[2], texel[3]])
     }
 
     fn too_long(&self) -> MapError {
@@ -144,32 +138,47 @@ impl<'a> Radiance<'a> {
     }
 
     /// Whole texels; (1, 1, 1, n) repeats the one before it n times, the next such one 256 n times, and so on.
-    fn old_row(&mut self, first: [u8; 4], row: &mut Row) -> Result<(), MapError> {
-        let (mut texel, mut before, mut place, mut factor) = (first, None, 0, 1usize);
-        loop {
-            let count = match (texel, before) {
-                ([1, 1, 1, _], None) => return Err(self.malformed("a row begins with a run")),
-                ([1, 1, 1, count], Some(_)) => {
-                    let count = (count as usize).saturating_mul(factor);
-                    factor = factor.saturating_mul(256);
-                    count
-                }
-                _ => {
-                    (before, factor) = (Some(texel), 1);
-                    1
-                }
-            };
+    fn old_row(&mut self, row: &mut Row) -> Result<(), MapError> {
+        let mut planes = row.0.each_mut().map(Vec::as_mut_slice);
+        let (mut place, mut factor) = (0, 1usize);
+        while place < self.width {
+            let count = plain_texels(self.bytes, &mut planes, place);
+            if count > 0 {
+                self.take(4 * count)?;
+                (place, factor) = (place + count, 1);
+                continue;
+            }
+            let count = (self.take(4)?[3] as usize).saturating_mul(factor);
+            factor = factor.saturating_mul(256);
+            if place == 0 {
+                return Err(self.malformed("a row begins with a run"));
+            }
             if count > self.width - place {
                 return Err(self.too_long());
             }
-            row.set(place..place + count, before.unwrap_or(texel));
-            place += count;
-            if place == self.width {
-                return Ok(());
+            for plane in &mut planes {
+                let before = plane[place - 1];
+                plane[place..place + count].fill(before);
             }
-            texel = self.texel()?;
+            place += count;
         }
+        Ok(())
     }
+}
+
+/// Copies texels from `place` on, until a run, the end of the row or that of the bytes, and returns how many.
+fn plain_texels(bytes: &[u8], [r, g, b, e]: &mut [&mut [u8]; 4], place: usize) -> usize {
+    let (texels, _) = bytes.as_chunks::<4>();
+    let (end, mut x) = (e.len().min(place + texels.len()), place);
+    while x < end {
+        let texel = &texels[x - place];
+        if texel[0] == 1 && texel[1] == 1 && texel[2] == 1 {
+            break;
+        }
+        (r[x], g[x], b[x], e[x]) = (texel[0], texel[1], texel[2], texel[3]);
+        x += 1;
+    }
+    x - place
 }
 
 /// The beginning of a text that may be anything.

@@ -259,6 +259,22 @@ fn a_file_is_projected_as_the_map_that_it_holds() {
 }
 
 #[test]
+fn old_runs_repeat_the_texel_before_them() {
+    let [a, b] = [[128, 64, 32, 129], [1, 1, 2, 136]];
+    let run = |count: u8| [1, 1, 1, count];
+    let first = [a, run(10), run(1), b, run(244)];
+    // One texel, 255 more, and 256 times 1 more.
+    let rest = [b, run(255), run(1)].as_flattened().repeat(255);
+    let bytes = [b"#?RADIANCE\n\n-Y 256 +X 512\n", first.as_flattened(), &rest].concat();
+    let map = Map::from_bytes("a.hdr", &bytes).unwrap();
+    let (head, tail) = map.texels.split_at(1 + 10 + 256);
+    assert!(head.iter().all(|texel| *texel == [1.0, 0.5, 0.25]) && tail.iter().all(|texel| *texel == [1.0, 1.0, 2.0]));
+    assert_eq!(Projection::from_bytes("a.hdr", &bytes, 4).unwrap(), (map.project(4), [512, 256]));
+    let begins = [&b"#?RADIANCE\n\n-Y 256 +X 512\n"[..], &run(1)].concat();
+    assert!(Map::from_bytes("a.hdr", &begins).unwrap_err().to_string().contains("a row begins with a run"));
+}
+
+#[test]
 fn shifting_columns_turns_the_series_about_z() {
     let mut random = Random::new(1);
     let texels = (0..16 * 8).map(|_| [random.signed(), random.signed(), random.signed()]).collect();

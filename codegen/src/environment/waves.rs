@@ -4,9 +4,6 @@
 
 use std::f64::consts::PI;
 
-/// How many products are summed at once.
-const LANES: usize = 8;
-
 /// One wave over the half of a row that is left: m, its cosines and its sines.
 struct Wave {
     m: usize,
@@ -87,23 +84,34 @@ impl Waves {
 fn folded(values: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let half = values.len() / 2;
     let (mut sums, mut differences) = (vec![0.0; half], vec![0.0; half]);
-    let (near, far) = (&values[..half], &values[half..]);
-    let last = half.saturating_sub(1);
-    for i in 0..half {
-        let (a, b) = (near[i], far[last - i]);
-        sums[i] = a + b;
-        differences[i] = a - b;
+    let (near, far) = values.split_at(half);
+    let ((near, near_rest), (far_rest, far)) = (near.as_chunks::<4>(), far.as_rchunks::<4>());
+    let (sum, sum_rest) = sums.as_chunks_mut::<4>();
+    let (difference, difference_rest) = differences.as_chunks_mut::<4>();
+    let (count, rest) = (near.len(), near_rest.len());
+    let mut i = 0;
+    while i < count {
+        let (a, b) = (&near[i], &far[count - 1 - i]);
+        sum[i] = [a[0] + b[3], a[1] + b[2], a[2] + b[1], a[3] + b[0]];
+        difference[i] = [a[0] - b[3], a[1] - b[2], a[2] - b[1], a[3] - b[0]];
+        i += 1;
+    }
+    for i in 0..rest {
+        let (a, b) = (near_rest[i], far_rest[rest - 1 - i]);
+        (sum_rest[i], difference_rest[i]) = (a + b, a - b);
     }
     (sums, differences)
 }
 
 /// The sum of the products, by eights.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut sum = 0.0;
-    for (a, b) in a.iter().zip(b) {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let (mut sum, mut i) = (0.0, 0);
+    while i < a.len() {
+        let (a, b) = (&a[i], &b[i]);
         sum += ((a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]))
             + ((a[4] * b[4] + a[5] * b[5]) + (a[6] * b[6] + a[7] * b[7]));
+        i += 1;
     }
     sum + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
 }

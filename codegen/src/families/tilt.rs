@@ -194,7 +194,7 @@ enum Stored {
 
 impl Stored {
     /// What row m of band l takes from m + 1: the ladder's coupling, or what [`scale`] makes of it.
-    fn from_above(self, l: usize, m: usize) -> Exact {
+    fn coupling_above(self, l: usize, m: usize) -> Exact {
         match self {
             Self::Plainly => tables::ladder(l, m + 1),
             Self::Divided => unit(l),
@@ -202,7 +202,7 @@ impl Stored {
     }
 
     /// What row m takes from m − 1.
-    fn from_below(self, l: usize, m: usize) -> Exact {
+    fn coupling_below(self, l: usize, m: usize) -> Exact {
         let a = tables::ladder(l, m);
         match self {
             Self::Plainly => a,
@@ -239,7 +239,7 @@ impl Shear {
     /// `constant` + `linear` · u times (nx, ny), times each row's coupling to the row above, the last row's to the row
     /// below.
     fn new(g: &mut Graph, n: &Normal, l: usize, parity: usize, [constant, linear]: [Exact; 2], stored: Stored) -> Self {
-        let (above, below) = (|m| stored.from_above(l, m), |m| stored.from_below(l, m));
+        let (above, below) = (|m| stored.coupling_above(l, m), |m| stored.coupling_below(l, m));
         let own = |m: usize| if m < l { above(m) } else { below(m) };
         let first = own(parity);
         let factor = g.affine(&(&first * &linear), n.u, &(&first * &constant));

@@ -4,7 +4,7 @@
 use crate::ir::listing::{Listing, Operand};
 use crate::ir::op::{Op, Sign};
 use crate::math::exact::Exact;
-use half::f16;
+use crate::math::half::Half;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -72,25 +72,25 @@ macro_rules! number {
     };
 }
 
-impl Number for f16 {
+impl Number for Half {
     const ONE: Self = Self::ONE;
     const ZERO: Self = Self::ZERO;
     const TINY: Self = Self::ZERO;
     const UNIT_ROUNDOFF: f64 = 1.0 / 2048.0;
     fn nearest(value: &Exact) -> Self {
-        Self::from_f64(value.to_f64())
+        Self::round(value.to_f64())
     }
     fn from_f64(value: f64) -> Self {
-        Self::from_f64(value)
+        Self::round(value)
     }
     fn to_f64(self) -> f64 {
-        f64::from(self)
+        self.to_f64()
     }
     fn root(self) -> Self {
-        Self::from_f64(f64::from(self).sqrt())
+        Self::round(self.to_f64().sqrt())
     }
     fn fused(self, b: Self, c: Self) -> Self {
-        Self::from_f64(f64::from(self) * f64::from(b) + f64::from(c))
+        Self::round(self.to_f64() * b.to_f64() + c.to_f64())
     }
 }
 

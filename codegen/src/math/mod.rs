@@ -1,6 +1,7 @@
 //! Pure mathematics: exact constants and the tables made of them. Imports nothing else of this crate.
 
 pub mod exact;
+pub mod half;
 pub mod index;
 pub mod linear;
 pub mod quadrature;

@@ -8,12 +8,12 @@ use crate::ir::code::Code;
 use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::kernel::Kernel;
 use crate::ir::listing::Listing;
+use crate::math::half::Half;
 use crate::math::linear::spectral_norm;
 use crate::promise::bound::Bound;
 use crate::promise::law;
 use crate::promise::proofs;
 use crate::promise::samples;
-use half::f16;
 
 /// The tilts in degrees at which a file's head says the method's error.
 pub const ANGLES: [f64; 4] = [5.0, 10.0, 15.0, 25.0];
@@ -148,7 +148,7 @@ impl Accuracy {
             _ => SAMPLES,
         };
         let measure = |contraction| match spec.half {
-            true => rounding::<f16>(spec, code, SEED, samples, contraction),
+            true => rounding::<Half>(spec, code, SEED, samples, contraction),
             false => rounding::<f32>(spec, code, SEED, samples, contraction),
         };
         let both = || [Contraction::Separate, Contraction::Fused].map(measure).to_vec();

@@ -22,7 +22,6 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::str::FromStr;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::environment::project::{basis, cosine_lobe};
@@ -30,6 +29,7 @@ use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::fault::Fault;
 use crate::math::index::band_degree;
 use crate::math::quadrature::gauss_legendre;
+use crate::threads;
 
 /// The sharpest and the dullest exponent of `phong`.
 pub const EXPONENTS: [f64; 2] = [1.0, 1000.0];
@@ -294,7 +294,7 @@ impl Table {
         // Views of the first quarter; the others are mirror images.
         let quarter = azimuths / 4;
         let entry = |i: usize| brdf.coefficients(table.view(i / (quarter + 1), i % (quarter + 1)), order);
-        let found: Vec<_> = (0..elevations * (quarter + 1)).into_par_iter().map(entry).collect();
+        let found = threads::map(0..elevations * (quarter + 1), entry);
         let mirrored = |elevation: usize, azimuth: usize| {
             let half = if 2 * azimuth > azimuths { azimuths - azimuth } else { azimuth };
             let (place, behind) = if half > quarter { (azimuths / 2 - half, true) } else { (half, false) };

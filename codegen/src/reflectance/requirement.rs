@@ -11,11 +11,11 @@ use crate::families::Spec;
 use crate::families::family::{MAX_HALF_ORDER, MIN_ORDER};
 use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::listing::Listing;
+use crate::math::half::Half;
 use crate::math::index::{band, band_degree};
 use crate::math::quadrature::gauss_legendre;
 use crate::promise::samples::Random;
 use crate::reflectance::brdf::{Brdf, Table};
-use half::f16;
 use serde::Serialize;
 use std::fmt;
 
@@ -234,10 +234,10 @@ impl Requirement {
                     let got = match self.half {
                         false => turned.iter().zip(&kept).map(|(x, y)| x * y[c]).sum(),
                         true => {
-                            let narrow = |x: f64| f16::from_f64(x);
+                            let narrow = |x: f64| Half::round(x);
                             let products = turned.iter().zip(&kept).filter(|(_, y)| y[c] != 0.0);
                             products
-                                .fold(f16::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum))
+                                .fold(Half::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum))
                                 .to_f64()
                         }
                     };

@@ -1,7 +1,7 @@
 //! The basis to order 64 in f32 and 128 in f64, in its loop form, and to order 8 in f16: at the poles, near them, at the
 //! equator and anywhere, against polynomials in whole numbers.
 
-use crate::numbers::{Half, Twin};
+use crate::numbers::Twin;
 use crate::stability::truth::{Band, distance, norm, sampled};
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use zonal_codegen::families::loops::basis_loop;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
+use zonal_codegen::math::half::Half;
 use zonal_codegen::promise::samples::Random;
 
 /// The orders that tables show.

@@ -73,26 +73,43 @@ function texture(width, height, numbers) {
   return made;
 }
 
-/** A row of pixels is a case; a column is a vector of its result. */
+/** The most vectors that a pixel gives, one a target; `TARGETS` of the shader around the kernel. */
+const TARGETS = 8;
+
+/** A row of pixels is a case; a column is as many vectors of its result as there are targets. */
 function webgl2(job, numbers) {
   const program = gl.createProgram();
   const shaders = [compiled(gl.VERTEX_SHADER, VERTEX), compiled(gl.FRAGMENT_SHADER, job.text)];
   shaders.forEach((shader) => gl.attachShader(program, shader));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-  const target = texture(job.outputs, job.count, null);
+  const count = Math.min(job.outputs, TARGETS);
+  const width = Math.ceil(job.outputs / count);
+  const targets = Array.from({ length: count }, () => texture(width, job.count, null));
+  const places = targets.map((_, i) => gl.COLOR_ATTACHMENT0 + i);
   const framebuffer = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target, 0);
+  targets.forEach((target, i) => gl.framebufferTexture2D(gl.FRAMEBUFFER, places[i], gl.TEXTURE_2D, target, 0));
+  gl.drawBuffers(places);
   const inputs = texture(job.inputs, job.count, new Float32Array(numbers));
-  gl.viewport(0, 0, job.outputs, job.count);
+  gl.viewport(0, 0, width, job.count);
   gl.useProgram(program);
   gl.drawArrays(gl.TRIANGLES, 0, 3);
   const result = new Float32Array(job.outputs * job.count * FLOATS);
-  gl.readPixels(0, 0, job.outputs, job.count, gl.RGBA, gl.FLOAT, result);
+  const part = new Float32Array(width * job.count * FLOATS);
+  places.forEach((place, i) => {
+    gl.readBuffer(place);
+    gl.readPixels(0, 0, width, job.count, gl.RGBA, gl.FLOAT, part);
+    for (let y = 0; y < job.count; y++) {
+      for (let vector = i, x = 0; vector < job.outputs; vector += count, x++) {
+        const from = (y * width + x) * FLOATS;
+        result.set(part.subarray(from, from + FLOATS), (y * job.outputs + vector) * FLOATS);
+      }
+    }
+  });
   const error = gl.getError();
   gl.deleteFramebuffer(framebuffer);
-  [target, inputs].forEach((made) => gl.deleteTexture(made));
+  [...targets, inputs].forEach((made) => gl.deleteTexture(made));
   shaders.forEach((shader) => gl.deleteShader(shader));
   gl.deleteProgram(program);
   if (error !== gl.NO_ERROR) throw new Error(`WebGL2 reports error ${error}`);

@@ -158,17 +158,24 @@ pub fn compute(function: &Function, dialect: Dialect, text: &str) -> String {
     }
 }
 
+/// How many vectors one pixel gives: WebGL2 has at least so many targets to draw into.
+pub const TARGETS: usize = 8;
+
 /// The function's GLSL file and a fragment shader for WebGL2 that calls it: a row of pixels is a case, whose inputs are a
-/// row of a texture; a pixel gives one vector of the result.
+/// row of a texture; a pixel gives [`TARGETS`] vectors of the result, one a target, the last pixel zeros behind its end.
 pub fn pixels(function: &Function, dialect: Dialect, text: &str) -> String {
-    let Call { statements, vectors } = Call::new(function, dialect);
+    let Call { statements, mut vectors } = Call::new(function, dialect);
     let reads = lines(input_vectors(function), |i| format!("vec4 in{i}_ = texelFetch(inputs, ivec2({i}, at.y), 0);"));
+    let targets = TARGETS.min(vectors.len());
+    vectors.resize(vectors.len().next_multiple_of(targets), "vec4(0.0)".to_owned());
     let gives = vectors.len();
+    let outs: String = (0..targets).map(|i| format!("layout(location = {i}) out vec4 colour{i}_;\n")).collect();
+    let writes = lines(targets, |i| format!("colour{i}_ = outputs[at.x * {targets} + {i}];"));
     format!(
         "#version 300 es\nprecision highp float;\nprecision highp int;\n{text}\n\
-         uniform highp sampler2D inputs;\nout vec4 colour;\n\
+         uniform highp sampler2D inputs;\n{outs}\
          void main() {{\n    ivec2 at = ivec2(gl_FragCoord.xy);\n{reads}    {statements}\n    \
-         vec4 outputs[{gives}] = vec4[{gives}](\n        {}\n    );\n    colour = outputs[at.x];\n}}\n",
+         vec4 outputs[{gives}] = vec4[{gives}](\n        {}\n    );\n{writes}}}\n",
         vectors.join(",\n        ")
     )
 }

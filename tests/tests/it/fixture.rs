@@ -1,6 +1,7 @@
 //! A crate outside the workspace that generates its kernels in its build script: it compiles without a warning, its own
 //! tests hold the kernels to golden values, nothing is written twice, and it never compiles the command line.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -15,9 +16,13 @@ pub(crate) const USERS: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/fixture");
 /// Runs cargo on the fixture and returns what it printed. Its packages are those of the workspace, so that nothing is
 /// fetched.
 fn cargo(command: &str, options: &[&str]) -> String {
+    cargo_on("tests/fixture/Cargo.toml", command, options)
+}
+
+fn cargo_on(manifest: &str, command: &str, options: &[&str]) -> String {
     let output = Command::new(env!("CARGO"))
         .args([command, "--offline", "--manifest-path"])
-        .arg(repository("tests/fixture/Cargo.toml"))
+        .arg(repository(manifest))
         .args(options)
         .env("CARGO_TARGET_DIR", USERS)
         .output()
@@ -60,10 +65,30 @@ fn a_crate_outside_the_workspace_generates_its_kernels() {
     assert!(written(&folder.join("../output")) > ran, "the build script ran again");
     assert_eq!(times(), before, "what has not changed is not written again");
 
-    let tree = cargo("tree", &["--edges=normal,build", "--prefix=none"]);
-    let packages: Vec<&str> = tree.lines().filter_map(|line| line.split(' ').next()).collect();
-    assert!(packages.contains(&"zonal-codegen"), "{tree}");
-    for package in ["clap", "miette", "indicatif", "image"] {
-        assert!(!packages.contains(&package), "a build script compiles {package}:\n{tree}");
+    let tree = cargo("tree", &["--prefix=none", "--edges=normal,build"]);
+    let packages = packages_of(&tree);
+    for package in ["zonal-codegen", "naga", "syn"] {
+        assert!(packages.contains(package), "a build script does not compile {package}: {packages:?}");
+    }
+    for package in ["clap", "miette", "indicatif", "image", "rayon"] {
+        assert!(!packages.contains(package), "a build script compiles {package}: {packages:?}");
+    }
+}
+
+/// The names of the packages that `cargo tree --prefix=none` lists.
+fn packages_of(tree: &str) -> BTreeSet<&str> {
+    tree.lines().filter_map(|line| line.split(' ').next()).collect()
+}
+
+#[test]
+fn the_generator_without_its_checkers_compiles_none_of_them() {
+    let tree = |options: &[&str]| {
+        let common = ["--prefix=none", "--edges=normal,no-proc-macro"];
+        cargo_on("codegen/Cargo.toml", "tree", &[&common, options].concat())
+    };
+    let (with, without) = (tree(&[]), tree(&["--no-default-features"]));
+    for package in ["naga", "syn", "proc-macro2", "half"] {
+        assert!(packages_of(&with).contains(package), "{package} is not looked for any more:\n{with}");
+        assert!(!packages_of(&without).contains(package), "{package} is compiled without `check`:\n{without}");
     }
 }

@@ -8,6 +8,7 @@ use zonal_codegen::emit::language::{GLSL, RUST, WGSL};
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::{build, file};
 use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::math::half::Half;
 use zonal_codegen::plan::Plan;
 use zonal_codegen::promise::accuracy::rounding;
 use zonal_codegen::promise::built::Built;
@@ -62,7 +63,7 @@ fn rounding_in_f16_is_that_of_f32_times_what_the_formats_differ_by() {
         assert!((1000.0..80_000.0).contains(&ratio), "{text}: {ratio}");
         let code = half.code();
         for contraction in [Contraction::Separate, Contraction::Fused] {
-            let other = rounding::<f16>(&half, &code, 4242, 2000, contraction);
+            let other = rounding::<Half>(&half, &code, 4242, 2000, contraction);
             assert!(other <= narrow.rounding_f32, "{text}: {other:e} above {:e}", narrow.rounding_f32);
         }
     }
@@ -74,10 +75,10 @@ fn the_basis_in_f16_errs_as_known() {
     let mut random = zonal_codegen::promise::samples::Random::new(8);
     for (order, most) in [(3, 8e-4), (8, 3.7e-3)] {
         let spec = spec(&format!("basis:{order}"));
-        let (narrow, wide) = (Runner::<f16>::new(&spec), Runner::<f64>::new(&spec));
+        let (narrow, wide) = (Runner::<Half>::new(&spec), Runner::<f64>::new(&spec));
         let mut worst = 0.0f64;
         for _ in 0..2000 {
-            let dir = random.unit::<3>().map(|x| f16::from_f64(x).to_f64());
+            let dir = random.unit::<3>().map(|x| Half::round(x).to_f64());
             let error = zonal_tests::band_error(&narrow.run(&[dir.to_vec()]), &wide.run(&[dir.to_vec()]));
             worst = worst.max(error);
         }
@@ -91,11 +92,26 @@ fn f16_arithmetic_rounds_once() {
     // Products and sums of f16 are exact in f64, so that rounding them is the definition.
     let mut random = zonal_codegen::promise::samples::Random::new(1);
     for _ in 0..20_000 {
-        let [a, b, c] = [(); 3].map(|()| f16::from_f64(random.signed() * 100.0));
-        let wide = [a, b, c].map(|x| x.to_f64());
-        assert_eq!(a + b, f16::from_f64(wide[0] + wide[1]));
-        assert_eq!(a * b, f16::from_f64(wide[0] * wide[1]));
-        assert_eq!(Number::fused(a, b, c), f16::from_f64(wide[0].mul_add(wide[1], wide[2])));
+        let [a, b, c] = [(); 3].map(|()| Half::round(random.signed() * 100.0));
+        let wide = [a, b, c].map(Half::to_f64);
+        assert_eq!(a + b, Half::round(wide[0] + wide[1]));
+        assert_eq!(a * b, Half::round(wide[0] * wide[1]));
+        assert_eq!(Number::fused(a, b, c), Half::round(wide[0].mul_add(wide[1], wide[2])));
+    }
+}
+
+/// The crate half rounds f32 as hardware does.
+#[test]
+fn f16_numbers_are_those_of_the_crate_half() {
+    let mut random = zonal_codegen::promise::samples::Random::new(16);
+    let check = |value: f32| {
+        let (own, other) = (Half::round(f64::from(value)).to_f64(), f16::from_f32(value).to_f64());
+        assert!(own.to_bits() == other.to_bits() || own.is_nan() && other.is_nan(), "{value}: {own}, not {other}");
+    };
+    for _ in 0..200_000 {
+        check(f32::from_bits(random.bits() as u32));
+        // Most of those overflow or vanish: once more where they do neither.
+        check((random.signed() * 2f64.powi((random.bits() % 44) as i32 - 27)) as f32);
     }
 }
 

@@ -2,7 +2,7 @@
 //! names a family or a language outside of its own file says why. `cargo house` prints all of it.
 
 use std::collections::{BTreeMap, BTreeSet};
-use zonal_tests::house::{SOURCES, downwards, imports, names, too_long};
+use zonal_tests::house::{SOURCES, downwards, imports, names, overlooked, targets, too_long};
 
 #[test]
 fn imports_run_downwards_in_every_package() {
@@ -48,4 +48,12 @@ fn who_names_a_family_or_a_language_says_why() {
         .map(|named| format!("{} ({})", named.place, named.what))
         .collect();
     assert!(silent.is_empty(), "without a word: {silent:#?}");
+}
+
+#[test]
+fn no_test_is_where_cargo_is_told_to_look_for_none() {
+    let targets = targets();
+    assert!(targets.iter().any(|target| !target.test) && targets.iter().any(|target| target.test), "{targets:?}");
+    let overlooked: Vec<String> = targets.iter().flat_map(overlooked).collect();
+    assert_eq!(overlooked, [""; 0], "set `test` or `doctest` of these in their manifests");
 }

@@ -9,6 +9,7 @@ mod catalog;
 mod citations;
 mod cli;
 mod environment;
+mod examples;
 mod fixture;
 mod goldens;
 mod half;

@@ -14,7 +14,7 @@ use zonal_tests::repository;
 const LARGEST: u64 = 10 << 20;
 
 /// What lies in a package besides its sources, and what cargo adds.
-const BELONGS: [&str; 9] = [
+const BELONGS: [&str; 10] = [
     ".cargo_vcs_info.json",
     "Cargo.lock",
     "Cargo.toml",
@@ -23,6 +23,7 @@ const BELONGS: [&str; 9] = [
     "LICENSE-MIT",
     "README.md",
     "build.rs",
+    "examples",
     "src",
 ];
 

@@ -2,7 +2,6 @@
 //! has another form, is tried on seeded inputs, extremes first. A new family is tested by existing, and fails where
 //! nothing can be tested of it. That the basis is orthonormal is checked by itself, since the others rest on it.
 
-use half::f16;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -12,6 +11,7 @@ use zonal_codegen::families::parts::small_angle::parity_shears;
 use zonal_codegen::families::{ALL, Family, Form, SmallAngle, Spec};
 use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::Number;
+use zonal_codegen::math::half::Half;
 use zonal_codegen::promise::accuracy::Meaning;
 use zonal_codegen::promise::law;
 use zonal_codegen::promise::samples::inputs;
@@ -364,15 +364,15 @@ fn f16_errs_by_its_roundoff(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let half = Spec { half: true, ..spec.clone() };
-    let (tiny, narrow, wide) = (Runner::<f16>::new(&half), Runner::<f32>::new(spec), Runner::<f64>::new(spec));
+    let (tiny, narrow, wide) = (Runner::<Half>::new(&half), Runner::<f32>::new(spec), Runner::<f64>::new(spec));
     let (measure, meaning) = (spec.family.measure, Meaning::of(spec));
     let (mut worst_half, mut worst) = (0.0, 0.0);
     for input in inputs(spec.code().params(), 47, COUNT, None) {
         let input: Vec<Vec<f64>> =
-            input.iter().map(|list| list.iter().map(|&x| f16::from_f64(x).to_f64()).collect()).collect();
+            input.iter().map(|list| list.iter().map(|&x| Half::round(x).to_f64()).collect()).collect();
         let want = meaning.apply(wide.run(&input));
         let error = |got: Vec<f64>| measure.error(&meaning.apply(got), &want, spec.order);
-        worst_half = larger(worst_half, error(tiny.run(&input)) / f16::UNIT_ROUNDOFF);
+        worst_half = larger(worst_half, error(tiny.run(&input)) / Half::UNIT_ROUNDOFF);
         worst = larger(worst, error(narrow.run(&input)) / f32::UNIT_ROUNDOFF);
     }
     ensure(worst_half <= 4.0 * worst.max(1.0), || format!("f16 errs by {worst_half} of its roundoff, f32 by {worst}"))?;

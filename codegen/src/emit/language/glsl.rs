@@ -1,6 +1,8 @@
 //! GLSL that is the same text in 4.50, 3.30 and ES 3.00, without a version of its own.
 
 use crate::emit::language::expression::Binding;
+#[cfg(not(feature = "check"))]
+use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{
     Arrays, Float, ITEMS, Language, MultiplyAdd, Spelling, Statements, Type, Types, Way, Words,
 };
@@ -124,6 +126,7 @@ fn structure(name: &str, of: &Type) -> String {
 }
 
 /// A drop-in carries neither a version nor an entry point: both are added here.
+#[cfg(feature = "check")]
 fn check(text: &str) -> Result<(), String> {
     let whole = format!("#version 450\n{text}\nvoid main() {{}}\n");
     let options = naga::front::glsl::Options::from(naga::ShaderStage::Fragment);

@@ -1,5 +1,7 @@
 //! Rust, generic over the numbers of parameters and of the signal.
 
+#[cfg(not(feature = "check"))]
+use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{
     Arrays, Float, Generic, Language, MultiplyAdd, Spelling, Statements, TableNumbers, Type, Types, Way, Words,
 };
@@ -104,6 +106,7 @@ fn spelling(op: &Op<()>) -> Spelling {
     }
 }
 
+#[cfg(feature = "check")]
 fn check(text: &str) -> Result<(), String> {
     syn::parse_file(text).map(|_| ()).map_err(|error| {
         let start = error.span().start();

@@ -3,7 +3,7 @@
 
 use crate::emit::language::record::Words;
 use crate::math::exact::Exact;
-use half::f16;
+use crate::math::half::Half;
 
 /// A shader function of more statements than this is refused: compilers take seconds for it.
 pub const MAX_STATEMENTS: usize = 5000;
@@ -43,7 +43,7 @@ pub fn literal(value: &Exact) -> String {
 
 /// Returns a constant rounded to f16, with its suffix.
 pub fn half_literal(value: &Exact) -> String {
-    format!("{:?}h", f16::from_f64(value.to_f64()).to_f32())
+    format!("{:?}h", Half::round(value.to_f64()).to_f64() as f32)
 }
 
 /// Returns a component of a vector.
@@ -66,6 +66,7 @@ pub fn at_most(a: &str, b: &str) -> String {
 /// # Errors
 ///
 /// What naga says, with its place in the text.
+#[cfg(feature = "check")]
 pub fn validate(module: &naga::Module, text: &str) -> Result<(), String> {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
     Validator::new(ValidationFlags::all(), Capabilities::SHADER_FLOAT16)

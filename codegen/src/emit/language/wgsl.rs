@@ -1,6 +1,8 @@
 //! WGSL, WebGPU's shading language.
 
 use crate::emit::language::expression::Binding;
+#[cfg(not(feature = "check"))]
+use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Spelling, Statements, Type, Types, Words};
 use crate::emit::language::shader;
 use crate::ir::op::Op;
@@ -79,6 +81,7 @@ fn table(name: &str, of: &Type) -> (String, &'static str) {
     (format!("const {name} = {}(", of.text), ");")
 }
 
+#[cfg(feature = "check")]
 fn check(text: &str) -> Result<(), String> {
     let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
     shader::validate(&module, text)

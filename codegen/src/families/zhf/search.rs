@@ -11,7 +11,7 @@ use crate::families::zhf::lobes::{HIGHEST_SIZE, Lobe, Mode, Record, RecordError}
 use crate::math::exact::Exact;
 use crate::math::linear::condition;
 use crate::promise::samples::Random;
-use rayon::prelude::*;
+use crate::threads;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -123,23 +123,20 @@ impl Search {
     pub fn advance(&mut self, tries: usize, done: impl Fn() + Sync) {
         let task = self.task;
         let grid = self.grid.get_or_insert_with(|| Grid::new(&task));
-        let numbers: Vec<usize> = (self.tries..self.tries + tries).collect();
-        let guesses: Vec<Vec<Guess>> = numbers
-            .par_iter()
-            .map(|&number| {
-                let found = attempt(grid, &task, number);
-                done();
-                found
-            })
-            .collect();
+        let numbers = self.tries..self.tries + tries;
+        let guesses = threads::map(numbers.clone(), |number| {
+            let found = attempt(grid, &task, number);
+            done();
+            found
+        });
         for (number, guess) in
-            numbers.iter().zip(guesses).flat_map(|(number, list)| list.into_iter().map(move |g| (number, g)))
+            numbers.zip(guesses).flat_map(|(number, list)| list.into_iter().map(move |g| (number, g)))
         {
             if !beaten(&self.found, guess.nonzeros, guess.condition) {
                 let lobes = guess.pool.iter().map(|direction| grid.name(direction)).collect();
                 let subsets = if task.mode == Mode::Free { guess.members } else { Vec::new() };
                 // What the exact numbers refuse was no set: its guess is dropped.
-                if let Ok(record) = Record::new(task.mode, task.size, (task.seed, *number), lobes, subsets)
+                if let Ok(record) = Record::new(task.mode, task.size, (task.seed, number), lobes, subsets)
                     && record.condition <= task.max_condition
                 {
                     keep(&mut self.found, record);
@@ -203,7 +200,7 @@ pub fn resume(text: &str, tasks: &[Task]) -> Result<Vec<Search>, SearchError> {
     }
     for search in &state.search {
         search.task.check()?;
-        search.found.par_iter().try_for_each(|record| {
+        let checked = threads::map(&search.found, |record| {
             let fault = |why: String| SearchError::Set { attempt: record.attempt, why };
             let task = &search.task;
             if (record.mode, record.size, record.seed) != (task.mode, task.size, task.seed) {
@@ -216,7 +213,8 @@ pub fn resume(text: &str, tasks: &[Task]) -> Result<Vec<Search>, SearchError> {
                 }
                 Err(error) => Err(fault(RecordError::to_string(&error))),
             }
-        })?;
+        });
+        checked.into_iter().collect::<Result<(), SearchError>>()?;
     }
     Ok(state.search)
 }
@@ -261,7 +259,7 @@ impl Grid {
                 }
             }
         }
-        let polar = heights.par_iter().map(|name| {
+        let polar = threads::map(&heights, |name| {
             let text = if name == "pole" { name.clone() } else { format!("{name} 0") };
             let lobes = [lobe(&text)];
             // At azimuth 0 the cosines are one and the sines zero.
@@ -270,13 +268,12 @@ impl Grid {
             };
             (0..=top).map(of).collect()
         });
-        let polar = polar.collect();
         let turn = |d: usize| -> Vec<[f64; 2]> {
             let at =
                 |k: usize| [Exact::cos_pi(k as i64, d as i64), Exact::sin_pi(k as i64, d as i64)].map(|x| x.to_f64());
             (0..2 * d).map(at).collect()
         };
-        let turns = (1..=2 * top.max(2)).into_par_iter().map(turn).collect();
+        let turns = threads::map(1..=2 * top.max(2), turn);
         Self { bands, heights, polar, turns }
     }
 
