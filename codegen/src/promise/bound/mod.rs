@@ -27,6 +27,7 @@ pub mod region;
 pub mod roundoff;
 pub mod section;
 mod sweep;
+mod value;
 
 use crate::families::family::{Acts, MAX_ORDER, Measure, Proof, Spec};
 use crate::ir::code::Code;

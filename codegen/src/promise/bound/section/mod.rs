@@ -1,90 +1,18 @@
 //! A part of a listing, run on enclosures: every scalar is an interval with a bound of its f32 error, every number that is
 //! linear in the signal an interval and an error weight for each number of the signal that it depends on. Both ways of
 //! contraction are bounded at once. docs/MATH.md#enclosures-with-error-weights has the rules.
-//! One file: scalars, signals and their errors share one layout.
+
+mod depth;
+mod toward;
 
 use crate::ir::eval::Number;
 use crate::ir::graph::Kind;
 use crate::ir::listing::{Listing, Op, Operand, Sign};
 use crate::promise::bound::norm::{Matrix, SLACK};
 use crate::promise::bound::region::{Degree, Enclosure, Region, Root};
-use crate::promise::bound::roundoff::{Both, larger};
+use crate::promise::bound::roundoff::Both;
+use crate::promise::bound::value::{EPSILON, Value};
 use std::collections::HashMap;
-
-/// Half of f32's smallest number: what a product that underflows may lose besides.
-const UNDERFLOW: f64 = 1e-45;
-/// More than f64's unit roundoff: what a midpoint may lose.
-const EPSILON: f64 = f64::EPSILON;
-
-/// A scalar: its exact value is within `radius` of `mid`, its f32 value within `error` of the exact one.
-#[derive(Clone, Copy, Debug, Default)]
-struct Value {
-    mid: f64,
-    radius: f64,
-    error: Both,
-}
-
-impl Value {
-    fn magnitude(self) -> f64 {
-        self.mid.abs() + self.radius
-    }
-
-    fn times(self, b: Self) -> Self {
-        let mid = self.mid * b.mid;
-        let (size, other) = (self.magnitude(), b.magnitude());
-        let error = |i: usize| size * b.error[i] + other * self.error[i] + self.error[i] * b.error[i];
-        let radius = self.mid.abs() * b.radius + self.radius * other + mid.abs() * EPSILON;
-        Self { mid, radius, error: [error(0), error(1)] }
-    }
-
-    fn plus(self, b: Self) -> Self {
-        let mid = self.mid + b.mid;
-        let error = [self.error[0] + b.error[0], self.error[1] + b.error[1]];
-        Self { mid, radius: self.radius + b.radius + mid.abs() * EPSILON, error }
-    }
-
-    fn negated(self) -> Self {
-        Self { mid: -self.mid, ..self }
-    }
-
-    /// Rounded in the modes that say so.
-    fn rounded(mut self, roundoff: f64, modes: [bool; 2]) -> Self {
-        let size = self.magnitude();
-        for (error, _) in self.error.iter_mut().zip(modes).filter(|(_, rounded)| *rounded) {
-            *error += roundoff * (size + *error) + UNDERFLOW;
-        }
-        self
-    }
-
-    /// f(x) for a positive f that falls in |x|, with the error of rounding it and `times` − 1 denominators.
-    fn falling(self, f: impl Fn(f64) -> f64, roundoff: f64, times: i32) -> Self {
-        let low = self.mid.abs() - self.radius;
-        let (least, most) = (f(self.magnitude()) * (1.0 - 1e-14), f(low) * (1.0 + 1e-14));
-        let error = self.error.map(|e| {
-            if low <= e {
-                return f64::INFINITY;
-            }
-            // f is convex: its change is largest where the argument is smallest.
-            let change = f(low - e) - f(low) + 1e-14 * f(low);
-            change + (f(low) + change) * ((1.0 + roundoff) * (1.0 - roundoff).powi(1 - times) - 1.0)
-        });
-        Self { mid: (least + most) / 2.0 * self.mid.signum(), radius: (most - least) / 2.0, error }
-    }
-}
-
-impl Value {
-    /// The derivative of |x|^−p for a p of 1 or ½, as a midpoint and a radius, and what the change of x^−p by x's error differs from it.
-    fn slope(self, p: f64) -> (f64, f64, Both) {
-        let (low, high) = (self.mid.abs() - self.radius, self.magnitude());
-        let slope = |x: f64| -p * x.powf(-p - 1.0);
-        let rest = self.error.map(|e| match low > e {
-            true => p * (p + 1.0) / 2.0 * (low - e).powf(-p - 2.0) * e * e * SLACK,
-            false => f64::INFINITY,
-        });
-        let (steep, flat) = (slope(low), slope(high));
-        ((steep + flat) / 2.0, (flat - steep).abs() / 2.0 + 1e-14 * steep.abs(), rest)
-    }
-}
 
 /// What a section starts from: a root of its domain, with the error that it comes with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -234,41 +162,6 @@ impl Section {
         both.is_some_and(|(a, b)| a != b && a / 2 == b / 2)
     }
 
-    /// The scalars that are outputs or factors of the signal, but for those that are made in one step: their errors are
-    /// what [`Section::run`] first finds.
-    fn wanted(&self) -> Vec<usize> {
-        let is_made = |slot: usize| matches!(self.slots[slot], Slot::Step(_)) && self.kinds[slot] == Kind::Scalar;
-        let mut wanted = self.outputs.clone();
-        for (at, slot) in self.slots.iter().enumerate() {
-            if let (Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) {
-                wanted.extend(op.operands().map(place));
-            }
-        }
-        wanted.sort_unstable();
-        wanted.dedup();
-        wanted.retain(|&slot| match self.slots[slot] {
-            Slot::Step(op) => is_made(slot) && op.operands().any(|operand| is_made(place(operand))),
-            _ => false,
-        });
-        wanted
-    }
-
-    /// What some scalars are made of, themselves among it, last step first.
-    fn cone(&self, slots: &[usize]) -> Vec<usize> {
-        let mut cone: Vec<usize> = Vec::new();
-        let mut stack = slots.to_vec();
-        while let Some(slot) = stack.pop() {
-            if !cone.contains(&slot) {
-                cone.push(slot);
-                if let Slot::Step(op) = self.slots[slot] {
-                    stack.extend(op.operands().map(place));
-                }
-            }
-        }
-        cone.sort_unstable_by(|a, b| b.cmp(a));
-        cone
-    }
-
     fn push(&mut self, slot: Slot, kind: Kind, degree: Degree, support: Vec<u16>, from: Vec<[u32; 2]>) -> usize {
         self.offset.push(self.from.len());
         self.slots.push(slot);
@@ -405,104 +298,6 @@ impl Section {
         }
     }
 
-    /// The error of a sum of scalars, each times a number, by what every step rounds times the sum's derivative by it.
-    /// Errors on the way keep their signs, so that what cancels does; what errors do to each other is bounded by the
-    /// scalars' own bounds. `cone` is what the scalars are made of.
-    fn toward(&self, sum: &[(usize, f64)], cone: &[usize], roundoff: f64, run: &mut Run) -> Both {
-        let Run { scalars, derivative, .. } = run;
-        for &(slot, factor) in sum {
-            derivative[slot].0 += factor;
-        }
-        let mut total = [0.0; 2];
-        for &at in cone {
-            let (mid, radius) = std::mem::take(&mut derivative[at]);
-            let size = mid.abs() + radius;
-            if size == 0.0 {
-                continue;
-            }
-            let of = |operand: Operand| scalars[place(operand)];
-            let value = scalars[at];
-            let mut pass = |to: Operand, by: f64, loose: f64| {
-                let (m, r) = &mut derivative[place(to)];
-                let change = mid * by;
-                *m += change;
-                *r += mid.abs() * loose + radius * (by.abs() + loose) + (change.abs() + m.abs()) * EPSILON;
-            };
-            // What rounding once adds in each mode, besides the product of errors.
-            // The value before it was rounded is at most as much larger than what it is rounded to.
-            let unit = roundoff * (1.0 + 4.0 * roundoff);
-            let once = |mode: usize| unit * (value.magnitude() + value.error[mode]) + UNDERFLOW;
-            let mut fresh = [0.0; 2];
-            match self.slots[at] {
-                Slot::Constant { .. } | Slot::Start(_) => fresh = value.error,
-                Slot::Signal(_) => return [f64::INFINITY; 2],
-                Slot::Step(op) => match op {
-                    Op::Neg(a) => pass(a, -1.0, 0.0),
-                    Op::Add(a, b) | Op::Sub(a, b) => {
-                        pass(a, 1.0, 0.0);
-                        pass(b, if matches!(op, Op::Sub(..)) { -1.0 } else { 1.0 }, 0.0);
-                        fresh = [once(0), once(1)];
-                    }
-                    Op::Mul(a, b) | Op::Fma(a, b, _, _) => {
-                        let (x, y) = (of(a), of(b));
-                        let (sign, fused) = match op {
-                            Op::Fma(_, _, c, sign) => {
-                                pass(c, if sign == Sign::MinusAddend { -1.0 } else { 1.0 }, 0.0);
-                                (if sign == Sign::MinusProduct { -1.0 } else { 1.0 }, true)
-                            }
-                            _ => (1.0, false),
-                        };
-                        pass(a, sign * y.mid, y.radius);
-                        pass(b, sign * x.mid, x.radius);
-                        let exact = self.is_power(place(a)) || self.is_power(place(b));
-                        let product = x.times(y);
-                        for mode in 0..2 {
-                            fresh[mode] = x.error[mode] * y.error[mode];
-                            if !exact && (!fused || mode == 0) {
-                                fresh[mode] += roundoff * (product.magnitude() + product.error[mode]) + UNDERFLOW;
-                            }
-                            if fused {
-                                fresh[mode] += once(mode);
-                            }
-                        }
-                    }
-                    Op::Recip(a) => {
-                        let (slope, loose, rest) = of(a).slope(1.0);
-                        pass(a, slope, loose);
-                        fresh = std::array::from_fn(|mode| rest[mode] + once(mode));
-                    }
-                    Op::Rsqrt(a) => {
-                        let (slope, loose, rest) = of(a).slope(0.5);
-                        pass(a, slope, loose);
-                        fresh = std::array::from_fn(|mode| rest[mode] + (2.0 + 8.0 * roundoff) * once(mode));
-                    }
-                },
-            }
-            for mode in 0..2 {
-                total[mode] += size * fresh[mode];
-            }
-        }
-        total.map(|error| error * SLACK)
-    }
-
-    /// The largest error of one or two outputs, which are scalars, taken together as one vector.
-    pub fn error_together(&self, run: &mut Run, roundoff: f64) -> Both {
-        const DIRECTIONS: usize = 16;
-        let [x, y] = match self.outputs[..] {
-            [x] => return self.toward(&[(x, 1.0)], &self.cone(&[x]), roundoff, run),
-            [x, y] => [x, y],
-            _ => return [f64::INFINITY; 2],
-        };
-        let cone = self.cone(&[x, y]);
-        let mut worst = [0.0; 2];
-        for i in 0..DIRECTIONS {
-            let (sin, cos) = (std::f64::consts::PI * i as f64 / DIRECTIONS as f64).sin_cos();
-            worst = larger(worst, self.toward(&[(x, cos), (y, sin)], &cone, roundoff, run));
-        }
-        // Between two directions a vector's longest component is at most that much longer.
-        worst.map(|error| error / (std::f64::consts::PI / (2 * DIRECTIONS) as f64).cos() * SLACK)
-    }
-
     fn is_power(&self, slot: usize) -> bool {
         matches!(self.slots[slot], Slot::Constant { power: true, .. })
     }
@@ -589,76 +384,6 @@ impl Section {
             }
         }
         Matrix { columns: self.columns, entries }
-    }
-
-    /// Another bound of the error's norm: with P the map from a depth's values to the outputs and V that from the inputs
-    /// to what is rounded there, a depth adds ‖P‖ ‖V‖ u. It keeps the signs that weights lose, and counts depths.
-    pub fn error_by_depth(&self, run: &Run, roundoff: f64) -> Both {
-        let rows = self.outputs.len();
-        let (mut mid, mut radius) = (vec![0.0; self.slots.len() * rows], vec![0.0; self.slots.len() * rows]);
-        for (row, &output) in self.outputs.iter().enumerate() {
-            mid[output * rows + row] += 1.0;
-        }
-        let mut total = [0.0; 2];
-        for (at, slot) in self.slots.iter().enumerate().rev() {
-            let (&Slot::Step(op), Kind::Signal) = (slot, self.kinds[at]) else { continue };
-            let (factor, _, [plus, minus]) = self.form(op, &run.scalars);
-            let (first, last) = ends(op);
-            for row in 0..rows {
-                let (m, r) = (mid[at * rows + row], radius[at * rows + row]);
-                let to = first * rows + row;
-                mid[to] += plus * factor.mid * m;
-                radius[to] += m.abs() * (factor.radius + EPSILON * factor.mid.abs()) + r * factor.magnitude();
-                radius[to] += mid[to].abs() * EPSILON;
-                if let Some(last) = last {
-                    let to = last * rows + row;
-                    mid[to] += minus * m;
-                    radius[to] += r + mid[to].abs() * EPSILON;
-                }
-            }
-        }
-        for level in &self.levels {
-            let side = |values: &[f64]| -> Matrix {
-                let entries = level.iter().flat_map(|&at| values[at * rows..(at + 1) * rows].iter().copied()).collect();
-                Matrix { columns: rows, entries }
-            };
-            let after = side(&mid).quick_norm() + side(&radius).frobenius();
-            // What each step rounds: its sum and its product; what its factor is off by; and errors of errors.
-            let mut parts: [Matrix; 3] = std::array::from_fn(|_| self.empty(level.len()));
-            let mut factors = [self.empty(level.len()), self.empty(level.len())];
-            let (mut rest, mut thick) = ([0.0; 2], 0.0);
-            for (i, &at) in level.iter().enumerate() {
-                let Slot::Step(op) = self.slots[at] else { unreachable!("a level holds steps") };
-                let (factor, rounds, _) = self.form(op, &run.scalars);
-                for (entry, &column) in (self.offset[at]..).zip(&self.support[at]) {
-                    let (a, to) = (self.from[entry][0] as usize, i * self.columns + column as usize);
-                    let (given, size) = (run.mid[a], factor.magnitude());
-                    parts[0].entries[to] = if rounds[1] { run.mid[entry] } else { 0.0 };
-                    let product = if rounds[0] { factor.mid * given } else { 0.0 };
-                    parts[if rounds[1] { 1 } else { 2 }].entries[to] = product;
-                    let loose =
-                        run.radius[entry] + run.radius[a] * size + given.abs() * (factor.radius + EPSILON * size);
-                    thick += loose * loose;
-                    for mode in 0..2 {
-                        factors[mode].entries[to] = factor.error[mode] * given;
-                        let error = 2.0 * roundoff * run.weight[mode][entry]
-                            + factor.error[mode] * (run.radius[a] + run.weight[mode][a]);
-                        rest[mode] += error * error;
-                    }
-                }
-            }
-            let [sum, fused, alone] = parts.map(|part| part.quick_norm());
-            for mode in 0..2 {
-                let rounded = sum + alone + if mode == 0 { fused } else { 0.0 } + 4.0 * thick.sqrt();
-                let error = roundoff * rounded + factors[mode].quick_norm() + rest[mode].sqrt();
-                total[mode] += if error == 0.0 { 0.0 } else { after * error };
-            }
-        }
-        total.map(|error| error * SLACK)
-    }
-
-    fn empty(&self, rows: usize) -> Matrix {
-        Matrix { columns: self.columns, entries: vec![0.0; rows * self.columns] }
     }
 
     /// The error's weights, a row an output.

@@ -1,18 +1,11 @@
-//! The search for lobe directions that make Â sparse (Nowrouzezahrai et al. 2012, section 5): simulated annealing over
-//! directions at the roots of Legendre functions and at fractions of a turn (docs/MATH.md#the-search-for-lobes).
-//!
-//! A search is a sequence of tries that know nothing of each other: a try's number and the seed decide all that it does,
-//! with neither a transcendental function nor the order of threads in it. So a search gives the same sets on every
-//! machine, and one that was interrupted ends as if it had not been. A try is guided by f64, where a zero can only be
-//! guessed; what it finds is kept by what exact numbers say of it ([`Record::new`]), never by the guess.
-//! One file: the grid, the annealing and the state that both keep.
+//! A try: simulated annealing from a random set, then descent. It is steered by f64 alone, by operations that give the same
+//! on every machine, and decides nothing.
 
-use crate::families::zhf::lobes::{HIGHEST_SIZE, Lobe, Mode, Record, RecordError};
-use crate::math::exact::Exact;
+use super::grid::{Direction, EQUATOR, Grid, POLE};
+use super::task::{SLACK, Task};
+use crate::families::zhf::lobes::Mode;
 use crate::math::linear::condition;
 use crate::promise::samples::Random;
-use crate::threads;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -24,297 +17,6 @@ const MOVES: [usize; 2] = [30_000, 60_000];
 const FRESH: usize = 60;
 /// A row is not exchanged for one whose part outside of the others' span is smaller than this part of what it was.
 const SMALLEST_PIVOT: f64 = 1e-3;
-/// Sets with more than this much more non-zeros than the sparsest are dropped from a front.
-const SLACK: f64 = 1.25;
-
-/// What is searched.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Task {
-    /// How the bands share directions.
-    pub mode: Mode,
-    /// The order; for [`Mode::Band`] the band.
-    pub size: usize,
-    /// The seed.
-    pub seed: u32,
-    /// The largest condition number of any band's Y.
-    pub max_condition: f64,
-}
-
-/// Why there is nothing to search, or nothing to go on with.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SearchError {
-    /// A size out of range.
-    #[error("there is no set of size {size} to search for: orders and bands are {from} to {HIGHEST_SIZE}", from = 2)]
-    Size {
-        /// The size.
-        size: usize,
-    },
-    /// A condition that nothing has.
-    #[error("no set has a condition below one; the sparsest have 2 to 100")]
-    Condition,
-    /// A state that is none.
-    #[error("it is no state of a search: {0}")]
-    State(String),
-    /// A set of a state that is not what the state says.
-    #[error("its set of try {attempt} is not what it says: {why}")]
-    Set {
-        /// Which try.
-        attempt: usize,
-        /// What is wrong.
-        why: String,
-    },
-    /// The state of another search.
-    #[error("it is of another search: {found}, not {wanted}")]
-    Other {
-        /// The searches of the state.
-        found: String,
-        /// The searches that were asked for.
-        wanted: String,
-    },
-}
-
-impl Task {
-    fn check(&self) -> Result<(), SearchError> {
-        if !(2..=HIGHEST_SIZE).contains(&self.size) {
-            return Err(SearchError::Size { size: self.size });
-        }
-        match self.max_condition >= 1.0 {
-            true => Ok(()),
-            false => Err(SearchError::Condition),
-        }
-    }
-}
-
-impl std::fmt::Display for Task {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { mode, size, seed, max_condition } = self;
-        write!(f, "{} {size} from seed {seed}, condition to {max_condition}", mode.name())
-    }
-}
-
-/// A search and how far it got.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Search {
-    /// What is searched.
-    pub task: Task,
-    /// How many tries were made.
-    pub tries: usize,
-    /// The sets that no other found beats in both non-zeros and condition, the sparsest first.
-    #[serde(default)]
-    pub found: Vec<Record>,
-    #[serde(skip)]
-    grid: Option<Grid>,
-}
-
-impl Search {
-    /// A search that has made no try.
-    ///
-    /// # Errors
-    ///
-    /// If there is no such set.
-    pub fn new(task: Task) -> Result<Self, SearchError> {
-        task.check()?;
-        Ok(Self { task, tries: 0, found: Vec::new(), grid: None })
-    }
-
-    /// Makes so many more tries in parallel; says when each is done.
-    pub fn advance(&mut self, tries: usize, done: impl Fn() + Sync) {
-        let task = self.task;
-        let grid = self.grid.get_or_insert_with(|| Grid::new(&task));
-        let numbers = self.tries..self.tries + tries;
-        let guesses = threads::map(numbers.clone(), |number| {
-            let found = attempt(grid, &task, number);
-            done();
-            found
-        });
-        for (number, guess) in
-            numbers.zip(guesses).flat_map(|(number, list)| list.into_iter().map(move |g| (number, g)))
-        {
-            if !beaten(&self.found, guess.nonzeros, guess.condition) {
-                let lobes = guess.pool.iter().map(|direction| grid.name(direction)).collect();
-                let subsets = if task.mode == Mode::Free { guess.members } else { Vec::new() };
-                // What the exact numbers refuse was no set: its guess is dropped.
-                if let Ok(record) = Record::new(task.mode, task.size, (task.seed, number), lobes, subsets)
-                    && record.condition <= task.max_condition
-                {
-                    keep(&mut self.found, record);
-                }
-            }
-        }
-        self.tries += tries;
-    }
-
-    /// The sparsest set found, of equally sparse ones the best conditioned.
-    pub fn best(&self) -> Option<&Record> {
-        self.found.first()
-    }
-}
-
-/// Whether one of the sets has no more non-zeros and no larger condition.
-fn beaten(front: &[Record], nonzeros: usize, condition: f64) -> bool {
-    front.iter().any(|record| record.total() <= nonzeros && record.condition <= condition)
-}
-
-/// Adds a set to a front, unless it is beaten, and drops what it beats and what is far from the sparsest.
-pub fn keep(front: &mut Vec<Record>, record: Record) {
-    let same = |other: &Record| (other.mode, other.size) == (record.mode, record.size);
-    let (mut own, others): (Vec<Record>, Vec<Record>) = std::mem::take(front).into_iter().partition(same);
-    if !beaten(&own, record.total(), record.condition) {
-        own.retain(|other| other.total() < record.total() || other.condition < record.condition);
-        own.push(record);
-        own.sort_by(|a, b| a.total().cmp(&b.total()).then(a.condition.total_cmp(&b.condition)));
-        let most = own[0].total() as f64 * SLACK;
-        own.retain(|other| other.total() as f64 <= most);
-    }
-    *front = others;
-    front.append(&mut own);
-    front.sort_by_key(|record| (record.mode, record.size));
-}
-
-/// The state of a list of searches as a file holds it.
-#[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct State {
-    search: Vec<Search>,
-}
-
-/// The text of a state file.
-pub fn state_text(searches: &[Search]) -> String {
-    let state = State { search: searches.to_vec() };
-    toml::to_string(&state).expect("a state has names for its fields")
-}
-
-/// Reads a state file and checks that it is of these searches and that its sets are what it says.
-///
-/// # Errors
-///
-/// If it is no state, one of other searches or one that was changed.
-pub fn resume(text: &str, tasks: &[Task]) -> Result<Vec<Search>, SearchError> {
-    let state: State = toml::from_str(text).map_err(|error| SearchError::State(error.message().to_owned()))?;
-    let list = |tasks: &mut dyn Iterator<Item = &Task>| tasks.map(Task::to_string).collect::<Vec<_>>().join("; ");
-    if !state.search.iter().map(|search| &search.task).eq(tasks) {
-        let found = list(&mut state.search.iter().map(|search| &search.task));
-        return Err(SearchError::Other { found, wanted: list(&mut tasks.iter()) });
-    }
-    for search in &state.search {
-        search.task.check()?;
-        let checked = threads::map(&search.found, |record| {
-            let fault = |why: String| SearchError::Set { attempt: record.attempt, why };
-            let task = &search.task;
-            if (record.mode, record.size, record.seed) != (task.mode, task.size, task.seed) {
-                return Err(fault("it is of another search".to_owned()));
-            }
-            match record.counted() {
-                Ok(counted) if counted == (record.nonzeros.clone(), record.condition) => Ok(()),
-                Ok((nonzeros, condition)) => {
-                    Err(fault(format!("its non-zeros are {nonzeros:?}, its condition {condition}")))
-                }
-                Err(error) => Err(fault(RecordError::to_string(&error))),
-            }
-        });
-        checked.into_iter().collect::<Result<(), SearchError>>()?;
-    }
-    Ok(state.search)
-}
-
-/// A direction of the grid: the index of its height, and its azimuth as a fraction of π.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Direction {
-    height: usize,
-    numerator: usize,
-    denominator: usize,
-}
-
-const POLE: usize = 0;
-const EQUATOR: usize = 1;
-
-/// Every direction that a search may take, with what the basis is made of there.
-#[derive(Clone, Debug, PartialEq)]
-struct Grid {
-    /// The bands that the search is of.
-    bands: std::ops::Range<usize>,
-    /// The heights as [`Lobe`] writes them; the pole, the equator, then the roots.
-    heights: Vec<String>,
-    /// For each height and band the part of y_l^m that does not depend on the azimuth, m from 0.
-    polar: Vec<Vec<Vec<f64>>>,
-    /// For each denominator the (cosine, sine) of each multiple of π through it, up to 2π.
-    turns: Vec<Vec<[f64; 2]>>,
-}
-
-impl Grid {
-    fn new(task: &Task) -> Self {
-        let bands = task.mode.bands(task.size);
-        let top = bands.end - 1;
-        let mut known: Vec<Exact> = Vec::new();
-        let mut heights = vec!["pole".to_owned(), "equator".to_owned()];
-        for l in 2..=top {
-            for (m, rank) in (0..l).flat_map(|m| (1..=(l - m) / 2).map(move |rank| (m, rank))) {
-                let name = format!("P{l},{m}#{rank}");
-                let [_, _, z] = lobe(&format!("{name} 0")).xyz();
-                if !known.contains(&z) {
-                    known.push(z);
-                    heights.push(name);
-                }
-            }
-        }
-        let polar = threads::map(&heights, |name| {
-            let text = if name == "pole" { name.clone() } else { format!("{name} 0") };
-            let lobes = [lobe(&text)];
-            // At azimuth 0 the cosines are one and the sines zero.
-            let of = |l: usize| {
-                crate::families::zhf::lobes::lobe_values(l, &lobes)[0][l..].iter().map(Exact::to_f64).collect()
-            };
-            (0..=top).map(of).collect()
-        });
-        let turn = |d: usize| -> Vec<[f64; 2]> {
-            let at =
-                |k: usize| [Exact::cos_pi(k as i64, d as i64), Exact::sin_pi(k as i64, d as i64)].map(|x| x.to_f64());
-            (0..2 * d).map(at).collect()
-        };
-        let turns = threads::map(1..=2 * top.max(2), turn);
-        Self { bands, heights, polar, turns }
-    }
-
-    fn name(&self, direction: &Direction) -> String {
-        let Direction { height, numerator, denominator } = *direction;
-        let name = &self.heights[height];
-        match (height, denominator) {
-            (POLE, _) => name.clone(),
-            (_, 1) => format!("{name} {numerator}"),
-            _ => format!("{name} {numerator}/{denominator}"),
-        }
-    }
-
-    /// The direction in lowest terms; the equator's are those of half a turn, since opposite directions are one.
-    fn direction(&self, height: usize, numerator: usize, denominator: usize) -> Direction {
-        if height == POLE {
-            return Direction { height, numerator: 0, denominator: 1 };
-        }
-        let whole = if height == EQUATOR { denominator } else { 2 * denominator };
-        let numerator = numerator % whole;
-        let common = num_integer::gcd(numerator, denominator);
-        Direction { height, numerator: numerator / common, denominator: denominator / common }
-    }
-
-    /// y_l^m at a direction, m from −l to l.
-    fn row(&self, l: usize, direction: &Direction) -> Vec<f64> {
-        let polar = &self.polar[direction.height][l];
-        let turns = &self.turns[direction.denominator - 1];
-        let mut row = vec![0.0; 2 * l + 1];
-        for m in 0..=l {
-            let [cos, sin] = turns[m * direction.numerator % turns.len()];
-            row[l - m] = polar[m] * sin;
-            row[l + m] = polar[m] * cos;
-        }
-        row
-    }
-}
-
-fn lobe(text: &str) -> Lobe {
-    text.parse().expect("the grid names directions")
-}
 
 /// One band of a set: which directions it has, and the columns of Â one after another.
 #[derive(Clone, Debug)]
@@ -409,11 +111,11 @@ fn inverse(rows: &[Vec<f64>]) -> Option<Vec<f64>> {
 
 /// What a try takes for a set, and what f64 thinks of it.
 #[derive(Clone, Debug)]
-struct Guess {
-    pool: Vec<Direction>,
-    members: Vec<Vec<usize>>,
-    nonzeros: usize,
-    condition: f64,
+pub struct Guess {
+    pub pool: Vec<Direction>,
+    pub members: Vec<Vec<usize>>,
+    pub nonzeros: usize,
+    pub condition: f64,
 }
 
 /// The directions of a set and its bands.
@@ -679,7 +381,7 @@ impl Front {
 }
 
 /// One try: annealing, then descent to a set that no other direction in any place betters.
-fn attempt(grid: &Grid, task: &Task, number: usize) -> Vec<Guess> {
+pub fn attempt(grid: &Grid, task: &Task, number: usize) -> Vec<Guess> {
     let mut dice = Dice(Random::new(u64::from(task.seed) << 32 | number as u64));
     let palette = Palette::new(grid, task, &mut dice);
     let Some(mut set) = start(grid, &palette, &mut dice) else {
