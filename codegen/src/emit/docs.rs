@@ -5,6 +5,7 @@ use crate::families::family::Spec;
 use crate::ir::code::Code;
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::Param;
+use crate::ir::op::{Op, Price};
 use crate::promise::accuracy::{Accuracy, MARGIN};
 use crate::promise::built::Built;
 
@@ -77,10 +78,17 @@ fn parameter(param: &Param) -> String {
 /// What a kernel costs, in a sentence.
 pub fn cost(built: &Built, channels: usize) -> String {
     let cost = built.code.cost(channels);
+    let usual = [Op::Recip(()).name(), Op::Rsqrt(()).name()];
+    let names = built.code.names(Price::Special);
     let special = match cost.special {
         0 => String::new(),
+        n if names.iter().any(|name| !usual.contains(name)) => format!(" and {n} special ({})", names.join(", ")),
         1 => " and 1 inverse square root or reciprocal".to_owned(),
         n => format!(" and {n} inverse square roots or reciprocals"),
+    };
+    let choice = match cost.choice {
+        0 => String::new(),
+        n => format!(", {n} min, max or select"),
     };
     let footprint = built.code.footprint();
     let below = match &built.code {
@@ -88,7 +96,7 @@ pub fn cost(built: &Built, channels: usize) -> String {
         _ => String::new(),
     };
     format!(
-        "Operations: {} ({} mul, {} add, {} fma){special}{below}; {} constants, {} live values.",
+        "Operations: {} ({} mul, {} add, {} fma{choice}){special}{below}; {} constants, {} live values.",
         cost.total, cost.mul, cost.add, cost.fma, footprint.constants, footprint.live
     )
 }

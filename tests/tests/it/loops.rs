@@ -333,6 +333,7 @@ fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
             mul: (cost.mul + cost.fma) as u64,
             add: (cost.add + cost.fma) as u64,
             fma: 0,
+            choice: cost.choice as u64,
             special: cost.special as u64,
         };
         assert_eq!(counts, expected, "{name} {dialect:?}");

@@ -1,6 +1,7 @@
 //! The tests of the generator, one module a subject, in one program: it is linked once, and what they share is built once.
 
 mod accuracy;
+mod bilinear;
 mod bounds;
 mod brdf;
 mod builder;
@@ -15,6 +16,7 @@ mod house;
 mod laws;
 mod loops;
 mod methods;
+mod operations;
 mod plans;
 mod proofs;
 mod properties;
@@ -26,4 +28,5 @@ mod search;
 mod shader_evaluator;
 mod shaders;
 mod tables;
+mod toys;
 mod zhf_tables;

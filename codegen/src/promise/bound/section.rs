@@ -15,6 +15,8 @@ use std::collections::HashMap;
 const UNDERFLOW: f64 = 1e-45;
 /// More than f64's unit roundoff: what a midpoint may lose.
 const EPSILON: f64 = f64::EPSILON;
+/// Why an operation is not met after [`Section::new`].
+const REFUSED: &str = "refused when the section was made";
 
 /// A scalar: its exact value is within `radius` of `mid`, its f32 value within `error` of the exact one.
 #[derive(Clone, Copy, Debug, Default)]
@@ -296,6 +298,8 @@ impl Section {
             Op::Mul(a, b) => product(of(a), of(b)),
             Op::Fma(a, b, c, _) => sum(product(of(a), of(b)), of(c)),
             Op::Recip(a) | Op::Rsqrt(a) => (of(a) == [0; 3]).then_some([0; 3])?,
+            // Of what is not listed here nothing is known.
+            _ => return None,
         };
         if kind == Kind::Scalar {
             return Some(self.push(Slot::Step(op), kind, degree, vec![], vec![]));
@@ -476,6 +480,7 @@ impl Section {
                         pass(a, slope, loose);
                         fresh = std::array::from_fn(|mode| rest[mode] + (2.0 + 8.0 * roundoff) * once(mode));
                     }
+                    _ => unreachable!("{REFUSED}"),
                 },
             }
             for mode in 0..2 {
@@ -526,6 +531,7 @@ impl Section {
             }
             Op::Recip(a) => of(a).falling(|x| 1.0 / x, roundoff, 1),
             Op::Rsqrt(a) => of(a).falling(|x| 1.0 / x.sqrt(), roundoff, 2),
+            _ => unreachable!("{REFUSED}"),
         }
     }
 
@@ -547,7 +553,7 @@ impl Section {
                 };
                 (factor(b).0, [factor(b).1, true], signs)
             }
-            Op::Recip(_) | Op::Rsqrt(_) => unreachable!("refused when the section was made"),
+            _ => unreachable!("{REFUSED}"),
         }
     }
 
@@ -692,8 +698,9 @@ fn place(slot: Operand) -> usize {
 /// The signal operands of a step: the one in its product, or its first, and the one that is added.
 fn ends(op: Op) -> (usize, Option<usize>) {
     match op {
-        Op::Neg(a) | Op::Mul(a, _) | Op::Recip(a) | Op::Rsqrt(a) => (place(a), None),
+        Op::Neg(a) | Op::Mul(a, _) => (place(a), None),
         Op::Add(a, b) | Op::Sub(a, b) => (place(a), Some(place(b))),
         Op::Fma(a, _, c, _) => (place(a), Some(place(c))),
+        _ => unreachable!("{REFUSED}"),
     }
 }
