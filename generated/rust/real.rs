@@ -19,7 +19,7 @@ pub trait Signal<
     fn fnma(self, t: T, c: Self) -> Self;
     /// `self · other`, channel by channel: linear in each of two signals.
     fn times(self, other: Self) -> Self;
-    /// `c` where `a < b`, else `d`: so where one of them is not a number.
+    /// `c` where `a < b`, else `d`, also where `a` or `b` is not a number.
     fn choose(a: T, b: T, c: Self, d: Self) -> Self;
 }
 /// What a kernel's parameters are made of: `f32`, `f64` or [`Lanes`].
@@ -47,12 +47,12 @@ pub trait Real: Signal<Self> {
     fn rsqrt(self) -> Self {
         self.root().recip()
     }
-    /// `other` where it is smaller, else self: so where one of them is not a number.
+    /// `other` where it is smaller, else self, also where one of them is not a number.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::choose(other, self, other, self)
     }
-    /// `other` where it is larger, else self: so where one of them is not a number.
+    /// `other` where it is larger, else self, also where one of them is not a number.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::choose(self, other, other, self)

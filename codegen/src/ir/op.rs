@@ -1,6 +1,7 @@
 //! The operations, in one table: what each is called, what it takes, what it costs. The graph, the listing and the loops
 //! hold the same [`Op`], each of its own operands. What a table cannot say stands elsewhere: the arithmetic in
 //! [`crate::ir::eval`], the text in each language's file, the enclosure in [`crate::promise::bound`] if there is one.
+//! Of equal zeros and of what is not a number docs/MATH.md#what-nothing-is-proven-of says what comes.
 
 use std::fmt;
 
@@ -88,6 +89,11 @@ macro_rules! operations {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Op<A> {
             $($(#[$doc])* $op($($operand),+ $(, $type)?),)+
+        }
+
+        impl Op<()> {
+            /// The names of all operations, as the table has them.
+            pub const NAMES: &[&str] = &[$($name),+];
         }
 
         impl<A> Op<A> {

@@ -2,6 +2,7 @@
 //! refuse, and what is promised of kernels with them.
 
 use crate::toys::TOYS;
+use std::collections::BTreeSet;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::families::Spec;
@@ -41,7 +42,7 @@ fn choices_are_what_they_are_called() {
         let spec = Spec::new(&CHOICES, 3);
         let spec = if looped { spec.looped() } else { spec };
         let runner = spec.code().runner::<f64>();
-        let (mut sides, code) = (std::collections::BTreeSet::new(), spec.code());
+        let (mut sides, code) = (BTreeSet::new(), spec.code());
         for input in samples::inputs(code.params(), 9, 2000, None) {
             let [dir, c] = &input[..] else { panic!("a direction and coefficients") };
             sides.insert([
@@ -59,6 +60,22 @@ fn choices_are_what_they_are_called() {
         }
         assert!(sides.len() > 16, "{sides:?}");
     }
+}
+
+/// An operation that is added to the table has to be in a toy, so that it is printed, run and counted in every language.
+#[test]
+fn every_operation_of_the_table_is_in_a_toy_or_a_set_up() {
+    let set_up = build(&[spec("lifted:4")]);
+    let mut done = BTreeSet::new();
+    for function in TOYS.iter().chain(&set_up) {
+        let listing = match &function.built.code {
+            Code::Straight(listing) => listing.clone(),
+            Code::Loop(kernel) => Listing::from(kernel),
+            Code::Branch(_) => panic!("no toy has a branch"),
+        };
+        done.extend(listing.steps.iter().map(|step| step.op.name()));
+    }
+    assert_eq!(done, Op::NAMES.iter().copied().collect());
 }
 
 /// Runs one operation of up to four numbers in `T`.

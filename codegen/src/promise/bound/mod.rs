@@ -16,7 +16,8 @@
 //! multiplied by the exact norm of what follows. A stage falls into parts that do not mix. A plane that a phase turns is
 //! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
 //! grid of its one to three angles ([`region`] says why a grid proves it). Whatever is not recognised has no bound: so
-//! roots that are not inverted, powers, logarithms, choices and products of signals, of which nothing is proven.
+//! roots that are not inverted, powers, logarithms, choices and products of signals
+//! (docs/MATH.md#what-nothing-is-proven-of).
 
 pub mod boxes;
 mod lobes;
