@@ -75,16 +75,22 @@ fn parameter(param: &Param) -> String {
     format!("{}: {}.", param.name, param.doc)
 }
 
+/// So many special operations of these names, in words.
+fn special(count: usize, names: &[&str]) -> String {
+    let usual = [Op::Recip(()).name(), Op::Rsqrt(()).name()];
+    match (names.iter().all(|name| usual.contains(name)), count) {
+        (true, 1) => " and 1 inverse square root or reciprocal".to_owned(),
+        (true, _) => format!(" and {count} inverse square roots or reciprocals"),
+        (false, _) => format!(" and {count} special ({})", names.join(", ")),
+    }
+}
+
 /// What a kernel costs, in a sentence.
 pub fn cost(built: &Built, channels: usize) -> String {
     let cost = built.code.cost(channels);
-    let usual = [Op::Recip(()).name(), Op::Rsqrt(()).name()];
-    let names = built.code.names(Price::Special);
     let special = match cost.special {
         0 => String::new(),
-        n if names.iter().any(|name| !usual.contains(name)) => format!(" and {n} special ({})", names.join(", ")),
-        1 => " and 1 inverse square root or reciprocal".to_owned(),
-        n => format!(" and {n} inverse square roots or reciprocals"),
+        count => special(count, &built.code.names(Price::Special)),
     };
     let choice = match cost.choice {
         0 => String::new(),
