@@ -29,7 +29,7 @@ fn lengths(shape: Shape, kind: Kind, rgb: bool) -> Vec<usize> {
         Shape::Array(n) => vec![n],
         Shape::Vectors(n) => vec![n, 3],
     };
-    if kind == Kind::Signal && rgb {
+    if !kind.is_scalar() && rgb {
         lengths.push(3);
     }
     lengths
@@ -81,7 +81,7 @@ fn flatten(value: &Value, lengths: &[usize], numbers: &mut Vec<f64>) -> Result<(
 /// Reads a parameter: nested as it should be, or as one flat list, or for an RGB signal as the values of grey.
 fn read(value: &Value, param: &Param, rgb: bool) -> Result<Channels, String> {
     let full = lengths(param.shape, param.kind, rgb);
-    let channels = if param.kind == Kind::Signal && rgb { 3 } else { 1 };
+    let channels = param.kind.numbers(if rgb { 3 } else { 1 });
     let flat = value.as_array().filter(|items| items.first().is_some_and(|item| !item.is_array())).map(Vec::len);
     let mut numbers = Vec::new();
     if channels == 3 && flat == Some(param.shape.len()) {
@@ -141,9 +141,9 @@ fn seeded(spec: &Spec, params: &[Param], count: usize, seed: u64) -> Vec<Vec<Cha
         .collect();
     (0..count)
         .map(|case| {
-            let of_param = |(i, param): (usize, &Param)| match param.kind {
-                Kind::Signal => channels.iter().map(|channel| channel[case][i].clone()).collect(),
-                Kind::Scalar => vec![channels[0][case][i].clone()],
+            let of_param = |(i, param): (usize, &Param)| -> Channels {
+                let channels = &channels[..param.kind.numbers(channels.len())];
+                channels.iter().map(|channel| channel[case][i].clone()).collect()
             };
             params.iter().enumerate().map(of_param).collect()
         })
@@ -176,7 +176,7 @@ pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Resu
     };
     let (shape, kind) = code.result();
     let result = lengths(shape, kind, spec.rgb);
-    let channels = if kind == Kind::Signal { spec.channels() } else { 1 };
+    let channels = kind.numbers(spec.channels());
     let (narrow, wide) = (code.runner::<f32>(), code.runner::<f64>());
     let cases: Vec<Value> = cases
         .iter()

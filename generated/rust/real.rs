@@ -17,6 +17,10 @@ pub trait Signal<
     fn fms(self, t: T, c: Self) -> Self;
     /// `c − self · t`; one rounding or two.
     fn fnma(self, t: T, c: Self) -> Self;
+    /// `self · other`, channel by channel: linear in each of two signals.
+    fn times(self, other: Self) -> Self;
+    /// `c` where `a < b`, else `d`, also where `a` or `b` is not a number.
+    fn choose(a: T, b: T, c: Self, d: Self) -> Self;
 }
 /// What a kernel's parameters are made of: `f32`, `f64` or [`Lanes`].
 pub trait Real: Signal<Self> {
@@ -32,10 +36,26 @@ pub trait Real: Signal<Self> {
     fn recip(self) -> Self;
     /// Whether it is at most `limit`, of many numbers all of them: then an approximation may serve.
     fn at_most(self, limit: Self) -> bool;
+    /// 2 to the power self.
+    fn exp2(self) -> Self;
+    /// The logarithm to the base 2.
+    fn log2(self) -> Self;
+    /// |self|.
+    fn abs(self) -> Self;
     /// 1 / √self, rounded twice.
     #[inline(always)]
     fn rsqrt(self) -> Self {
         self.root().recip()
+    }
+    /// `other` where it is smaller, else self, also where one of them is not a number.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::choose(other, self, other, self)
+    }
+    /// `other` where it is larger, else self, also where one of them is not a number.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::choose(self, other, other, self)
     }
 }
 impl Signal<f32> for f32 {
@@ -55,6 +75,14 @@ impl Signal<f32> for f32 {
     fn fnma(self, t: f32, c: Self) -> Self {
         c - self * t
     }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn choose(a: f32, b: f32, c: Self, d: Self) -> Self {
+        if a < b { c } else { d }
+    }
 }
 impl Real for f32 {
     const TINY: Self = 1e-15;
@@ -73,6 +101,26 @@ impl Real for f32 {
         #[cfg(not(feature = "std"))]
         let root = libm::sqrtf(self);
         root
+    }
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        #[cfg(feature = "std")]
+        let exp2 = self.exp2();
+        #[cfg(not(feature = "std"))]
+        let exp2 = libm::exp2f(self);
+        exp2
+    }
+    #[inline(always)]
+    fn log2(self) -> Self {
+        #[cfg(feature = "std")]
+        let log2 = self.log2();
+        #[cfg(not(feature = "std"))]
+        let log2 = libm::log2f(self);
+        log2
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
     }
     #[inline(always)]
     fn recip(self) -> Self {
@@ -100,6 +148,14 @@ impl Signal<f64> for f64 {
     fn fnma(self, t: f64, c: Self) -> Self {
         c - self * t
     }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn choose(a: f64, b: f64, c: Self, d: Self) -> Self {
+        if a < b { c } else { d }
+    }
 }
 impl Real for f64 {
     const TINY: Self = 1e-30;
@@ -118,6 +174,26 @@ impl Real for f64 {
         #[cfg(not(feature = "std"))]
         let root = libm::sqrt(self);
         root
+    }
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        #[cfg(feature = "std")]
+        let exp2 = self.exp2();
+        #[cfg(not(feature = "std"))]
+        let exp2 = libm::exp2(self);
+        exp2
+    }
+    #[inline(always)]
+    fn log2(self) -> Self {
+        #[cfg(feature = "std")]
+        let log2 = self.log2();
+        #[cfg(not(feature = "std"))]
+        let log2 = libm::log2(self);
+        log2
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
     }
     #[inline(always)]
     fn recip(self) -> Self {
@@ -179,6 +255,14 @@ impl<T: Real, const N: usize> Signal<T> for Channels<T, N> {
     fn fnma(self, t: T, c: Self) -> Self {
         Self(core::array::from_fn(#[inline(always)] |i| self.0[i].fnma(t, c.0[i])))
     }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| self.0[i].times(other.0[i])))
+    }
+    #[inline(always)]
+    fn choose(a: T, b: T, c: Self, d: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| T::choose(a, b, c.0[i], d.0[i])))
+    }
 }
 impl<const N: usize> Mul<f64> for Channels<f32, N> {
     type Output = Self;
@@ -203,6 +287,14 @@ impl<const N: usize> Signal<f64> for Channels<f32, N> {
     #[inline(always)]
     fn fnma(self, t: f64, c: Self) -> Self {
         Signal::<f32>::fnma(self, t as f32, c)
+    }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        Signal::<f32>::times(self, other)
+    }
+    #[inline(always)]
+    fn choose(a: f64, b: f64, c: Self, d: Self) -> Self {
+        if a < b { c } else { d }
     }
 }
 /// `N` numbers that are worked on at once, one a problem: the layout that vector units like. A kernel on `Lanes`
@@ -255,6 +347,14 @@ impl<T: Real, const N: usize> Signal<Lanes<T, N>> for Lanes<T, N> {
     fn fnma(self, t: Lanes<T, N>, c: Self) -> Self {
         Self(core::array::from_fn(#[inline(always)] |i| self.0[i].fnma(t.0[i], c.0[i])))
     }
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| T::choose(a.0[i], b.0[i], c.0[i], d.0[i])))
+    }
 }
 impl<T: Real, const N: usize> Real for Lanes<T, N> {
     const TINY: Self = Self([T::TINY; N]);
@@ -269,6 +369,18 @@ impl<T: Real, const N: usize> Real for Lanes<T, N> {
     #[inline(always)]
     fn root(self) -> Self {
         Self(self.0.map(#[inline(always)] |x| x.root()))
+    }
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        Self(self.0.map(#[inline(always)] |x| x.exp2()))
+    }
+    #[inline(always)]
+    fn log2(self) -> Self {
+        Self(self.0.map(#[inline(always)] |x| x.log2()))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(#[inline(always)] |x| x.abs()))
     }
     #[inline(always)]
     fn recip(self) -> Self {

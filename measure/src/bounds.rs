@@ -105,6 +105,18 @@ impl<T: Number> Number for Lanes<T> {
         Self(self.0.map(T::root))
     }
 
+    fn exp2(self) -> Self {
+        Self(self.0.map(T::exp2))
+    }
+
+    fn log2(self) -> Self {
+        Self(self.0.map(T::log2))
+    }
+
+    fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
+        Self(std::array::from_fn(|i| T::choose(a.0[i], b.0[i], c.0[i], d.0[i])))
+    }
+
     /// Through f64, which vector units have everywhere: an f32 product is exact there, so that the sum is rounded twice
     /// only where it lies within 2⁻²⁹ of the middle of two f32s, and then to the one next to what it should be.
     fn fused(self, b: Self, c: Self) -> Self {
@@ -117,6 +129,7 @@ impl<T: Number> Number for Lanes<T> {
 fn ranges(measure: Measure, order: usize, count: usize) -> Vec<Range<usize>> {
     match measure {
         Measure::Bands | Measure::Through(_) => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
+        Measure::Product => std::iter::once(0..count).collect(),
         _ => (0..count).map(|i| i..i + 1).collect(),
     }
 }

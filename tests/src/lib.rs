@@ -4,6 +4,7 @@
 pub mod command;
 pub mod house;
 pub mod shader;
+pub mod toys;
 pub mod turns;
 
 use serde_json::Value;

@@ -62,7 +62,9 @@ pub struct Counts {
     pub add: u64,
     /// Calls of `fma`, fused or not.
     pub fma: u64,
-    /// Divisions, `sqrt` and `inverseSqrt`.
+    /// Calls of `min` and `max`, two of them for a `clamp`, and selections; a comparison and `abs` are free.
+    pub choice: u64,
+    /// Divisions, `sqrt`, `inverseSqrt`, `exp2` and `log2`.
     pub special: u64,
 }
 
@@ -496,6 +498,9 @@ impl<'a> Machine<'a> {
             Expression::Select { condition, accept, reject } => {
                 let operands = [a.slot(condition), a.slot(accept), a.slot(reject)];
                 self.map(&"Select", out, operands, |[c, x, y]| Some(if c != 0 { x } else { y }))?;
+                if out.shape.kind == Kind::Float {
+                    self.counts.choice += out.shape.words as u64;
+                }
             }
             Expression::Math { fun, arg, arg1, arg2, .. } => {
                 let operands = [arg, arg1.unwrap_or(arg), arg2.unwrap_or(arg)].map(|x| a.slot(x));
@@ -504,7 +509,11 @@ impl<'a> Machine<'a> {
                 let lanes = out.shape.words as u64;
                 match fun {
                     MathFunction::Fma => self.counts.fma += lanes,
-                    MathFunction::Sqrt | MathFunction::InverseSqrt => self.counts.special += lanes,
+                    MathFunction::Sqrt | MathFunction::InverseSqrt | MathFunction::Exp2 | MathFunction::Log2 => {
+                        self.counts.special += lanes;
+                    }
+                    MathFunction::Min | MathFunction::Max if kind == Kind::Float => self.counts.choice += lanes,
+                    MathFunction::Clamp if kind == Kind::Float => self.counts.choice += 2 * lanes,
                     _ => {}
                 }
             }
@@ -645,6 +654,16 @@ fn compare<T: PartialOrd>(op: BinaryOperator, x: T, y: T) -> Option<u32> {
     }))
 }
 
+/// `min` by the formula of both languages' specifications: the second where it is less than the first, else the first.
+fn smaller(x: f32, y: f32) -> f32 {
+    if y < x { y } else { x }
+}
+
+/// `max` by the formula of both languages' specifications: the second where the first is less than it, else the first.
+fn larger(x: f32, y: f32) -> f32 {
+    if x < y { y } else { x }
+}
+
 fn math(fun: MathFunction, kind: Kind, fused: bool, words: [u32; 3]) -> Option<u32> {
     let [x, y, z] = words;
     match kind {
@@ -652,9 +671,11 @@ fn math(fun: MathFunction, kind: Kind, fused: bool, words: [u32; 3]) -> Option<u
             let [x, y, z] = words.map(f32::from_bits);
             let result = match fun {
                 MathFunction::Abs => x.abs(),
-                MathFunction::Min => x.min(y),
-                MathFunction::Max => x.max(y),
-                MathFunction::Clamp => x.max(y).min(z),
+                MathFunction::Min => smaller(x, y),
+                MathFunction::Max => larger(x, y),
+                MathFunction::Clamp => smaller(larger(x, y), z),
+                MathFunction::Exp2 => x.exp2(),
+                MathFunction::Log2 => x.log2(),
                 MathFunction::Fma if fused => x.mul_add(y, z),
                 MathFunction::Fma => x * y + z,
                 MathFunction::Sqrt => x.sqrt(),

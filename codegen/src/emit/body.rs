@@ -77,7 +77,7 @@ impl Printer<'_> {
             }
             text
         });
-        let text = self.dialect.language.operation(readable(operands));
+        let text = self.dialect.operation(readable(operands));
         let inline = step.uses == 1 && text.text.len() <= WIDTH;
         self.texts.push(if inline {
             (text, names)

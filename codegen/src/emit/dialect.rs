@@ -1,10 +1,12 @@
 //! A language as one function is printed in it: how many channels its signal has, how wide its numbers are and how
 //! arrays are passed. Types, components and values follow from the language's record.
 
+use crate::emit::language::expression::Text;
 use crate::emit::language::record::{Float, ITEMS, Numbers, Type, Way};
 use crate::emit::language::{Arrays, Target};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
+use crate::ir::op::Op;
 use crate::math::exact::Exact;
 
 /// A language and what the text of one function depends on besides.
@@ -56,6 +58,11 @@ impl Dialect {
     /// Returns the type of one number of this kind.
     pub fn number(self, kind: Kind) -> String {
         self.numbers().of(kind).to_owned()
+    }
+
+    /// Returns an operation as text, its operands in their order.
+    pub fn operation(self, op: Op<Text>) -> Text {
+        self.language.operation(op, &self.numbers())
     }
 
     /// Returns the type of a value inside a function.

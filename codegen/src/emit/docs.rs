@@ -5,6 +5,7 @@ use crate::families::family::Spec;
 use crate::ir::code::Code;
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::Param;
+use crate::ir::op::{Op, Price};
 use crate::promise::accuracy::{Accuracy, MARGIN};
 use crate::promise::built::Built;
 
@@ -74,13 +75,26 @@ fn parameter(param: &Param) -> String {
     format!("{}: {}.", param.name, param.doc)
 }
 
+/// So many special operations of these names, in words.
+fn special(count: usize, names: &[&str]) -> String {
+    let usual = [Op::Recip(()).name(), Op::Rsqrt(()).name()];
+    match (names.iter().all(|name| usual.contains(name)), count) {
+        (true, 1) => " and 1 inverse square root or reciprocal".to_owned(),
+        (true, _) => format!(" and {count} inverse square roots or reciprocals"),
+        (false, _) => format!(" and {count} special ({})", names.join(", ")),
+    }
+}
+
 /// What a kernel costs, in a sentence.
 pub fn cost(built: &Built, channels: usize) -> String {
     let cost = built.code.cost(channels);
     let special = match cost.special {
         0 => String::new(),
-        1 => " and 1 inverse square root or reciprocal".to_owned(),
-        n => format!(" and {n} inverse square roots or reciprocals"),
+        count => special(count, &built.code.names(Price::Special)),
+    };
+    let choice = match cost.choice {
+        0 => String::new(),
+        n => format!(", {n} min, max or select"),
     };
     let footprint = built.code.footprint();
     let below = match &built.code {
@@ -88,7 +102,7 @@ pub fn cost(built: &Built, channels: usize) -> String {
         _ => String::new(),
     };
     format!(
-        "Operations: {} ({} mul, {} add, {} fma){special}{below}; {} constants, {} live values.",
+        "Operations: {} ({} mul, {} add, {} fma{choice}){special}{below}; {} constants, {} live values.",
         cost.total, cost.mul, cost.add, cost.fma, footprint.constants, footprint.live
     )
 }

@@ -9,7 +9,6 @@ use crate::emit::language::record::{Generic, Numbers, Way};
 use crate::emit::module::{Function, Limit, Module};
 use crate::emit::plain::{self, head, render};
 use crate::emit::support;
-use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
 use std::collections::BTreeSet;
 use tera::Context;
@@ -22,9 +21,9 @@ impl Function {
         let params = self.built.code.params();
         let arguments: Vec<String> = params
             .iter()
-            .map(|param| match (param.kind, param.shape) {
-                (Kind::Scalar, _) => param.name.to_owned(),
-                (Kind::Signal, _) => format!("&{}.map(Channels)", param.name),
+            .map(|param| match param.kind.is_scalar() {
+                true => param.name.to_owned(),
+                false => format!("&{}.map(Channels)", param.name),
             })
             .collect();
         let (shape, kind) = self.built.code.result();

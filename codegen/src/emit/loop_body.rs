@@ -185,7 +185,7 @@ impl Printer<'_> {
             Num::Tiny => Text::literal(self.dialect.tiny().to_owned()),
             Num::Name(name) => Text::atom(*name, self.kinds[name]),
             Num::Item(name, index) => Text::atom(self.item(name, index), self.kinds[name]),
-            Num::Op(op) => self.dialect.language.operation(op.each().map(|arg| self.num(arg))),
+            Num::Op(op) => self.dialect.operation(op.each().map(|arg| self.num(arg))),
         }
     }
 }

@@ -3,7 +3,6 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Spec;
-use crate::ir::graph::Kind;
 use crate::promise::built::Built;
 use std::sync::Arc;
 
@@ -82,9 +81,9 @@ impl Function {
         }
     }
 
-    /// Returns whether a parameter is the signal.
+    /// Returns whether a parameter is a signal.
     pub(crate) fn has_signal(&self) -> bool {
-        self.built.code.params().iter().any(|param| param.kind == Kind::Signal)
+        self.built.code.params().iter().any(|param| !param.kind.is_scalar())
     }
 
     /// Returns how the function is printed in a language.

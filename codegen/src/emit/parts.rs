@@ -59,11 +59,11 @@ pub fn cut(
     let kinds: Vec<Kind> = body.lines.iter().map(|line| line.kind).collect();
     let groups = |names: &BTreeSet<usize>| -> Vec<Group> {
         let [scalar, signal] = generic.numbers;
-        let of = |(kind, number)| {
-            let of_kind = names.iter().filter(|&&name| kinds[name] == kind);
+        let of = |(is_scalar, number)| {
+            let of_kind = names.iter().filter(|&&name| kinds[name].is_scalar() == is_scalar);
             (of_kind.map(|name| format!("t{name}")).collect::<Vec<_>>(), number)
         };
-        let groups = [(Kind::Scalar, scalar), (Kind::Signal, signal)].map(of);
+        let groups = [(true, scalar), (false, signal)].map(of);
         groups.into_iter().filter(|(names, _)| !names.is_empty()).collect()
     };
     let types = |(names, number): &Group| (dialect.language.types.array)(number, names.len());

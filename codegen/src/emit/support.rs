@@ -1,5 +1,6 @@
 //! The traits and small types that generated Rust stands on, from a template.
 
+use serde::Serialize;
 use tera::{Context, Tera};
 
 /// Where generated Rust runs.
@@ -11,6 +12,17 @@ pub enum Std {
     ByFeature,
 }
 
+/// The functions that are taken from `std` or `libm`, which have a name of their own for f32.
+const FUNCTIONS: [Taken; 3] =
+    [Taken { name: "root", of: "sqrt" }, Taken { name: "exp2", of: "exp2" }, Taken { name: "log2", of: "log2" }];
+
+/// A function of `Real` and what it is called where it is taken from.
+#[derive(Serialize)]
+struct Taken {
+    name: &'static str,
+    of: &'static str,
+}
+
 /// Returns the text of the module `real`.
 ///
 /// # Panics
@@ -19,6 +31,7 @@ pub enum Std {
 pub fn real(std: Std) -> String {
     let mut context = Context::new();
     context.insert("by_feature", &(std == Std::ByFeature));
+    context.insert("functions", &FUNCTIONS);
     let text = Tera::default().render_str(zonal_templates::REAL, &context, false);
     text.unwrap_or_else(|error| panic!("the template of `real` is at fault: {error}"))
 }

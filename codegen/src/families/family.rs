@@ -84,6 +84,8 @@ pub enum Measure {
     Bands,
     /// The value's error against the norm of all coefficients.
     Whole,
+    /// The whole result's error against the product of the norms of all signals, of which there are two or one twice.
+    Product,
     /// The error itself: there is no signal.
     Absolute,
     /// The error of each band of the signal that this kernel rotates by the result, for two results may mean the same: there
@@ -297,7 +299,7 @@ impl Family {
 
     /// Whether it has a signal, which may be RGB.
     pub fn has_signal(&self) -> bool {
-        matches!(self.measure, Measure::Bands | Measure::Whole)
+        matches!(self.measure, Measure::Bands | Measure::Whole | Measure::Product)
     }
 
     fn key(&self) -> (&str, &str) {

@@ -4,6 +4,7 @@ use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
 use crate::ir::listing::{Cost, Footprint, Listing};
+use crate::ir::op::Price;
 use crate::ir::program::{LoopKernel, Stmt};
 
 /// The operations of a kernel.
@@ -63,6 +64,25 @@ impl Code {
             Self::Loop(kernel) => Listing::from(kernel).cost(channels),
             Self::Branch(branch) => branch.costs(channels)[1],
         }
+    }
+
+    /// The names of the operations of a price that it does, each once, in the order in which they are first done.
+    pub fn names(&self, price: Price) -> Vec<&'static str> {
+        let of = |listing: &Listing| -> Vec<&'static str> {
+            listing.steps.iter().filter(|step| step.op.price() == price).map(|step| step.op.name()).collect()
+        };
+        let all = match self {
+            Self::Straight(listing) => of(listing),
+            Self::Loop(kernel) => of(&Listing::from(kernel)),
+            Self::Branch(branch) => [&branch.condition, &branch.below, &branch.above].map(of).concat(),
+        };
+        let mut names = Vec::new();
+        all.into_iter().for_each(|name| {
+            if !names.contains(&name) {
+                names.push(name)
+            }
+        });
+        names
     }
 
     /// What it needs besides operations; a loop's constants are its tables', its live values those of its arrays.

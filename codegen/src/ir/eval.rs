@@ -40,6 +40,23 @@ pub trait Number:
     fn root(self) -> Self;
     /// self · b + c, rounded once.
     fn fused(self, b: Self, c: Self) -> Self;
+    /// 2 to the power self, as exact as the platform's of f64 is, or that of f32 for an f32.
+    fn exp2(self) -> Self {
+        Self::from_f64(self.to_f64().exp2())
+    }
+    /// The logarithm to the base 2, as exact as the platform's of f64 is, or that of f32 for an f32.
+    fn log2(self) -> Self {
+        Self::from_f64(self.to_f64().log2())
+    }
+    /// `c` where `a` is less than `b`, else `d`, also where `a` or `b` is not a number.
+    fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
+        if a < b { c } else { d }
+    }
+    /// |self|.
+    fn abs(self) -> Self {
+        // The sum takes the sign off −0 and changes nothing else.
+        Self::choose(self, Self::ZERO, -self, self + Self::ZERO)
+    }
 }
 
 macro_rules! number {
@@ -67,6 +84,14 @@ macro_rules! number {
             #[inline]
             fn fused(self, b: Self, c: Self) -> Self {
                 self.mul_add(b, c)
+            }
+            #[inline]
+            fn exp2(self) -> Self {
+                self.exp2()
+            }
+            #[inline]
+            fn log2(self) -> Self {
+                self.log2()
             }
         }
     };
@@ -166,5 +191,12 @@ fn apply<T: Number>(op: Op<T>, contraction: Contraction) -> T {
         },
         Op::Recip(a) => T::ONE / a,
         Op::Rsqrt(a) => T::ONE / a.root(),
+        Op::Sqrt(a) => a.root(),
+        Op::Exp2(a) => a.exp2(),
+        Op::Log2(a) => a.log2(),
+        Op::Abs(a) => a.abs(),
+        Op::Min(a, b) => T::choose(b, a, b, a),
+        Op::Max(a, b) => T::choose(a, b, b, a),
+        Op::Select(a, b, c, d) => T::choose(a, b, c, d),
     }
 }

@@ -4,6 +4,7 @@
 pub use crate::ir::op::Kind;
 use crate::ir::op::Op;
 use crate::math::exact::Exact;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 
 /// The place of a node in its [`Graph`].
@@ -25,7 +26,7 @@ pub enum Node {
         /// Which of its components, in flat order.
         index: u32,
     },
-    /// An operation on nodes; of the factors of a product a signal, if there is one, comes first, else a constant.
+    /// An operation on nodes; of the factors of a product that of the higher degree comes first, of two scalars a constant.
     Op(Op<Id>),
 }
 
@@ -140,6 +141,10 @@ impl Graph {
     }
 
     /// a + b.
+    ///
+    /// # Panics
+    ///
+    /// If they are of two kinds: a signal and a product of signals, or a signal and a scalar that is not zero.
     pub fn add(&mut self, a: Id, b: Id) -> Id {
         match (self.exact(a), self.exact(b)) {
             (Some(x), Some(y)) => {
@@ -168,7 +173,11 @@ impl Graph {
         self.add(a, minus)
     }
 
-    /// a · b.
+    /// a · b, of two signals their product channel by channel.
+    ///
+    /// # Panics
+    ///
+    /// If a factor is a product of signals and the other one is not a scalar.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
         if let Node::Op(Op::Neg(inner)) = *self.node(a) {
             let product = self.mul(inner, b);
@@ -183,10 +192,10 @@ impl Graph {
             (Some(x), None) => self.scale(&x, b),
             (None, Some(y)) => self.scale(&y, a),
             (None, None) => {
-                let (first, second) = match (self.kind(a), self.kind(b)) {
-                    (Kind::Signal, _) => (a, b),
-                    (_, Kind::Signal) => (b, a),
-                    _ => (a.min(b), a.max(b)),
+                let (first, second) = match self.kind(a).cmp(&self.kind(b)) {
+                    Ordering::Greater => (a, b),
+                    Ordering::Less => (b, a),
+                    Ordering::Equal => (a.min(b), a.max(b)),
                 };
                 self.apply(Op::Mul(first, second))
             }
@@ -225,9 +234,9 @@ impl Graph {
 
     fn scaled(&mut self, factor: &Exact, a: Id) -> Id {
         let constant = self.constant(factor.clone());
-        match self.kind(a) {
-            Kind::Signal => self.apply(Op::Mul(a, constant)),
-            Kind::Scalar => self.apply(Op::Mul(constant, a)),
+        match self.kind(a).is_scalar() {
+            true => self.apply(Op::Mul(constant, a)),
+            false => self.apply(Op::Mul(a, constant)),
         }
     }
 
@@ -270,5 +279,124 @@ impl Graph {
     /// 1 / √a.
     pub fn rsqrt(&mut self, a: Id) -> Id {
         self.apply(Op::Rsqrt(a))
+    }
+
+    /// √a; not a number where a is negative.
+    pub fn sqrt(&mut self, a: Id) -> Id {
+        match self.exact(a).filter(|value| value.signum() >= 0).map(Exact::sqrt) {
+            Some(root) => self.constant(root),
+            None => self.apply(Op::Sqrt(a)),
+        }
+    }
+
+    /// 2 to the power a.
+    pub fn exp2(&mut self, a: Id) -> Id {
+        self.apply(Op::Exp2(a))
+    }
+
+    /// The logarithm of a to the base 2; −∞ for zero, not a number where a is negative.
+    pub fn log2(&mut self, a: Id) -> Id {
+        self.apply(Op::Log2(a))
+    }
+
+    /// |a|.
+    pub fn abs(&mut self, a: Id) -> Id {
+        match self.node(a).clone() {
+            Node::Const(value) => self.constant(value.abs()),
+            Node::Op(Op::Neg(inner)) => self.abs(inner),
+            Node::Op(Op::Abs(_)) => a,
+            _ => self.apply(Op::Abs(a)),
+        }
+    }
+
+    /// The smaller of a and b; a where neither is smaller.
+    pub fn min(&mut self, a: Id, b: Id) -> Id {
+        match self.is_less(b, a) {
+            Some(is_less) => {
+                if is_less {
+                    b
+                } else {
+                    a
+                }
+            }
+            None => match (self.node(a), self.node(b)) {
+                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
+                    let larger = self.max(x, y);
+                    self.neg(larger)
+                }
+                _ => self.apply(Op::Min(a, b)),
+            },
+        }
+    }
+
+    /// The larger of a and b; a where neither is larger.
+    pub fn max(&mut self, a: Id, b: Id) -> Id {
+        match self.is_less(a, b) {
+            Some(is_less) => {
+                if is_less {
+                    b
+                } else {
+                    a
+                }
+            }
+            None => match (self.node(a), self.node(b)) {
+                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
+                    let smaller = self.min(x, y);
+                    self.neg(smaller)
+                }
+                _ => self.apply(Op::Max(a, b)),
+            },
+        }
+    }
+
+    /// a, or what is nearest to it from low to high.
+    pub fn clamp(&mut self, a: Id, low: Id, high: Id) -> Id {
+        let above = self.max(a, low);
+        self.min(above, high)
+    }
+
+    /// c where a < b, else d; c and d may be signals.
+    ///
+    /// # Panics
+    ///
+    /// If a or b is no scalar, or c and d are of two kinds.
+    pub fn select_less(&mut self, a: Id, b: Id, c: Id, d: Id) -> Id {
+        if c == d {
+            return c;
+        }
+        match self.is_less(a, b) {
+            Some(is_less) => {
+                if is_less {
+                    c
+                } else {
+                    d
+                }
+            }
+            None => match (self.node(c), self.node(d)) {
+                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
+                    let chosen = self.select_less(a, b, x, y);
+                    self.neg(chosen)
+                }
+                _ => self.apply(Op::Select(a, b, c, d)),
+            },
+        }
+    }
+
+    /// c where a ≤ b, else d: d where b < a, else c.
+    ///
+    /// # Panics
+    ///
+    /// As [`Graph::select_less`].
+    pub fn select_at_most(&mut self, a: Id, b: Id, c: Id, d: Id) -> Id {
+        self.select_less(b, a, d, c)
+    }
+
+    /// Whether a < b, where that is known: of constants, and of a node and itself.
+    fn is_less(&self, a: Id, b: Id) -> Option<bool> {
+        match (self.exact(a), self.exact(b)) {
+            _ if a == b => Some(false),
+            (Some(x), Some(y)) => Some((x - y).signum() < 0),
+            _ => None,
+        }
     }
 }

@@ -55,7 +55,7 @@ pub struct Param {
     pub name: &'static str,
     /// Its shape.
     pub shape: Shape,
-    /// Whether it is the signal, which has one number a channel, or a number that all channels share.
+    /// Whether it is a signal, which has one number a channel, or a number that all channels share.
     pub kind: Kind,
     /// What it may be.
     pub domain: Domain,
@@ -64,7 +64,7 @@ pub struct Param {
 }
 
 impl Param {
-    /// A parameter; it is the signal where its domain says so.
+    /// A parameter; it is a signal where its domain says so.
     pub fn new(name: &'static str, shape: Shape, domain: Domain, doc: impl Into<String>) -> Self {
         let kind = if domain.is_signal() { Kind::Signal } else { Kind::Scalar };
         Self { name, shape, kind, domain, doc: doc.into() }
@@ -82,7 +82,7 @@ pub struct Kernel {
     pub outputs: Vec<Id>,
     /// The shape of the result.
     pub result: Shape,
-    /// Whether the result is linear in the signal.
+    /// Whether the result is linear in the signal, or in each of two.
     pub result_kind: Kind,
     /// What the result holds.
     pub result_doc: String,
@@ -111,9 +111,16 @@ impl Builder {
     }
 
     /// The kernel with these outputs.
+    ///
+    /// # Panics
+    ///
+    /// If there are more or fewer than the result has numbers, or a signal is among products of signals.
     pub fn finish(self, outputs: Vec<Id>, result: Shape, doc: impl Into<String>) -> Kernel {
         assert_eq!(outputs.len(), result.len(), "one output for each number of the result");
-        let result_kind = outputs.iter().map(|&id| self.graph.kind(id)).max().unwrap_or(Kind::Scalar);
+        let kinds = || outputs.iter().map(|&id| self.graph.kind(id));
+        let result_kind = kinds().max().unwrap_or(Kind::Scalar);
+        let is_mixed = result_kind == Kind::Product && kinds().any(|kind| kind == Kind::Signal);
+        assert!(!is_mixed, "a result is linear in a signal, or in each of two");
         Kernel { params: self.params, graph: self.graph, outputs, result, result_kind, result_doc: doc.into() }
     }
 }

@@ -6,7 +6,7 @@ use crate::ir::kernel::{Kernel, Param, Shape};
 pub use crate::ir::op::Sign;
 use crate::ir::op::{self, Price};
 use crate::math::exact::Exact;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// An operand of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,8 +40,8 @@ pub struct Step {
     pub uses: usize,
 }
 
-/// What a kernel costs. A multiplication, an addition or a fused multiply-add is one operation each; a negation is free;
-/// a reciprocal and an inverse square root are counted apart.
+/// What a kernel costs. A multiplication, an addition, a fused multiply-add or a choice of two numbers is one operation
+/// each; a negation and an absolute value are free; reciprocals, roots, powers and logarithms are counted apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Cost {
     /// Multiplications that are not fused.
@@ -50,9 +50,11 @@ pub struct Cost {
     pub add: usize,
     /// Fused multiply-adds.
     pub fma: usize,
-    /// Reciprocals and inverse square roots.
+    /// Minima, maxima and selections.
+    pub choice: usize,
+    /// Reciprocals, roots, powers and logarithms.
     pub special: usize,
-    /// mul + add + fma.
+    /// mul + add + fma + choice.
     pub total: usize,
 }
 
@@ -64,6 +66,7 @@ impl std::ops::Add for Cost {
             mul: self.mul + other.mul,
             add: self.add + other.add,
             fma: self.fma + other.fma,
+            choice: self.choice + other.choice,
             special: self.special + other.special,
             total: self.total + other.total,
         }
@@ -84,7 +87,7 @@ pub struct Footprint {
 pub struct Listing {
     /// The parameters, in order.
     pub params: Vec<Param>,
-    /// The constants, none of them negative unless it is an output.
+    /// The constants, none of them negative unless it is an output or an operand of what is no sum and no product.
     pub constants: Vec<Exact>,
     /// The steps, in order.
     pub steps: Vec<Step>,
@@ -94,7 +97,7 @@ pub struct Listing {
     pub stages: Vec<Vec<Operand>>,
     /// The shape of the result.
     pub result: Shape,
-    /// Whether the result is linear in the signal.
+    /// Whether the result is linear in the signal, or in each of two.
     pub result_kind: Kind,
     /// What the result holds.
     pub result_doc: String,
@@ -104,6 +107,8 @@ struct Layout<'a> {
     graph: &'a Graph,
     order: Vec<Id>,
     users: HashMap<Id, Vec<Id>>,
+    /// The values whose sign nothing else can carry: outputs, and operands of what is no sum.
+    signed: HashSet<Id>,
 }
 
 /// The node below a negation, and whether there was one.
@@ -118,8 +123,9 @@ impl<'a> Layout<'a> {
     /// Depth first from the outputs; who uses each node, negations looked through.
     fn new(kernel: &'a Kernel) -> Self {
         let graph = &kernel.graph;
-        let mut layout = Self { graph, order: Vec::new(), users: HashMap::new() };
-        let mut seen = std::collections::HashSet::new();
+        let signed = kernel.outputs.iter().copied().collect();
+        let mut layout = Self { graph, order: Vec::new(), users: HashMap::new(), signed };
+        let mut seen = HashSet::new();
         let mut stack: Vec<(Id, bool)> = kernel.outputs.iter().rev().map(|&id| (id, false)).collect();
         while let Some((id, ready)) = stack.pop() {
             if ready {
@@ -141,6 +147,9 @@ impl<'a> Layout<'a> {
                 for &operand in &operands {
                     layout.users.entry(unsigned(graph, operand).0).or_default().push(id);
                 }
+                if !matches!(graph.node(id), Node::Op(op::Op::Add(..))) {
+                    layout.signed.extend(&operands);
+                }
             }
         }
         layout
@@ -150,7 +159,7 @@ impl<'a> Layout<'a> {
     /// other product yet, for then the product itself vanishes; those with the fewest uses go first.
     fn fuse(&self, outputs: &[Id]) -> HashMap<Id, Id> {
         let place: HashMap<Id, usize> = self.order.iter().enumerate().map(|(i, &id)| (id, i)).collect();
-        let kept: std::collections::HashSet<Id> = outputs.iter().map(|&id| unsigned(self.graph, id).0).collect();
+        let kept: HashSet<Id> = outputs.iter().map(|&id| unsigned(self.graph, id).0).collect();
         let mut products: Vec<Id> = self
             .order
             .iter()
@@ -184,7 +193,7 @@ impl Listing {
         let graph = &kernel.graph;
         let layout = Layout::new(kernel);
         let fused = layout.fuse(&kernel.outputs);
-        let vanished: std::collections::HashSet<Id> = fused.values().copied().collect();
+        let vanished: HashSet<Id> = fused.values().copied().collect();
         let mut listing = Self {
             params: kernel.params.clone(),
             constants: Vec::new(),
@@ -197,7 +206,6 @@ impl Listing {
         };
         let mut operands: HashMap<Id, Operand> = HashMap::new();
         let mut constants: HashMap<Exact, usize> = HashMap::new();
-        let outputs: std::collections::HashSet<Id> = kernel.outputs.iter().copied().collect();
         for &id in &layout.order {
             if vanished.contains(&id) {
                 continue;
@@ -213,8 +221,7 @@ impl Listing {
                 }
                 Node::Tiny => Operand::Tiny,
                 &Node::Input { param, index } => Operand::Input { param: param as usize, index: index as usize },
-                // A negation is a step only where nothing else can carry the sign.
-                Node::Op(op::Op::Neg(_)) if !outputs.contains(&id) => continue,
+                Node::Op(op::Op::Neg(_)) if !layout.signed.contains(&id) => continue,
                 Node::Op(op) => {
                     let op = match *op {
                         op::Op::Add(a, b) => Self::sum(graph, &operands, fused.get(&id).copied(), a, b),
@@ -270,19 +277,17 @@ impl Listing {
     pub fn cost(&self, channels: usize) -> Cost {
         let mut cost = Cost::default();
         for step in &self.steps {
-            let times = match step.kind {
-                Kind::Scalar => 1,
-                Kind::Signal => channels,
-            };
+            let times = step.kind.numbers(channels);
             match step.op.price() {
                 Price::Free => {}
                 Price::Add => cost.add += times,
                 Price::Mul => cost.mul += times,
                 Price::Fma => cost.fma += times,
+                Price::Choice => cost.choice += times,
                 Price::Special => cost.special += times,
             }
         }
-        cost.total = cost.mul + cost.add + cost.fma;
+        cost.total = cost.mul + cost.add + cost.fma + cost.choice;
         cost
     }
 

@@ -1,14 +1,45 @@
 //! The operations, in one table: what each is called, what it takes, what it costs. The graph, the listing and the loops
 //! hold the same [`Op`], each of its own operands. What a table cannot say stands elsewhere: the arithmetic in
-//! [`crate::ir::eval`], the text in each language's file, the enclosure in [`crate::promise::bound`].
+//! [`crate::ir::eval`], the text in each language's file, the enclosure in [`crate::promise::bound`] if there is one.
+//! Of equal zeros and of what is not a number docs/MATH.md#what-nothing-is-proven-of says what comes.
 
-/// What a value is: a parameter of the kernel, or linear in its signal (one number a channel).
+use std::fmt;
+
+/// What a value is, by its degree in the signals: made of parameters alone, linear in a signal, or a product of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// One number, shared by all channels of a signal.
+    /// Degree 0: one number, shared by all channels of a signal.
     Scalar,
-    /// Linear in the signal: as many numbers as the signal has channels.
+    /// Degree 1, linear in a signal: as many numbers as the signal has channels.
     Signal,
+    /// Degree 2, linear in each of two signals, channel by channel: as many numbers as they have channels.
+    Product,
+}
+
+impl Kind {
+    /// All kinds, by degree.
+    pub const ALL: [Self; 3] = [Self::Scalar, Self::Signal, Self::Product];
+
+    /// Returns its degree in the signals.
+    pub fn degree(self) -> usize {
+        self as usize
+    }
+
+    /// Returns whether it is one number however many channels a signal has.
+    pub fn is_scalar(self) -> bool {
+        self == Self::Scalar
+    }
+
+    /// Returns how many numbers it is where a signal has so many channels.
+    pub fn numbers(self, channels: usize) -> usize {
+        if self.is_scalar() { 1 } else { channels }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(["scalar", "signal", "product of signals"][self.degree()])
+    }
 }
 
 /// How the two parts of a fused operation are signed.
@@ -33,6 +64,8 @@ pub enum Price {
     Mul,
     /// One fused multiply-add.
     Fma,
+    /// One choice of two numbers: GPUs have an instruction for it, as they have for an addition.
+    Choice,
     /// One operation that is slower than arithmetic, counted apart.
     Special,
 }
@@ -40,13 +73,13 @@ pub enum Price {
 /// What kinds of operands an operation takes, and of what kind its value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Takes {
-    /// Anything; a signal makes a signal.
+    /// Anything, all of one kind, which is the value's.
     Sums,
-    /// Two factors, then a summand perhaps; a signal makes a signal, two of them one that is linear in each.
+    /// Two factors, whose degrees add to that of the value, then a summand of its kind perhaps.
     Products,
     /// Scalars alone: the value is linear in nothing.
     Scalars,
-    /// Two scalars to compare, then two of anything to choose from.
+    /// Two scalars to compare, then two of anything of one kind to choose from.
     Choice,
 }
 
@@ -56,6 +89,11 @@ macro_rules! operations {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Op<A> {
             $($(#[$doc])* $op($($operand),+ $(, $type)?),)+
+        }
+
+        impl Op<()> {
+            /// The names of all operations, as the table has them.
+            pub const NAMES: &[&str] = &[$($name),+];
         }
 
         impl<A> Op<A> {
@@ -104,14 +142,29 @@ operations! {
     Add(a: A, b: A): "sum", Price::Add, Sums;
     /// a − b.
     Sub(a: A, b: A): "difference", Price::Add, Sums;
-    /// a · b; a signal comes first.
+    /// a · b; the factor of the higher degree comes first.
     Mul(a: A, b: A): "product", Price::Mul, Products;
-    /// a · b and c, signed as said; a signal comes first in the product.
+    /// a · b and c, signed as said; the factor of the higher degree comes first.
     Fma(a: A, b: A, c: A; sign: Sign): "multiply-add", Price::Fma, Products;
     /// 1 / a.
     Recip(a: A): "reciprocal", Price::Special, Scalars;
     /// 1 / √a.
     Rsqrt(a: A): "inverse square root", Price::Special, Scalars;
+    /// √a.
+    Sqrt(a: A): "square root", Price::Special, Scalars;
+    /// 2 to the power a.
+    Exp2(a: A): "power of two", Price::Special, Scalars;
+    /// The logarithm of a to the base 2.
+    Log2(a: A): "logarithm", Price::Special, Scalars;
+    /// |a|: free, as a negation is.
+    Abs(a: A): "absolute value", Price::Free, Scalars;
+    /// b where b < a, else a.
+    Min(a: A, b: A): "minimum", Price::Choice, Scalars;
+    /// b where a < b, else a.
+    Max(a: A, b: A): "maximum", Price::Choice, Scalars;
+    /// c where a < b, else d. One choice a channel: whatever is chosen by one comparison shares it, so that it is not
+    /// counted.
+    Select(a: A, b: A, c: A, d: A): "selection", Price::Choice, Choice;
 }
 
 impl<A> Op<A> {
@@ -140,14 +193,60 @@ impl Op<Kind> {
     /// Returns the kind of the value, or why the operation does not take operands of these kinds.
     pub fn kind(&self) -> Result<Kind, String> {
         let operands: Vec<Kind> = self.operands().collect();
-        let scalars = match self.takes() {
-            Takes::Sums | Takes::Products => 0,
-            Takes::Scalars => operands.len(),
-            Takes::Choice => 2,
+        let (scalars, factors) = match self.takes() {
+            Takes::Sums => (0, 0),
+            Takes::Products => (0, 2),
+            Takes::Scalars => (operands.len(), 0),
+            Takes::Choice => (2, 0),
         };
-        match operands[..scalars].contains(&Kind::Signal) {
-            true => Err(format!("a {} of a signal", self.name())),
-            false => Ok(operands.into_iter().max().unwrap_or(Kind::Scalar)),
+        let (scalars, rest) = operands.split_at(scalars);
+        let (factors, alike) = rest.split_at(factors);
+        if let Some(other) = scalars.iter().find(|kind| !kind.is_scalar()) {
+            return Err(format!("there is no {} of a {other}", self.name()));
+        }
+        let mut kinds = alike.to_vec();
+        if let &[a, b] = factors {
+            let product = Kind::ALL.get(a.degree() + b.degree());
+            kinds.insert(0, *product.ok_or_else(|| format!("there is no product of a {a} and a {b}"))?);
+        }
+        let kind = kinds.first().copied().unwrap_or(Kind::Scalar);
+        match kinds.iter().find(|other| **other != kind) {
+            Some(other) => Err(format!("there is no {} of a {kind} and a {other}", self.name())),
+            None => Ok(kind),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_follow_from_the_operands() {
+        use Kind::{Product, Scalar, Signal};
+        for kind in Kind::ALL {
+            assert_eq!(Op::Neg(kind).kind(), Ok(kind));
+            assert_eq!(Op::Add(kind, kind).kind(), Ok(kind));
+            assert_eq!(Op::Mul(kind, Scalar).kind(), Ok(kind));
+            assert_eq!(Op::Select(Scalar, Scalar, kind, kind).kind(), Ok(kind));
+        }
+        assert_eq!(Op::Mul(Signal, Signal).kind(), Ok(Product));
+        assert_eq!(Op::Fma(Signal, Signal, Product, Sign::Plus).kind(), Ok(Product));
+        assert_eq!(Op::Max(Scalar, Scalar).kind(), Ok(Scalar));
+        for (op, why) in [
+            (Op::Add(Signal, Product), "there is no sum of a signal and a product of signals"),
+            (Op::Sub(Signal, Scalar), "there is no difference of a signal and a scalar"),
+            (Op::Mul(Product, Signal), "there is no product of a product of signals and a signal"),
+            (
+                Op::Fma(Signal, Signal, Signal, Sign::Plus),
+                "there is no multiply-add of a product of signals and a signal",
+            ),
+            (Op::Sqrt(Signal), "there is no square root of a signal"),
+            (Op::Min(Scalar, Product), "there is no minimum of a product of signals"),
+            (Op::Select(Scalar, Signal, Signal, Signal), "there is no selection of a signal"),
+            (Op::Select(Scalar, Scalar, Signal, Product), "there is no selection of a signal and a product of signals"),
+        ] {
+            assert_eq!(op.kind(), Err(why.to_owned()), "{op:?}");
         }
     }
 }

@@ -116,7 +116,7 @@ pub struct LoopKernel {
     pub output: Name,
     /// The shape of the result.
     pub result: Shape,
-    /// Whether the result is linear in the signal.
+    /// Whether the result is linear in the signal, or in each of two.
     pub result_kind: Kind,
     /// What the result holds.
     pub result_doc: String,
@@ -264,8 +264,8 @@ impl From<&LoopKernel> for Listing {
     ///
     /// # Panics
     ///
-    /// If the kernel names what it has not declared, reads what it has not stored, leaves an array or has a signal as
-    /// the second factor of a product.
+    /// If the kernel names what it has not declared, reads what it has not stored, leaves an array, has the factor of the
+    /// higher degree second in a product, or gives a name or an array a value of another kind than it has.
     fn from(kernel: &LoopKernel) -> Self {
         let mut constants: Vec<Exact> = Vec::new();
         let mut floats: HashMap<Name, (Kind, Vec<Option<Operand>>)> = HashMap::new();
@@ -322,14 +322,17 @@ impl Trace {
             }
             Stmt::Let(name, value) | Stmt::Var(name, value) | Stmt::Set(name, value) => {
                 let (value, kind) = self.num(value);
-                self.floats.insert(name, (kind, vec![Some(value)]));
+                let before = self.floats.insert(name, (kind, vec![Some(value)]));
+                before.inspect(|(before, _)| assert_eq!(*before, kind, "`{name}` has one kind"));
             }
             Stmt::Array(name, len, kind) => {
                 self.floats.insert(name, (*kind, vec![None; *len]));
             }
             Stmt::Store(name, index, value) => {
-                let (index, (value, _)) = (self.int(index), self.num(value));
-                self.floats.get_mut(name).expect("the array is declared").1[index] = Some(value);
+                let (index, (value, kind)) = (self.int(index), self.num(value));
+                let (of, items) = self.floats.get_mut(name).expect("the array is declared");
+                assert_eq!(*of, kind, "`{name}` holds one kind");
+                items[index] = Some(value);
             }
             Stmt::Stage(name, from, count) => {
                 let (from, count) = (self.int(from), self.int(count));
@@ -369,8 +372,8 @@ impl Trace {
             Num::Op(op) => op.each().map(|arg| self.num(arg)),
         };
         if op.takes() == Takes::Products {
-            let second = op.operands().nth(1).map(|(_, kind)| kind);
-            assert!(second == Some(Kind::Scalar), "a signal is the second factor of {value:?}");
+            let kinds: Vec<Kind> = op.operands().map(|(_, kind)| kind).collect();
+            assert!(kinds[0] >= kinds[1], "a {} is the second factor of {value:?}", kinds[1]);
         }
         let kind = op.map(|(_, kind)| kind).kind().unwrap_or_else(|fault| panic!("{fault}: {value:?}"));
         self.steps.push(Step { op: op.map(|(operand, _)| operand), kind, uses: 0 });

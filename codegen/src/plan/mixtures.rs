@@ -9,7 +9,6 @@
 use crate::families::all::ALL;
 use crate::families::family::{ByBand, Does, Family, Job, MIN_ORDER, SMALL_ANGLE_DEGREES, Spec};
 use crate::families::parts::small_angle::SmallAngle;
-use crate::ir::graph::Kind;
 use crate::ir::kernel::Domain;
 use crate::ir::listing::Listing;
 use crate::promise::law::{self, Error};
@@ -113,7 +112,7 @@ fn band_cost(job: Job, method: SmallAngle, l: usize) -> usize {
     kernel.outputs.drain(..l * l);
     let mut listing = Listing::new(&kernel);
     if method == SmallAngle::Exact {
-        listing.steps.retain(|step| step.kind == Kind::Signal);
+        listing.steps.retain(|step| !step.kind.is_scalar());
     }
     let cost = listing.cost(1).total;
     known().get_or_insert_default().insert((job, method, l), cost);

@@ -6,7 +6,7 @@ use crate::families::axis;
 use crate::families::family::{AngleAs, MAX_ORDER, Measure, Spec};
 use crate::ir::code::Code;
 use crate::ir::eval::{Contraction, Number, Program};
-use crate::ir::kernel::Kernel;
+use crate::ir::kernel::{Kernel, Param};
 use crate::ir::listing::Listing;
 use crate::math::half::Half;
 use crate::math::linear::spectral_norm;
@@ -66,11 +66,13 @@ impl Measure {
         match self {
             Self::Bands | Self::Through(_) => "the norm of a band",
             Self::Whole => "the norm of the coefficients, each band of norm one",
+            Self::Product => "the product of both signals' norms",
             Self::Absolute => "one",
         }
     }
 
-    /// The largest error of `got` in this measure, for inputs whose bands have the norm one; NaN if there is one.
+    /// Returns the largest error of `got` in this measure, for inputs whose bands have the norm one or, of a product, for
+    /// signals of which the norms multiply to one; NaN if there is one.
     pub fn error(self, got: &[f64], want: &[f64], order: usize) -> f64 {
         let difference = |range: std::ops::Range<usize>| {
             got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
@@ -79,9 +81,17 @@ impl Measure {
             Self::Bands | Self::Through(_) => {
                 (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger)
             }
+            Self::Product => difference(0..got.len()),
             _ => (0..got.len()).map(|i| difference(i..i + 1)).fold(0.0, larger),
         }
     }
+}
+
+/// Returns what the error of a product is divided by: the norms of its signals, one squared where it is the only one.
+pub fn norms(params: &[Param], input: &[Vec<f64>]) -> f64 {
+    let signals = params.iter().zip(input).filter(|(param, _)| !param.kind.is_scalar());
+    let norms: Vec<f64> = signals.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+    if let [norm] = norms[..] { norm * norm } else { norms.iter().product() }
 }
 
 /// The larger of two numbers, or NaN if one is.
@@ -102,7 +112,8 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
             let wide_input: Vec<&[f64]> = input.iter().map(Vec::as_slice).collect();
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
             let want = wide.run(&wide_input, contraction);
-            measure.error(&meaning.apply(got), &meaning.apply(want), spec.order)
+            let error = measure.error(&meaning.apply(got), &meaning.apply(want), spec.order);
+            if matches!(measure, Measure::Product) { error / norms(code.params(), input) } else { error }
         })
         .fold(0.0, larger)
 }

@@ -14,6 +14,7 @@ use zonal_codegen::emit::dialect::Dialect;
 use zonal_codegen::emit::language::{Arrays, GLSL, Target, WGSL};
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
+use zonal_tests::toys;
 
 /// The order of the kernels that get a corrupted constant, if their family has it.
 const MUTATED_ORDER: usize = 4;
@@ -29,6 +30,8 @@ pub enum Mode {
     Mutated,
     /// Kernels of every shape of array, passed in each way that a language knows besides its own.
     Arrays,
+    /// Kernels that do what none of the catalogue does.
+    Toys,
 }
 
 /// The kernels that are run with their arrays in structs and by reference.
@@ -92,10 +95,13 @@ fn corrupted(text: &str) -> Vec<(String, String)> {
     if changed.is_empty() { sign().into_iter().collect() } else { changed }
 }
 
-/// The specs to run: all, or those of [`ARRAYS`], or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
+/// The specs to run: all, or those of [`ARRAYS`], or the toys, or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
 fn specs(mode: Mode) -> Vec<Spec> {
     if mode == Mode::Arrays {
         return ARRAYS.map(|spec| spec.parse().expect("the list holds specs")).to_vec();
+    }
+    if mode == Mode::Toys {
+        return toys::specs();
     }
     let mut specs = standard();
     if mode == Mode::Mutated {
@@ -123,7 +129,7 @@ fn texts(function: &Function, target: Target, mode: Mode) -> Vec<(String, Dialec
         (arrays.name().to_owned(), dialect, wrap::file(function, dialect))
     };
     match mode {
-        Mode::Catalogue => vec![(String::new(), own, wrap::file(function, own))],
+        Mode::Catalogue | Mode::Toys => vec![(String::new(), own, wrap::file(function, own))],
         Mode::Mutated => {
             corrupted(&wrap::file(function, own)).into_iter().map(|(change, text)| (change, own, text)).collect()
         }

@@ -9,11 +9,10 @@ use zonal_codegen::emit::language::Target;
 use zonal_codegen::families::family::{Acts, Measure};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};
-use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
-use zonal_codegen::promise::accuracy::MARGIN;
+use zonal_codegen::promise::accuracy::{MARGIN, norms};
 use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on, at least and at most; both are multiples of [`wrap::GROUP`].
@@ -89,7 +88,7 @@ impl Number for Wide {
 /// some merge factors, which moves roundings about. Vulkan and
 /// WGSL allow 2 ulp for an inverse square root and 2.5 ulp for a division, where the promise was measured with correct
 /// roundings; each enters band l through three angles to the power l at most, hence 3 (n - 1) times 2.5 ulp for a kernel
-/// that has one. A flushed subnormal number changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
+/// that has one; powers and logarithms of numbers about one are within 5 ulp, which is less. A flushed subnormal number changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
 pub fn tolerance(function: &Function) -> f64 {
     let (built, order) = (&function.built, function.spec.order as f64);
     let promised = match function.spec.family.measure {
@@ -146,6 +145,8 @@ pub struct Cases {
     result: usize,
     channels: usize,
     by_band: bool,
+    /// What the error of a product of signals is relative to: their norms, where none is scaled.
+    norms: Option<f64>,
     /// How far the result of a subnormal signal may be off: the item itself and each operation may be flushed.
     flushed: f64,
 }
@@ -165,6 +166,8 @@ impl Cases {
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         let family = function.spec.family;
+        // Of two signals the second stays as it is drawn: both huge would overflow.
+        let scaled = params.iter().position(|param| !param.kind.is_scalar());
         let by_band = matches!(family.measure, Measure::Bands) && family.acts != Acts::Mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
@@ -173,14 +176,17 @@ impl Cases {
             // Channels share their parameters and differ in their signals.
             let lists: Vec<Vec<Vec<Wide>>> = (0..channels)
                 .map(|channel| {
-                    let list = |(place, param): (usize, &Param)| match param.kind {
-                        Kind::Scalar => samples[parameters][place].iter().map(|&x| Wide(x)).collect(),
-                        Kind::Signal => {
-                            let signal = samples[(case + channel) % count][place].iter().enumerate();
-                            let len = param.shape.len();
-                            let scaled = |(i, x): (usize, &f64)| x * scale(case / BLOCK + channel, band_of(i, len));
-                            signal.map(|item| Wide(f64::from(scaled(item) as f32))).collect()
+                    let list = |(place, param): (usize, &Param)| {
+                        if param.kind.is_scalar() {
+                            return samples[parameters][place].iter().map(|&x| Wide(x)).collect();
                         }
+                        let signal = samples[(case + channel) % count][place].iter().enumerate();
+                        let len = param.shape.len();
+                        let unit = |i: usize| match scaled == Some(place) {
+                            true => scale(case / BLOCK + channel, band_of(i, len)),
+                            false => 1.0,
+                        };
+                        signal.map(|(i, x)| Wide(f64::from((x * unit(i)) as f32))).collect()
                     };
                     params.iter().enumerate().map(list).collect()
                 })
@@ -200,15 +206,16 @@ impl Cases {
                 })
                 .collect();
             for i in 0..shape.len() {
-                let unit = |channel: usize| match kind {
-                    Kind::Signal => scale(case / BLOCK + channel, band_of(i, shape.len())),
-                    Kind::Scalar => 1.0,
+                let unit = |channel: usize| match kind.is_scalar() {
+                    true => 1.0,
+                    false => scale(case / BLOCK + channel, band_of(i, shape.len())),
                 };
                 wanted.extend(results.iter().enumerate().map(|(channel, result)| (result[i].0, unit(channel))));
             }
         }
         let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
-        Self { count, inputs, wanted, result: shape.len(), channels, by_band, flushed }
+        let norms = matches!(family.measure, Measure::Product).then(|| norms(params, &samples[0]));
+        Self { count, inputs, wanted, result: shape.len(), channels, by_band, norms, flushed }
     }
 
     /// The cases as a job for a device.
@@ -217,7 +224,7 @@ impl Cases {
         Job { target, text, inputs: &self.inputs, count: self.count, takes, gives }
     }
 
-    /// The largest error in the kernel's measure: of a band as a whole, or of each number. Not finite if a zero signal
+    /// The largest error in the kernel's measure: of a band or a product as a whole, or of each number. Not finite if a zero signal
     /// does not give exact zeros, if a subnormal one gives anything larger than that, or if anything is not a number.
     pub fn error(&self, got: &[f32]) -> f64 {
         let size = self.result * self.channels;
@@ -235,7 +242,8 @@ impl Cases {
                 let mut bands = vec![0.0; self.result];
                 for i in 0..self.result {
                     let error = case[i * self.channels + channel];
-                    bands[if self.by_band { i.isqrt() } else { i }] += error * error;
+                    let part = if self.by_band { i.isqrt() } else { i };
+                    bands[if self.norms.is_some() { 0 } else { part }] += error * error;
                 }
                 worst = bands.into_iter().fold(worst, |worst, square: f64| match square.is_nan() {
                     true => f64::INFINITY,
@@ -243,6 +251,6 @@ impl Cases {
                 });
             }
         }
-        worst.sqrt()
+        worst.sqrt() / self.norms.unwrap_or(1.0)
     }
 }

@@ -7,7 +7,8 @@ fn main() -> Result<(), String> {
         Some("catalogue") => Mode::Catalogue,
         Some("mutated") => Mode::Mutated,
         Some("arrays") => Mode::Arrays,
-        _ => return Err("say `catalogue`, `mutated` or `arrays`".to_owned()),
+        Some("toys") => Mode::Toys,
+        _ => return Err("say `catalogue`, `mutated`, `arrays` or `toys`".to_owned()),
     };
     run(mode, |line| println!("{line}"))
 }

@@ -34,10 +34,7 @@ pub fn dialect(function: &Function, target: Target, arrays: Option<Arrays>) -> D
 
 /// How many channels a number of this kind has in the function's text.
 pub fn channels(function: &Function, kind: Kind) -> usize {
-    match kind {
-        Kind::Signal => function.spec.channels(),
-        Kind::Scalar => 1,
-    }
+    kind.numbers(function.spec.channels())
 }
 
 /// How many vectors of four a call's parameters fill.
@@ -69,7 +66,7 @@ impl Call {
             let place = places.next().expect("there is always a next number");
             format!("in{}_{}", place / VECTOR, letter(place))
         };
-        let mut number = |kind: Kind| match kind == Kind::Signal && dialect.rgb {
+        let mut number = |kind: Kind| match !kind.is_scalar() && dialect.rgb {
             true => format!("{}({}, {}, {})", dialect.number(kind), next(), next(), next()),
             false => next(),
         };

@@ -10,7 +10,6 @@ use zonal_codegen::catalog;
 use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Runner;
 use zonal_codegen::ir::eval::{Contraction, Number};
-use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::promise::samples::{self, Random};
 
@@ -214,14 +213,14 @@ fn compare_one<T: Same>(spec: &Spec, params: &[Param], runner: &Runner<T>, funct
     for i in 0..SAMPLES {
         // The parameters of one input, the signals of as many inputs as there are channels.
         let one = |channel: usize| -> Vec<&[T]> {
-            let of = |param: &Param| if param.kind == Kind::Signal { (i + channel) % SAMPLES } else { i };
+            let of = |param: &Param| if param.kind.is_scalar() { i } else { (i + channel) % SAMPLES };
             params.iter().enumerate().map(|(place, param)| &inputs[of(param)][place][..]).collect()
         };
         let each: Vec<Vec<T>> = (0..channels).map(|channel| runner.run(&one(channel), Contraction::Separate)).collect();
         let rows: Vec<Vec<T>> = (0..params.len())
-            .map(|place| match params[place].kind {
-                Kind::Signal => interleaved(&(0..channels).map(|channel| one(channel)[place]).collect::<Vec<_>>()),
-                Kind::Scalar => one(0)[place].to_vec(),
+            .map(|place| {
+                let channels = params[place].kind.numbers(channels);
+                interleaved(&(0..channels).map(|channel| one(channel)[place]).collect::<Vec<_>>())
             })
             .collect();
         let want = interleaved(&each.iter().map(Vec::as_slice).collect::<Vec<_>>());

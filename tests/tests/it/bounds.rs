@@ -27,7 +27,7 @@ fn listing(text: &str) -> (Spec, Listing) {
     let spec = spec(text);
     let listing = match spec.code() {
         Code::Straight(listing) => listing,
-        Code::Loop(kernel) => plain(&Listing::from(&kernel)),
+        Code::Loop(kernel) => plain(&Listing::from(&kernel)).expect("a loop of the catalogue is arithmetic"),
         Code::Branch(_) => panic!("{text} is two listings"),
     };
     (spec, listing)

@@ -286,7 +286,7 @@ fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
 
 fn argument(shape: Shape, kind: Kind, channels: &[Vec<f32>]) -> Value {
     let one = |i: usize| match (kind, channels.len()) {
-        (Kind::Signal, 3) => Value::Vec(channels.iter().map(|channel| channel[i]).collect()),
+        (Kind::Signal | Kind::Product, 3) => Value::Vec(channels.iter().map(|channel| channel[i]).collect()),
         _ => Value::F32(channels[0][i]),
     };
     match shape {
@@ -310,7 +310,7 @@ fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
         let mut inputs = vec![rounded::<f32>(&arguments(kernel, &mut random)); channels];
         for inputs in &mut inputs {
             for (input, param) in inputs.iter_mut().zip(&kernel.params) {
-                if param.kind == Kind::Signal {
+                if !param.kind.is_scalar() {
                     input.fill_with(|| random.signed() as f32);
                 }
             }
@@ -333,6 +333,7 @@ fn compare(name: &str, kernel: &LoopKernel, target: Target, rgb: bool) {
             mul: (cost.mul + cost.fma) as u64,
             add: (cost.add + cost.fma) as u64,
             fma: 0,
+            choice: cost.choice as u64,
             special: cost.special as u64,
         };
         assert_eq!(counts, expected, "{name} {dialect:?}");
@@ -346,7 +347,7 @@ fn shader_text_does_what_the_interpreter_does() {
             let kernel = make(order);
             for target in [&WGSL, &GLSL] {
                 compare(name, &kernel, target, false);
-                if kernel.result_kind == Kind::Signal {
+                if !kernel.result_kind.is_scalar() {
                     compare(name, &kernel, target, true);
                 }
             }

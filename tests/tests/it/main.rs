@@ -1,6 +1,7 @@
 //! The tests of the generator, one module a subject, in one program: it is linked once, and what they share is built once.
 
 mod accuracy;
+mod bilinear;
 mod bounds;
 mod brdf;
 mod broken_families;
@@ -17,6 +18,7 @@ mod house;
 mod laws;
 mod loops;
 mod methods;
+mod operations;
 mod packages;
 mod plans;
 mod proofs;
@@ -30,4 +32,5 @@ mod shader_evaluator;
 mod shaders;
 mod tables;
 mod toy_language;
+mod toys;
 mod zhf_tables;

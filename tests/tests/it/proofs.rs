@@ -81,6 +81,7 @@ fn another_operation_question_or_kernel_is_proven_anew() {
             Op::Fma(a, b, c, _) => Op::Fma(a, b, c, Sign::Plus),
             Op::Neg(a) | Op::Rsqrt(a) => Op::Recip(a),
             Op::Recip(a) => Op::Rsqrt(a),
+            op => panic!("a rotation has no {}", op.name()),
         };
         assert!(ask("rotate:4", &Code::Straight(changed), "bound"), "operation {place}");
     }

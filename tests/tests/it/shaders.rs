@@ -35,7 +35,7 @@ fn argument(param: &Param, channels: &[Vec<f32>]) -> Value {
 }
 
 /// The numbers of a result, channel by channel.
-fn channels_of(value: &Value, shape: Shape, kind: Kind, channels: usize) -> Vec<Vec<f32>> {
+fn channels_of(value: &Value, kind: Kind, channels: usize) -> Vec<Vec<f32>> {
     let split = |value: &Value| -> Vec<f32> {
         match value {
             Value::F32(x) => vec![*x],
@@ -47,31 +47,37 @@ fn channels_of(value: &Value, shape: Shape, kind: Kind, channels: usize) -> Vec<
         Value::Array(items) => items.iter().map(split).collect(),
         other => vec![split(other)],
     };
-    match (kind, channels, shape) {
-        (Kind::Signal, 3, _) => (0..3).map(|channel| items.iter().map(|item| item[channel]).collect()).collect(),
+    match kind.numbers(channels) {
+        3 => (0..3).map(|channel| items.iter().map(|item| item[channel]).collect()).collect(),
         _ => vec![items.concat()],
     }
 }
 
 /// Prints a function, runs its text channel by channel on seeded inputs, and compares it with the interpreter.
 pub(crate) fn check(function: &Function, target: Target, language: Language) {
+    let inputs = samples::inputs(function.built.code.params(), 21, CASES + 2, None);
+    check_on(function, target, language, &inputs);
+}
+
+/// Holds the text of a function to the interpreter, to the last bit and operation; two inputs more than cases lend their
+/// signals to the channels.
+pub(crate) fn check_on(function: &Function, target: Target, language: Language, inputs: &[Vec<Vec<f64>>]) {
     let text = Module::of(function.clone()).text(target).expect("the catalogue fits its targets");
     let name = function.shader_name();
     let shader = Shader::parse(language, &text).unwrap_or_else(|error| panic!("{name} in {target}: {error}"));
     assert_eq!(shader.functions(), std::slice::from_ref(&name), "{target}");
     let (params, channels) = (function.built.code.params(), function.spec.channels());
-    let (shape, kind) = function.built.code.result();
-    let inputs = samples::inputs(params, 21, CASES + 2, None);
+    let (_, kind) = function.built.code.result();
     let costs = match &function.built.code {
         Code::Branch(branch) => branch.costs(channels).to_vec(),
         code => vec![code.cost(channels)],
     };
     let mut taken = BTreeSet::new();
     let runner = function.built.code.runner::<f32>();
-    for case in 0..CASES {
+    for case in 0..inputs.len() - 2 {
         let of_channel = |channel: usize| -> Vec<Vec<f32>> {
             // Channels differ in their signals and share their parameters.
-            let from = |param: &Param| if param.kind == Kind::Signal { case + channel } else { case };
+            let from = |param: &Param| if param.kind.is_scalar() { case } else { case + channel };
             let list = |(i, param): (usize, &Param)| inputs[from(param)][i].iter().map(|&x| x as f32).collect();
             params.iter().enumerate().map(list).collect()
         };
@@ -80,17 +86,14 @@ pub(crate) fn check(function: &Function, target: Target, language: Language) {
             .iter()
             .enumerate()
             .map(|(i, param)| {
-                let lists: Vec<Vec<f32>> = match param.kind {
-                    Kind::Signal => all.iter().map(|channel| channel[i].clone()).collect(),
-                    Kind::Scalar => vec![all[0][i].clone()],
-                };
-                argument(param, &lists)
+                let channels = &all[..param.kind.numbers(channels)];
+                argument(param, &channels.iter().map(|channel| channel[i].clone()).collect::<Vec<_>>())
             })
             .collect();
         let mut counts = Counts::default();
         let result =
             shader.call(&name, &arguments, &mut counts, Fma::Separate).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let got = channels_of(&result, shape, kind, channels);
+        let got = channels_of(&result, kind, channels);
         for (channel, got) in got.iter().enumerate() {
             let slices: Vec<&[f32]> = all[channel].iter().map(Vec::as_slice).collect();
             let want = runner.run(&slices, Contraction::Separate);
@@ -99,12 +102,12 @@ pub(crate) fn check(function: &Function, target: Target, language: Language) {
             };
             assert_eq!(bits(got), bits(&want), "{name} in {target}, case {case}, channel {channel}");
         }
-        let found = [counts.mul + counts.fma, counts.add + counts.fma, counts.special];
-        let expected = costs.iter().map(|cost| [cost.mul + cost.fma, cost.add + cost.fma, cost.special]);
+        let found = [counts.mul + counts.fma, counts.add + counts.fma, counts.choice, counts.special];
+        let expected = costs.iter().map(|cost| [cost.mul + cost.fma, cost.add + cost.fma, cost.choice, cost.special]);
         let way = expected.clone().position(|expected| expected.map(|n| n as u64) == found);
         let all: Vec<_> = expected.collect();
         let way = way.unwrap_or_else(|| {
-            panic!("{name} in {target}: {found:?} multiplications, additions, special ones, not {all:?}")
+            panic!("{name} in {target}: {found:?} multiplications, additions, choices, special ones, not {all:?}")
         });
         taken.insert(way);
     }

@@ -55,8 +55,18 @@ const C: Language = Language {
     vector_operators: false,
     multiply_add: MultiplyAdd::Infix,
     spelling: |op| match op {
-        Op::Recip(_) => Spelling::Own(|x| format!("1.0f / ({})", x[0].text), Binding::Product),
-        Op::Rsqrt(_) => Spelling::Own(|x| format!("1.0f / sqrtf({})", x[0].text), Binding::Product),
+        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0f / ({})", x[0].text), Binding::Product),
+        Op::Rsqrt(_) => Spelling::Own(|x, _| format!("1.0f / sqrtf({})", x[0].text), Binding::Product),
+        Op::Sqrt(_) => Spelling::Call("sqrtf"),
+        Op::Exp2(_) => Spelling::Call("exp2f"),
+        Op::Log2(_) => Spelling::Call("log2f"),
+        Op::Abs(_) => Spelling::Call("fabsf"),
+        Op::Min(..) => Spelling::Call("fminf"),
+        Op::Max(..) => Spelling::Call("fmaxf"),
+        Op::Select(..) => Spelling::Own(
+            |x, _| format!("({} < {} ? {} : {})", x[0].text, x[1].text, x[2].text, x[3].text),
+            Binding::Atom,
+        ),
         _ => Spelling::Infix,
     },
     statements: Statements {

@@ -1,6 +1,6 @@
 //! GLSL that is the same text in 4.50, 3.30 and ES 3.00, without a version of its own.
 
-use crate::emit::language::expression::Binding;
+use crate::emit::language::expression::{Binding, Text};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{
@@ -110,9 +110,23 @@ fn refuses(name: &str) -> Option<(&'static str, &'static str)> {
 fn spelling(op: &Op<()>) -> Spelling {
     match op {
         Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
-        Op::Recip(_) => Spelling::Own(|x| format!("1.0 / ({})", x[0].text), Binding::Product),
+        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0 / ({})", x[0].text), Binding::Product),
         Op::Rsqrt(_) => Spelling::Call("inversesqrt"),
+        Op::Sqrt(_) => Spelling::Call("sqrt"),
+        Op::Exp2(_) => Spelling::Call("exp2"),
+        Op::Log2(_) => Spelling::Call("log2"),
+        Op::Abs(_) => Spelling::Call("abs"),
+        Op::Min(..) => Spelling::Call("min"),
+        Op::Max(..) => Spelling::Call("max"),
+        Op::Select(..) => Spelling::Own(select, Binding::Atom),
     }
+}
+
+/// By `mix` and not by `? :`, which may leave out what is not chosen. A vector is chosen by a vector of truth values.
+fn select(x: &[Text], of: &str) -> String {
+    let is_less = format!("{} < {}", x[0].text, x[1].text);
+    let by = if of.starts_with("vec") { format!("b{of}({is_less})") } else { is_less };
+    format!("mix({}, {}, {by})", x[3].text, x[2].text)
 }
 
 fn table(name: &str, of: &Type) -> (String, &'static str) {

@@ -134,10 +134,7 @@ pub struct Numbers {
 impl Numbers {
     /// Returns the name of a number of this kind.
     pub fn of(&self, kind: Kind) -> &str {
-        match kind {
-            Kind::Scalar => &self.scalar,
-            Kind::Signal => &self.signal,
-        }
+        if kind.is_scalar() { &self.scalar } else { &self.signal }
     }
 }
 
@@ -196,8 +193,8 @@ pub enum Way {
 pub enum MultiplyAdd {
     /// As a product and a sum, which compilers contract.
     Infix,
-    /// As a method of the signal, so that its type decides: `fma`, `fms` and `fnma`, and for the product of two signals
-    /// `times` and those with `times_` in front.
+    /// As a method of the signal, so that its type decides: `fma`, `fms` and `fnma`. A product of two signals is the method
+    /// `times`, and its sums are written as sums.
     Methods,
     /// As a function of this name, of two factors and a summand.
     Call(&'static str),
@@ -210,10 +207,8 @@ pub enum Spelling {
     Infix,
     /// As a function of its operands.
     Call(&'static str),
-    /// As a method of its first operand.
-    Method(&'static str),
-    /// In its own way.
-    Own(fn(&[Text]) -> String, Binding),
+    /// In its own way, which may depend on the type of its value.
+    Own(fn(&[Text], of: &str) -> String, Binding),
 }
 
 /// The statements.
@@ -290,35 +285,42 @@ impl Language {
         Type { shape, item, length, text }
     }
 
-    /// Returns an operation as text, its operands in their order.
-    pub fn operation(&self, op: Op<Text>) -> Text {
-        let kind = op.each().map(|text| text.kind).kind().unwrap_or(Kind::Signal);
+    /// Returns an operation as text, its operands in their order, where numbers have these names.
+    ///
+    /// # Panics
+    ///
+    /// If the operation does not take operands of their kinds.
+    pub fn operation(&self, op: Op<Text>, numbers: &Numbers) -> Text {
+        let kind = op.each().map(|text| text.kind).kind().unwrap_or_else(|fault| panic!("{fault}"));
         let methods = self.multiply_add == MultiplyAdd::Methods;
-        let of_signals = |a: &Text, b: &Text| a.kind == Kind::Signal && b.kind == Kind::Signal;
+        let of_signals = |b: &Text| !b.kind.is_scalar();
+        let product = |a: Text, b: Text| match methods && of_signals(&b) {
+            true => method("times", &[a, b], Kind::Product),
+            false => Text::infix(&a, "*", &b),
+        };
         match op {
             Op::Neg(a) => Text { text: format!("-{}", a.at_least(Binding::Atom)), binding: Binding::Product, kind },
             Op::Add(a, b) => Text::infix(&a, "+", &b),
             Op::Sub(a, b) => Text::infix(&a, "-", &b),
-            Op::Mul(a, b) if methods && of_signals(&a, &b) => method("times", &[a, b], kind),
-            Op::Mul(a, b) => Text::infix(&a, "*", &b),
-            Op::Fma(a, b, c, sign) if methods => {
-                let [plain, of_two] = match sign {
-                    Sign::Plus => ["fma", "times_fma"],
-                    Sign::MinusAddend => ["fms", "times_fms"],
-                    Sign::MinusProduct => ["fnma", "times_fnma"],
+            Op::Mul(a, b) => Text { kind, ..product(a, b) },
+            Op::Fma(a, b, c, sign) if methods && !of_signals(&b) => {
+                let name = match sign {
+                    Sign::Plus => "fma",
+                    Sign::MinusAddend => "fms",
+                    Sign::MinusProduct => "fnma",
                 };
-                method(if of_signals(&a, &b) { of_two } else { plain }, &[a, b, c], kind)
+                method(name, &[a, b, c], kind)
             }
             Op::Fma(a, b, c, sign) if let MultiplyAdd::Call(name) = self.multiply_add => {
                 let [a, c] = match sign {
                     Sign::Plus => [a, c],
-                    Sign::MinusAddend => [a, self.operation(Op::Neg(c))],
-                    Sign::MinusProduct => [self.operation(Op::Neg(a)), c],
+                    Sign::MinusAddend => [a, self.operation(Op::Neg(c), numbers)],
+                    Sign::MinusProduct => [self.operation(Op::Neg(a), numbers), c],
                 };
                 Text::atom(format!("{name}({})", listed(&[a, b, c])), kind)
             }
             Op::Fma(a, b, c, sign) => {
-                let product = Text::infix(&a, "*", &b);
+                let product = Text { kind, ..product(a, b) };
                 match sign {
                     Sign::Plus => Text::infix(&c, "+", &product),
                     Sign::MinusAddend => Text::infix(&product, "-", &c),
@@ -330,8 +332,7 @@ impl Language {
                 let operands = named.into_operands();
                 match spelling {
                     Spelling::Call(name) => Text::atom(format!("{name}({})", listed(&operands)), kind),
-                    Spelling::Method(name) => method(name, &operands, kind),
-                    Spelling::Own(print, binding) => Text { text: print(&operands), binding, kind },
+                    Spelling::Own(print, binding) => Text { text: print(&operands, numbers.of(kind)), binding, kind },
                     Spelling::Infix => unreachable!("what has an operator is printed above"),
                 }
             }

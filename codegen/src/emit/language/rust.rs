@@ -1,5 +1,6 @@
 //! Rust, generic over the numbers of parameters and of the signal.
 
+use crate::emit::language::expression::{Binding, Text};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{
@@ -103,7 +104,18 @@ fn spelling(op: &Op<()>) -> Spelling {
         Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
         Op::Recip(_) => Spelling::Call("T::recip"),
         Op::Rsqrt(_) => Spelling::Call("T::rsqrt"),
+        Op::Sqrt(_) => Spelling::Call("T::root"),
+        Op::Exp2(_) => Spelling::Call("T::exp2"),
+        Op::Log2(_) => Spelling::Call("T::log2"),
+        Op::Abs(_) => Spelling::Call("T::abs"),
+        Op::Min(..) => Spelling::Call("T::min"),
+        Op::Max(..) => Spelling::Call("T::max"),
+        Op::Select(..) => Spelling::Own(select, Binding::Atom),
     }
+}
+
+fn select(x: &[Text], of: &str) -> String {
+    format!("{of}::choose({}, {}, {}, {})", x[0].text, x[1].text, x[2].text, x[3].text)
 }
 
 #[cfg(feature = "check")]

@@ -1,6 +1,6 @@
 //! WGSL, WebGPU's shading language.
 
-use crate::emit::language::expression::Binding;
+use crate::emit::language::expression::{Binding, Text};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Spelling, Statements, Type, Types, Words};
@@ -72,9 +72,20 @@ const RESERVED: Words = Words {
 fn spelling(op: &Op<()>) -> Spelling {
     match op {
         Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
-        Op::Recip(_) => Spelling::Own(|x| format!("1.0 / ({})", x[0].text), Binding::Product),
+        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0 / ({})", x[0].text), Binding::Product),
         Op::Rsqrt(_) => Spelling::Call("inverseSqrt"),
+        Op::Sqrt(_) => Spelling::Call("sqrt"),
+        Op::Exp2(_) => Spelling::Call("exp2"),
+        Op::Log2(_) => Spelling::Call("log2"),
+        Op::Abs(_) => Spelling::Call("abs"),
+        Op::Min(..) => Spelling::Call("min"),
+        Op::Max(..) => Spelling::Call("max"),
+        Op::Select(..) => Spelling::Own(select, Binding::Atom),
     }
+}
+
+fn select(x: &[Text], _: &str) -> String {
+    format!("select({}, {}, {} < {})", x[3].text, x[2].text, x[0].text, x[1].text)
 }
 
 fn table(name: &str, of: &Type) -> (String, &'static str) {

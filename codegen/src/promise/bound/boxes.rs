@@ -48,6 +48,7 @@ fn scale(
         Op::Fma(a, b, c, _) => of(a).zip(of(b)).map(|(a, b)| product(a, b)).filter(|&ab| of(c) == Some(ab)),
         Op::Recip(a) => of(a).map(|(a, p)| (a.map(|a| -a), p)),
         Op::Rsqrt(a) => of(a).filter(|(_, p)| *p == [false; 2]).map(|(a, p)| (a.map(|a| -a / 2.0), p)),
+        _ => None,
     };
     known.insert(operand, found);
     found

@@ -15,7 +15,9 @@
 //! Method: a band is cut where the kernel notes a stage ([`crate::ir::graph::Graph::stage`]); errors of stages add, each
 //! multiplied by the exact norm of what follows. A stage falls into parts that do not mix. A plane that a phase turns is
 //! bounded as a complex product ([`phases`]); any other part is run on enclosures with error weights ([`section`]) over a
-//! grid of its one to three angles ([`region`] says why a grid proves it). Whatever is not recognised has no bound.
+//! grid of its one to three angles ([`region`] says why a grid proves it). Whatever is not recognised has no bound: so
+//! roots that are not inverted, powers, logarithms, choices and products of signals
+//! (docs/MATH.md#what-nothing-is-proven-of).
 
 pub mod boxes;
 mod lobes;
@@ -31,6 +33,7 @@ mod value;
 
 use crate::families::family::{Acts, MAX_ORDER, Measure, Proof, Spec};
 use crate::ir::code::Code;
+use crate::ir::graph::Kind;
 use crate::ir::listing::Listing;
 use plain::plain;
 use prover::Prover;
@@ -82,7 +85,7 @@ pub fn within(spec: &Spec, code: &Code, max_angle: Option<f64>) -> Option<Bound>
         }
         // Beyond these orders the proof over a sphere takes longer than a build may.
         Code::Loop(_) if matches!(spec.family.measure, Measure::Absolute) && spec.order > MAX_ORDER => None,
-        Code::Loop(kernel) => prove(spec, &plain(&Listing::from(kernel))),
+        Code::Loop(kernel) => prove(spec, &plain(&Listing::from(kernel))?),
     }
 }
 
@@ -92,6 +95,10 @@ pub fn prove(spec: &Spec, listing: &Listing) -> Option<Bound> {
 }
 
 fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Option<Bound> {
+    // Products of signals are no maps of one signal, which is all that is bounded.
+    if listing.result_kind == Kind::Product {
+        return None;
+    }
     let prover = Prover::new(spec, listing, max_angle)?;
     match (spec.family.proof, spec.family.measure) {
         (Proof::Nothing, _) => None,
@@ -104,5 +111,6 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
         }
         (Proof::Auto, Measure::Bands) if spec.family.acts == Acts::Mixes => Bound::of(&prover.mixed()?, true),
         (Proof::Auto, Measure::Bands) => Bound::of(&prover.bands()?, true),
+        (Proof::Auto, Measure::Product) => None,
     }
 }

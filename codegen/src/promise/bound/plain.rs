@@ -7,8 +7,9 @@ use crate::math::exact::Exact;
 /// A value: nothing where it is zero, else an operand and whether its negation is meant.
 type Signed = Option<(Operand, bool)>;
 
-/// Returns a listing that computes what the given one does, but for the signs of its results.
-pub fn plain(listing: &Listing) -> Listing {
+/// Returns a listing that computes what the given one does, but for the signs of its results; nothing where it does more
+/// than arithmetic.
+pub fn plain(listing: &Listing) -> Option<Listing> {
     let mut steps: Vec<Step> = Vec::new();
     let mut known: Vec<Signed> = Vec::new();
     for step in &listing.steps {
@@ -52,6 +53,7 @@ pub fn plain(listing: &Listing) -> Listing {
             }
             Op::Recip(a) => of(a).and_then(|(a, minus)| push(Op::Recip(a), minus)),
             Op::Rsqrt(a) => of(a).and_then(|(a, _)| push(Op::Rsqrt(a), false)),
+            _ => return None,
         };
         known.push(next);
     }
@@ -63,5 +65,5 @@ pub fn plain(listing: &Listing) -> Listing {
     let all = |operands: &Vec<Operand>| operands.iter().map(value).collect();
     let (outputs, stages) = (all(&listing.outputs), listing.stages.iter().map(all).collect());
     let constants = [&listing.constants[..], &[Exact::zero()]].concat();
-    Listing { steps, outputs, stages, constants, ..listing.clone() }
+    Some(Listing { steps, outputs, stages, constants, ..listing.clone() })
 }

@@ -9,6 +9,7 @@ use zonal_gpu_tests::bench::ARRAYS;
 use zonal_gpu_tests::devices::COLUMNS;
 use zonal_gpu_tests::report::{self, Measured};
 use zonal_gpu_tests::row::Row;
+use zonal_tests::toys;
 
 fn measure(mode: &str) -> Measured {
     let _turn = crate::turn();
@@ -74,6 +75,19 @@ fn arrays_in_structs_and_by_reference_give_the_same_on_every_driver() {
         let rows = measured.rows.iter().filter(|row| row.column == column.name());
         let ran: BTreeSet<(String, String)> = rows.map(|row| (row.spec.clone(), row.change.clone())).collect();
         assert_eq!(ran, wanted, "{}", column.name());
+    }
+    assert!(measured.rows.iter().all(Row::agrees), "{}", listed(&measured, |row| !row.agrees()));
+}
+
+/// Choices, roots, powers and logarithms, and products of signals.
+#[test]
+fn toys_agree_with_the_interpreter_on_every_driver() {
+    let measured = measure("toys");
+    let specs: BTreeSet<String> = toys::specs().iter().map(ToString::to_string).collect();
+    for column in COLUMNS {
+        let rows = measured.rows.iter().filter(|row| row.column == column.name());
+        let ran: BTreeSet<String> = rows.map(|row| row.spec.clone()).collect();
+        assert_eq!(ran, specs, "{}", column.name());
     }
     assert!(measured.rows.iter().all(Row::agrees), "{}", listed(&measured, |row| !row.agrees()));
 }

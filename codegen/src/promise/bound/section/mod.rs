@@ -14,6 +14,9 @@ use crate::promise::bound::roundoff::Both;
 use crate::promise::bound::value::{EPSILON, Value};
 use std::collections::HashMap;
 
+/// Why an operation is not met after [`Section::new`].
+pub(super) const REFUSED: &str = "refused when the section was made";
+
 /// What a section starts from: a root of its domain, with the error that it comes with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
@@ -189,6 +192,8 @@ impl Section {
             Op::Mul(a, b) => product(of(a), of(b)),
             Op::Fma(a, b, c, _) => sum(product(of(a), of(b)), of(c)),
             Op::Recip(a) | Op::Rsqrt(a) => (of(a) == [0; 3]).then_some([0; 3])?,
+            // Of what is not listed here nothing is known.
+            _ => return None,
         };
         if kind == Kind::Scalar {
             return Some(self.push(Slot::Step(op), kind, degree, vec![], vec![]));
@@ -321,6 +326,7 @@ impl Section {
             }
             Op::Recip(a) => of(a).falling(|x| 1.0 / x, roundoff, 1),
             Op::Rsqrt(a) => of(a).falling(|x| 1.0 / x.sqrt(), roundoff, 2),
+            _ => unreachable!("{REFUSED}"),
         }
     }
 
@@ -342,7 +348,7 @@ impl Section {
                 };
                 (factor(b).0, [factor(b).1, true], signs)
             }
-            Op::Recip(_) | Op::Rsqrt(_) => unreachable!("refused when the section was made"),
+            _ => unreachable!("{REFUSED}"),
         }
     }
 
@@ -417,8 +423,9 @@ fn place(slot: Operand) -> usize {
 /// The signal operands of a step: the one in its product, or its first, and the one that is added.
 fn ends(op: Op) -> (usize, Option<usize>) {
     match op {
-        Op::Neg(a) | Op::Mul(a, _) | Op::Recip(a) | Op::Rsqrt(a) => (place(a), None),
+        Op::Neg(a) | Op::Mul(a, _) => (place(a), None),
         Op::Add(a, b) | Op::Sub(a, b) => (place(a), Some(place(b))),
         Op::Fma(a, _, c, _) => (place(a), Some(place(c))),
+        _ => unreachable!("{REFUSED}"),
     }
 }

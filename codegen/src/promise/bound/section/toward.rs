@@ -1,7 +1,7 @@
 //! The error of a section's scalars by the derivatives of what is wanted, which keeps the signs that bounds of single steps
 //! lose.
 
-use super::{Run, Section, Slot, place};
+use super::{REFUSED, Run, Section, Slot, place};
 use crate::ir::graph::Kind;
 use crate::ir::listing::{Op, Operand, Sign};
 use crate::promise::bound::norm::SLACK;
@@ -115,6 +115,7 @@ impl Section {
                         pass(a, slope, loose);
                         fresh = std::array::from_fn(|mode| rest[mode] + (2.0 + 8.0 * roundoff) * once(mode));
                     }
+                    _ => unreachable!("{REFUSED}"),
                 },
             }
             for mode in 0..2 {
