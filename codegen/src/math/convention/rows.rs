@@ -76,7 +76,6 @@ pub static ALL: [Convention; 15] = [
         holds: Holds::Irradiance,
         max_order: 3,
         there: "`material.ambientSH = new Float32Array(coefficients.flat())`",
-        ..ZONAL
     },
     Convention {
         name: "bevy",
