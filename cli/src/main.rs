@@ -14,6 +14,7 @@ use zonal_cli::terminal::{Failure, ended};
 use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::text::family_names;
+use zonal_codegen::math::convention;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.
@@ -72,12 +73,19 @@ enum Command {
     Project {
         /// The map, .hdr or .exr, twice as wide as high.
         map: PathBuf,
-        /// How many bands.
-        #[arg(long, default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=64))]
-        order: u64,
+        /// How many bands; 5 if left out, or as many as the convention has.
+        #[arg(long, value_parser = clap::value_parser!(u64).range(1..=64))]
+        order: Option<u64>,
         /// Irradiance instead of radiance.
         #[arg(long)]
         irradiance: bool,
+        /// The program that takes the coefficients: its axes, signs and factors. docs/ENGINES.md says what they are. Without
+        /// it, zonal's: z is up, the map's centre along +x, -y to its right, which no engine with y up has.
+        #[arg(long, value_name = "NAME", value_parser = convention::names())]
+        convention: Option<String>,
+        /// Other axes: a convention's, by its name, or those to the map's centre, to the left of it and up, as in x,-z,y.
+        #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+        axes: Option<String>,
         /// Prints JSON.
         #[arg(long)]
         json: bool,
@@ -136,7 +144,10 @@ fn main() -> ExitCode {
         Command::Plan { scene, json, plot: Some(plot) } => hand_over::plot(scene, json, plot),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
         Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
-        Command::Project { map, order, irradiance, json } => commands::project(&map, order as usize, irradiance, json),
+        Command::Project { map, order, irradiance, convention, axes, json } => {
+            let order = order.map(|order| order as usize);
+            commands::project(&map, order, irradiance, (convention.as_deref(), axes.as_deref()), json)
+        }
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Explore { arguments } => hand_over::explore(arguments),
         Command::Render { arguments } => hand_over::render(arguments),

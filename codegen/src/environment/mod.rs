@@ -6,7 +6,7 @@
 //! The polar axis of the harmonics, +z, is up: the top row of the map surrounds +z, the bottom row −z. Seen from
 //! inside, the centre of the map lies along +x, columns to the right of it turn towards −y (so a quarter of the width
 //! right of the centre is −y, a quarter left of it +y), and the left and right edges meet at −x. Blender places an
-//! environment texture so; three.js does too, with its axes (x, y, z) read as (x, −z, y).
+//! environment texture so. [`crate::math::convention`] takes coefficients into the frames of others and back.
 //!
 //! # Quadrature
 //!

@@ -1,5 +1,6 @@
 //! Pure mathematics: exact constants and the tables made of them. Imports nothing else of this crate.
 
+pub mod convention;
 pub mod exact;
 pub mod half;
 pub mod index;

@@ -7,7 +7,7 @@ use crate::emit::names::{self, Use};
 use crate::families::family::{Does, Spec};
 use crate::plan::mixtures;
 use crate::scene::diagnostic::{Diagnostic, Place};
-use crate::scene::{Job, Located, Scene, Wanted};
+use crate::scene::{Job, Located, Order, Scene, Wanted};
 use std::collections::BTreeMap;
 
 /// Refuses a named method that cannot take the scene's angle.
@@ -35,6 +35,25 @@ pub(super) fn check_half(scene: &Scene, place: &Place) -> Result<(), Diagnostic>
         language::ALL.iter().filter(|target| target.half.is_some()).map(|target| format!("\"{target}\"")).collect();
     let message = format!("{} f16", language::only(|target| target.half.is_some()));
     Err(Diagnostic::at(place, message, format!("write `targets = [{}]`, or leave f16 out", names.join(", "))))
+}
+
+/// Refuses kernels of zonal for coefficients that are not held as zonal holds them.
+pub(super) fn check_convention(scene: &Scene, specs: &[(Spec, bool)]) -> Result<(), Diagnostic> {
+    let Some(convention) = scene.environment.as_ref().map(|environment| environment.convention.value) else {
+        return Ok(());
+    };
+    let named = scene.kernels.iter().zip(specs).filter(|(_, (_, takes_order))| *takes_order);
+    let named = named.map(|(wanted, _)| &wanted.spec.place);
+    let bounded = scene.rotations.iter().filter(|rotation| rotation.order.value == Order::Environment);
+    match named.chain(bounded.map(|rotation| &rotation.order.place)).next() {
+        Some(place) if !convention.has_own_basis() => {
+            let name = convention.name;
+            let message = format!("no kernel of zonal takes coefficients as `{name}` holds them");
+            let help = format!("write `axes = \"{name}\"` instead of the convention, for its axes alone");
+            Err(Diagnostic::at(place, message, help))
+        }
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn check_name(name: &Located<String>, purpose: Use, targets: &[Target]) -> Result<(), Diagnostic> {

@@ -8,6 +8,7 @@ use crate::environment::{MapError, Projection};
 use crate::families::basis;
 use crate::families::family::{MIN_ORDER, Spec};
 use crate::generate;
+use crate::math::convention::{Convention, Places, ZONAL};
 use crate::reflectance::requirement::Requirement;
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::{Light, Maps, Scene};
@@ -49,6 +50,8 @@ pub struct EnvironmentPlan {
     pub operations: [usize; 2],
     /// The RGB coefficients of the stored bands.
     pub values: Vec<[f64; 3]>,
+    /// How the values are held.
+    pub convention: Convention,
     /// What the scene's reflectance requires of the light; then `energy` is that of what is reflected.
     pub requirement: Option<Requirement>,
 }
@@ -115,7 +118,8 @@ pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic>
         costs,
         coefficients: [0, 0],
         operations: [0, 0],
-        values: signal.coefficients[..order * order].to_vec(),
+        values: wanted.convention.value.convert_to(&signal.coefficients[..order * order]),
+        convention: wanted.convention.value,
         requirement,
     }))
 }
@@ -154,8 +158,12 @@ impl EnvironmentPlan {
                 "irradiance by the surface's normal (times albedo / π it is what a diffuse surface sends out)"
             }
         };
+        let index = match self.convention.places {
+            Places::Acn => ", index l(l+1)+m",
+            Places::ByPolynomial => "",
+        };
         let which = match self.bands.len() == self.order {
-            true => format!("order {}, index l(l+1)+m", self.order),
+            true => format!("order {}{index}", self.order),
             false => format!("the bands {}, one after the other; the bands between hold nothing", bands.join(", ")),
         };
         let error = match self.order == self.max_order {
@@ -164,9 +172,18 @@ impl EnvironmentPlan {
         };
         Constants {
             name: self.name.clone(),
-            doc: format!("The {what} of `{}`: RGB coefficients of {which}.{error}", self.map),
+            doc: format!("The {what} of `{}`: RGB coefficients of {which}.{error} {}", self.map, self.axes()),
             values: self.values.clone(),
         }
+    }
+
+    /// The axes and the convention of the values, in a sentence.
+    fn axes(&self) -> String {
+        let others = match self.convention == ZONAL {
+            true => "; for normals of three.js: `axes = \"three_js\"`, for its shader: `convention = \"three_js\"`",
+            false => "",
+        };
+        format!("Axes: {}{others}.", self.convention.sentence())
     }
 
     /// What was decided, in a few sentences.
@@ -218,7 +235,7 @@ impl fmt::Display for EnvironmentPlan {
             Light::Radiance => "radiance",
             Light::Irradiance => "irradiance",
         };
-        writeln!(f, "`{}`, {width} x {height}, {signal}. Chosen: {}\n", self.map, self.summary())?;
+        writeln!(f, "`{}`, {width} x {height}, {signal}. Chosen: {} {}\n", self.map, self.summary(), self.axes())?;
         let mut rows = vec![row(["band", "energy", "error if it is the last", "error against the whole map", ""])];
         for l in 0..self.max_order {
             rows.push(vec![

@@ -16,7 +16,7 @@ use crate::emit::names::Use;
 use crate::emit::{Function, Module};
 use crate::families::family::Spec;
 use crate::generate::{self, Row};
-use crate::plan::check::{check_angle, check_collisions, check_half, check_name};
+use crate::plan::check::{check_angle, check_collisions, check_convention, check_half, check_name};
 use crate::plan::contest::Contest;
 use crate::plan::environment::EnvironmentPlan;
 use crate::promise::accuracy;
@@ -105,6 +105,7 @@ impl Plan {
         let parsed: Result<Vec<(Spec, bool)>, _> =
             scene.kernels.iter().map(|wanted| parse(wanted, environment.as_ref())).collect();
         let mut specs = parsed?;
+        check_convention(scene, &specs)?;
         if let Some(plan) = &mut environment {
             let whole = scene.rotations.iter().any(|rotation| rotation.order.value == Order::Environment);
             plan.leave_out_vanishing_bands(&mut specs, whole);

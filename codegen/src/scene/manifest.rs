@@ -4,8 +4,10 @@ use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
 use crate::families::text::hint;
 use crate::files;
+use crate::math::convention::{Convention, ZONAL};
 use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
+use crate::scene::frame;
 use crate::scene::located::{Located, Locator, Order};
 use crate::scene::picture::{self, BrdfTable, PictureTable};
 use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
@@ -39,6 +41,8 @@ struct EnvironmentTable {
     budget: Spanned<f64>,
     max_order: Option<Spanned<Order>>,
     name: Option<Spanned<String>>,
+    axes: Option<Spanned<String>>,
+    convention: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -211,9 +215,29 @@ fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnost
     }
 }
 
+/// The convention that an environment names, with the axes that it names; zonal's stands at the place of the scene.
+fn convention(
+    locate: &Locator,
+    name: Option<Spanned<String>>,
+    axes: Option<Spanned<String>>,
+    scene: &Place,
+) -> Result<Located<Convention>, Diagnostic> {
+    let (name, axes) = (name.map(|name| locate.at(name)), axes.map(|axes| locate.at(axes)));
+    let mut wanted = match &name {
+        Some(name) => frame::convention(&name.value).map_err(|fault| Diagnostic::of(&name.place, fault))?,
+        None => ZONAL,
+    };
+    if let Some(axes) = &axes {
+        wanted.axes = frame::axes(&axes.value).map_err(|fault| Diagnostic::of(&axes.place, fault))?;
+    }
+    let place = name.or(axes).map_or_else(|| scene.clone(), |said| said.place);
+    Ok(Located { value: wanted, place })
+}
+
 fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String>) -> Result<Environment, Diagnostic> {
+    let convention = convention(locate, table.convention, table.axes, &scene.place)?;
     let max_order = match table.max_order.map(|order| locate.at(order)) {
-        None => 10,
+        None => convention.value.max_order.min(10),
         Some(order) => match order.value {
             Order::Number(number) => number,
             Order::Environment => {
@@ -231,7 +255,10 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
             "write a share of the whole, from 0 to below 1, as in 0.05",
         ));
     }
+    frame::check(&convention.value, table.signal, max_order)
+        .map_err(|fault| Diagnostic::of(&convention.place, fault))?;
     Ok(Environment {
+        convention,
         map: locate.at(table.map),
         signal: table.signal,
         budget: budget.value,

@@ -15,6 +15,11 @@
 //! max_order = 5                       # 10 if left out
 //! budget = 0.05                       # the relative rms error, against max_order, that leaving orders out may cost
 //! name = "city"                       # the constants are called CITY
+//! axes = "three_js"                   # optional: whose axes the coefficients are in; or three axes of yours, to the map's
+//!                                     # centre, to the left of it and up, as in "x,-z,y"; zonal's if left out: z is up,
+//!                                     # the centre along +x, -y to its right
+//! convention = "zonal"                # this if left out; or a program that takes the coefficients, for its axes, signs and
+//!                                     # factors: docs/ENGINES.md has the names
 //!
 //! [[kernel]]
 //! spec = "eval:environment:rgb"       # `environment` is the order that the map was found to need
@@ -55,6 +60,7 @@
 
 pub mod budget;
 pub mod diagnostic;
+pub mod frame;
 pub mod located;
 mod manifest;
 pub mod picture;

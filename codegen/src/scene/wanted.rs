@@ -2,6 +2,7 @@
 
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
+use crate::math::convention::Convention;
 use crate::reflectance::brdf::Brdf;
 use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::Diagnostic;
@@ -34,6 +35,8 @@ pub struct Environment {
     pub max_order: usize,
     /// What the constants are called.
     pub name: Located<String>,
+    /// How they are held.
+    pub convention: Located<Convention>,
 }
 
 /// A kernel that a scene names.

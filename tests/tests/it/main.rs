@@ -9,6 +9,8 @@ mod builder;
 mod catalog;
 mod citations;
 mod cli;
+mod conventions;
+mod engines;
 mod environment;
 mod examples;
 mod fixture;

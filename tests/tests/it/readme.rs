@@ -70,7 +70,8 @@ fn textwrap(line: &str) -> Vec<String> {
     lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
-fn with_block(text: &str, name: &str, block: &str) -> String {
+/// Returns a text with another content of the block between `<!-- name -->` and `<!-- /name -->`.
+pub fn with_block(text: &str, name: &str, block: &str) -> String {
     let (open, close) = (format!("<!-- {name} -->\n"), format!("<!-- /{name} -->"));
     let start = text.find(&open).expect("the block is opened") + open.len();
     let end = text.find(&close).expect("the block is closed");

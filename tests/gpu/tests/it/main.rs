@@ -3,6 +3,7 @@
 mod compilers;
 mod drivers;
 mod explorer;
+mod three;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
