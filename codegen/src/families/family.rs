@@ -110,7 +110,7 @@ pub enum Acts {
 pub enum Proof {
     /// Values, sums, bands or all of them at once, as the measure and what is done to the bands say.
     Auto,
-    /// Lobes that are turned: stages of three scalars are directions.
+    /// Lobes that are turned to the directions that the kernel notes.
     Lobes,
     /// Not at all: the measured worst case times a margin is promised.
     Nothing,

@@ -37,6 +37,7 @@ pub struct Graph {
     kinds: Vec<Kind>,
     known: HashMap<Node, Id>,
     stages: Vec<Vec<Id>>,
+    directions: Vec<[Id; 3]>,
 }
 
 impl Graph {
@@ -74,6 +75,17 @@ impl Graph {
     /// The noted stages, in order.
     pub fn stages(&self) -> &[Vec<Id>] {
         &self.stages
+    }
+
+    /// Notes that these three scalars are a direction that the kernel's rotation turns a given one to. It changes no
+    /// operation: [`crate::promise::bound`] may let the direction be any, and knows that it is of unit length.
+    pub fn direction(&mut self, xyz: [Id; 3]) {
+        self.directions.push(xyz);
+    }
+
+    /// The noted directions, in order.
+    pub fn directions(&self) -> &[[Id; 3]] {
+        &self.directions
     }
 
     fn push(&mut self, node: Node, kind: Kind) -> Id {

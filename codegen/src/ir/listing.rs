@@ -95,6 +95,8 @@ pub struct Listing {
     pub outputs: Vec<Operand>,
     /// Where a proof may cut, in order, signs left out; see [`Graph::stage`].
     pub stages: Vec<Vec<Operand>>,
+    /// What is known to be a turned direction, signs left out; see [`Graph::direction`].
+    pub directions: Vec<[Operand; 3]>,
     /// The shape of the result.
     pub result: Shape,
     /// Whether the result is linear in the signal, or in each of two.
@@ -200,6 +202,7 @@ impl Listing {
             steps: Vec::new(),
             outputs: Vec::new(),
             stages: Vec::new(),
+            directions: Vec::new(),
             result: kernel.result,
             result_kind: kernel.result_kind,
             result_doc: kernel.result_doc.clone(),
@@ -234,8 +237,10 @@ impl Listing {
             operands.insert(id, operand);
         }
         listing.outputs = kernel.outputs.iter().map(|id| operands[id]).collect();
-        let stage = |ids: &Vec<Id>| ids.iter().map(|&id| operands.get(&unsigned(graph, id).0).copied()).collect();
-        listing.stages = graph.stages().iter().filter_map(stage).collect();
+        let known = |&id: &Id| operands.get(&unsigned(graph, id).0).copied();
+        listing.stages = graph.stages().iter().filter_map(|ids| ids.iter().map(known).collect()).collect();
+        let direction = |[x, y, z]: &[Id; 3]| Some([known(x)?, known(y)?, known(z)?]);
+        listing.directions = graph.directions().iter().filter_map(direction).collect();
         listing.count_uses();
         listing
     }

@@ -288,6 +288,7 @@ impl From<&LoopKernel> for Listing {
             steps: trace.steps,
             outputs,
             stages: trace.stages,
+            directions: vec![],
             result: kernel.result,
             result_kind: kernel.result_kind,
             result_doc: kernel.result_doc.clone(),

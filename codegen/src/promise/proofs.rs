@@ -87,8 +87,10 @@ fn lay(text: &mut Hashed, code: &Code) -> fmt::Result {
         params.iter().try_for_each(|param| write!(text, "{} {:?} {:?};", param.name, param.shape, param.domain))?;
         parts.iter().try_for_each(|part| write!(text, "{part:?};"))
     };
-    let mut listing =
-        |l: &Listing| all(&l.params, &[&l.constants, &l.steps, &l.outputs, &l.stages, &l.result, &l.result_kind]);
+    let mut listing = |l: &Listing| {
+        let notes = (&l.stages, &l.directions);
+        all(&l.params, &[&l.constants, &l.steps, &l.outputs, &notes, &l.result, &l.result_kind])
+    };
     match code {
         Code::Straight(straight) => listing(straight),
         Code::Branch(branch) => [&branch.condition, &branch.below, &branch.above].into_iter().try_for_each(listing),

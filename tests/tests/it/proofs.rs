@@ -94,6 +94,9 @@ fn another_operation_question_or_kernel_is_proven_anew() {
     let mut changed = listing.clone();
     changed.stages.pop().expect("a rotation has stages");
     assert!(ask("rotate:4", &Code::Straight(changed), "bound"), "stages");
+    let mut changed = listing.clone();
+    changed.directions.push([listing.outputs[1], listing.outputs[2], listing.outputs[3]]);
+    assert!(ask("rotate:4", &Code::Straight(changed), "bound"), "directions");
     assert!(ask("rotate:4", &Code::Straight(listing.clone()), "bound within 0.1"), "the question");
     assert!(ask("tilt:4", &Code::Straight(listing.clone()), "bound"), "the spec");
     assert!(!ask("rotate:4", &Code::Straight(listing), "bound"));

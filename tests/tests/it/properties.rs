@@ -108,7 +108,7 @@ fn is_linear(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
-    let degree = spec.code().result().1.degree();
+    let is_product = matches!(spec.family.measure, Measure::Product);
     for (i, trials) in subject.trials.windows(2).enumerate() {
         let (origins, signals) = (&trials[0].origins, &trials[0].signals);
         for (place, (x, y)) in signals.iter().zip(&trials[1].signals).enumerate() {
@@ -119,7 +119,7 @@ fn is_linear(spec: &Spec) -> Tried {
             };
             let (of, in_f32) =
                 (|signal: &[f64]| subject.runner.run(&given(signal)), |signal: &[f64]| narrow.run(&given(signal)));
-            let is_square = degree > signals.len();
+            let is_square = is_product && signals.len() == 1;
             let (fx, fy) = (of(x), of(y));
             let sum = |a: f64, x: &[f64], b: f64, y: &[f64]| -> Vec<f64> {
                 x.iter().zip(y).map(|(x, y)| a * x + b * y).collect()

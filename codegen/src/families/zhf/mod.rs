@@ -125,8 +125,8 @@ fn rotate(order: usize) -> Kernel {
         .iter()
         .map(|lobe| {
             let xyz = lobe.xyz();
-            let turned: Vec<Id> = (0..3).map(|row| g.dot(&xyz, &[m[row], m[3 + row], m[6 + row]])).collect();
-            g.stage(&turned);
+            let turned: [Id; 3] = std::array::from_fn(|row| g.dot(&xyz, &[m[row], m[3 + row], m[6 + row]]));
+            g.direction(turned);
             columns::values(g, &turned, order, columns::orthonormal)
         })
         .collect();

@@ -17,14 +17,13 @@ use std::collections::HashMap;
 impl Prover<'_> {
     /// The error of every band relative to its norm.
     pub(super) fn turned_lobes(&self) -> Option<Vec<Both>> {
-        let is_direction = |stage: &&Vec<Operand>| stage.len() == 3 && !self.is_signal(stage[0]);
-        let directions: Vec<&Vec<Operand>> = self.listing.stages.iter().filter(is_direction).collect();
-        let all: Vec<Operand> = directions.iter().flat_map(|direction| direction.iter().copied()).collect();
-        let error = self.scalars(&all)?;
-        let places = directions.iter().flat_map(|direction| direction.iter().copied().zip(0..));
-        let components: HashMap<Operand, usize> = places.collect();
-        let alike = alike(self.listing, |operand| components.get(&operand).map(|&i| directions[0][i]));
-        let component = |operand: Operand| directions[0].iter().position(|&known| known == operand);
+        let directions = &self.listing.directions;
+        let first = directions.first()?;
+        let error = self.scalars(directions.as_flattened())?;
+        let components: HashMap<Operand, usize> =
+            directions.iter().flat_map(|xyz| xyz.iter().copied().zip(0..)).collect();
+        let alike = alike(self.listing, |operand| components.get(&operand).map(|&i| first[i]));
+        let component = |operand: Operand| first.iter().position(|&known| known == operand);
         let start = |operand| Some(Start { root: Root::Component(component(operand)?), spread: 0.0, error });
         (0..self.spec.order).map(|l| self.turned(l, &alike, &start)).collect()
     }

@@ -64,6 +64,7 @@ pub fn plain(listing: &Listing) -> Option<Listing> {
     };
     let all = |operands: &Vec<Operand>| operands.iter().map(value).collect();
     let (outputs, stages) = (all(&listing.outputs), listing.stages.iter().map(all).collect());
+    let directions = listing.directions.iter().map(|xyz| xyz.each_ref().map(value)).collect();
     let constants = [&listing.constants[..], &[Exact::zero()]].concat();
-    Some(Listing { steps, outputs, stages, constants, ..listing.clone() })
+    Some(Listing { steps, outputs, stages, directions, constants, ..listing.clone() })
 }
