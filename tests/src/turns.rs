@@ -5,7 +5,8 @@ use crate::{Runner, norm, quaternion_product};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::basis::BASIS;
 use zonal_codegen::families::family::Job;
-use zonal_codegen::ir::kernel::{Domain, Param, Shape};
+use zonal_codegen::ir::kernel::{Domain, Param};
+use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::samples::{self, matrix_of};
 
 /// A matrix by columns.
@@ -169,13 +170,20 @@ struct Source {
     set_up: Option<(Runner<f64>, Vec<Param>)>,
 }
 
-/// What a kernel is tried on: its parameters by their origins, and its signal.
-#[derive(Clone, Debug)]
+/// What a kernel is tried on: its parameters by their origins, and its signals.
+#[derive(Clone, Debug, Default)]
 pub struct Trial {
     /// The parameters that are no signal, in order, those of a set-up for what it makes.
     pub origins: Vec<Origin>,
-    /// The signal, empty where there is none.
-    pub signal: Vec<f64>,
+    /// The signals, in order.
+    pub signals: Vec<Vec<f64>>,
+}
+
+impl Trial {
+    /// Returns the parameters that are no signal, and the first signal, empty where there is none.
+    pub fn alone(&self) -> (&[Origin], &[f64]) {
+        (&self.origins, self.signals.first().map_or(&[], Vec::as_slice))
+    }
 }
 
 /// A kernel's parameters, ready to be drawn from.
@@ -200,13 +208,13 @@ impl Parameters {
 
     /// Returns seeded trials, the extremes of the domains first.
     pub fn trials(&self, seed: u64, count: usize) -> Vec<Trial> {
-        let mut trials = vec![Trial { origins: vec![], signal: vec![] }; count];
+        let mut trials = vec![Trial::default(); count];
         for (Source { param, set_up }, seed) in self.0.iter().zip(seed..) {
             let drawn = set_up.as_ref().map_or(std::slice::from_ref(param), |(_, params)| params);
             for (trial, lists) in trials.iter_mut().zip(samples::inputs(drawn, seed, count, None)) {
                 for (param, list) in drawn.iter().zip(lists) {
                     match param.domain {
-                        Domain::Signal => trial.signal = list,
+                        Domain::Signal => trial.signals.push(list),
                         domain => trial.origins.push((domain, precise(domain, &list))),
                     }
                 }
@@ -215,24 +223,16 @@ impl Parameters {
         trials
     }
 
-    /// Returns what the kernel is given: set-ups are run, the signal stands in its place.
-    pub fn inputs(&self, origins: &[Origin], signal: &[f64]) -> Vec<Vec<f64>> {
+    /// Returns what the kernel is given: set-ups are run, the signals stand in their places.
+    pub fn inputs(&self, origins: &[Origin], signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut rest = origins.iter().map(|(_, list)| list.clone());
+        let mut signals = signals.iter().cloned();
         let given = |Source { param, set_up }: &Source| match (param.domain, set_up) {
-            (Domain::Signal, _) => signal.to_vec(),
+            (Domain::Signal, _) => signals.next().expect("a list for each signal"),
             (_, Some((runner, params))) => runner.run(&rest.by_ref().take(params.len()).collect::<Vec<_>>()),
             _ => rest.next().expect("an origin for each parameter"),
         };
         self.0.iter().map(given).collect()
-    }
-
-    /// Returns how many numbers the signal has, if there is one.
-    pub fn signal_length(&self) -> Option<usize> {
-        let signal = self.0.iter().find(|source| source.param.domain == Domain::Signal);
-        signal.map(|source| match source.param.shape {
-            Shape::Array(n) => n,
-            shape => panic!("a signal of shape {shape:?}"),
-        })
     }
 }
 
@@ -249,29 +249,6 @@ pub fn whole(signal: &[f64], order: usize) -> Vec<f64> {
     let mut all = vec![0.0; order * order];
     signal.iter().enumerate().for_each(|(l, &x)| all[l * l + l] = x);
     all
-}
-
-/// Returns the nodes and weights of Gauss and Legendre on [−1, 1], by Newton's method.
-pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let legendre = |x: f64| -> (f64, f64) {
-        let (mut last, mut value) = (1.0, x);
-        for k in 2..=count {
-            let k = k as f64;
-            (last, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * last) / k);
-        }
-        (value, count as f64 * (x * value - last) / (x * x - 1.0))
-    };
-    (0..count)
-        .map(|i| {
-            let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
-            for _ in 0..10 {
-                let (value, slope) = legendre(x);
-                x -= value / slope;
-            }
-            let slope = legendre(x).1;
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
 }
 
 /// A direction of the quadrature, its weight, the basis there.
@@ -298,7 +275,7 @@ impl Sphere {
                 .map(move |j| (step * j as f64).sin_cos())
                 .map(move |(sin, cos)| ([s * cos, s * sin, z], weight))
         };
-        let nodes = gauss_legendre(order).into_iter().flat_map(ring);
+        let nodes = gauss_legendre(order, -1.0, 1.0).flat_map(ring);
         let nodes = nodes
             .map(|(direction, weight)| Node {
                 direction,

@@ -100,8 +100,8 @@ impl Code {
     /// The operations with constants rounded to `T`, ready to run.
     pub fn runner<T: Number>(&self) -> Runner<T> {
         match self {
-            Self::Straight(listing) => Runner::Straight(Program::new(listing)),
-            Self::Loop(kernel) => Runner::Straight(Program::new(&Listing::from(kernel))),
+            Self::Straight(listing) => Runner::Straight(Box::new(Program::new(listing))),
+            Self::Loop(kernel) => Runner::Straight(Box::new(Program::new(&Listing::from(kernel)))),
             Self::Branch(branch) => {
                 Runner::Branch(Box::new([&branch.condition, &branch.below, &branch.above].map(Program::new)))
             }
@@ -141,7 +141,7 @@ fn array_items(body: &[Stmt]) -> usize {
 #[derive(Clone, Debug)]
 pub enum Runner<T> {
     /// Straight lines, or what a loop does.
-    Straight(Program<T>),
+    Straight(Box<Program<T>>),
     /// One of two: the condition's two scalars, what is done where the first is at most the second, and elsewhere.
     Branch(Box<[Program<T>; 3]>),
 }

@@ -14,7 +14,7 @@ use zonal_tests::repository;
 const LARGEST: u64 = 10 << 20;
 
 /// What lies in a package besides its sources, and what cargo adds.
-const BELONGS: [&str; 10] = [
+const BELONGS: [&str; 11] = [
     ".cargo_vcs_info.json",
     "Cargo.lock",
     "Cargo.toml",
@@ -22,6 +22,7 @@ const BELONGS: [&str; 10] = [
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "README.md",
+    "benches",
     "build.rs",
     "examples",
     "src",

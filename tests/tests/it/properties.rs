@@ -12,13 +12,15 @@ use zonal_codegen::families::{ALL, Family, Form, SmallAngle, Spec};
 use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::Number;
 use zonal_codegen::math::half::Half;
+use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::accuracy::Meaning;
 use zonal_codegen::promise::law;
 use zonal_codegen::promise::samples::inputs;
 use zonal_tests::shader::Language;
+use zonal_tests::toys;
 use zonal_tests::turns::{
-    Matrix, Origin, Parameters, Sphere, Trial, Turn, composed, gauss_legendre, identity, inverse, places, product,
-    transposed, turn, whole,
+    Matrix, Origin, Parameters, Sphere, Trial, Turn, composed, identity, inverse, places, product, transposed, turn,
+    whole,
 };
 use zonal_tests::{Runner, larger, norm};
 
@@ -72,8 +74,13 @@ impl Subject {
         Self { runner: Runner::new(spec), trials: parameters.trials(31, COUNT), parameters }
     }
 
+    /// Runs it on one signal, or on none.
     fn run(&self, origins: &[Origin], signal: &[f64]) -> Vec<f64> {
-        self.runner.run(&self.parameters.inputs(origins, signal))
+        self.runner.run(&self.given(origins, signal))
+    }
+
+    fn given(&self, origins: &[Origin], signal: &[f64]) -> Vec<Vec<f64>> {
+        self.parameters.inputs(origins, &[signal.to_vec()])
     }
 }
 
@@ -94,35 +101,51 @@ fn is_finite(spec: &Spec) -> Tried {
     Ok(true)
 }
 
-/// Sums of signals become sums, a signal times a power of two becomes that to the last bit, and zeros stay zeros.
+/// In each signal sums become sums, zeros stay zeros, and what is multiplied by a power of two becomes that to the last
+/// bit; where a product is of one signal with itself, by the power's square.
 fn is_linear(spec: &Spec) -> Tried {
     if !spec.family.has_signal() {
         return Ok(false);
     }
     let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
+    let is_product = matches!(spec.family.measure, Measure::Product);
     for (i, trials) in subject.trials.windows(2).enumerate() {
-        let (origins, x, y) = (&trials[0].origins, &trials[0].signal, &trials[1].signal);
-        let of = |signal: &[f64]| subject.run(origins, signal);
-        let (fx, fy) = (of(x), of(y));
-        let sum = |x: &[f64], y: &[f64]| -> Vec<f64> { x.iter().zip(y).map(|(a, b)| 0.75 * a - 1.5 * b).collect() };
-        let size = [x, y, &fx, &fy].map(|list| norm(list)).iter().sum::<f64>();
-        let error = difference(&of(&sum(x, y)), &sum(&fx, &fy));
-        ensure(error <= ROUNDING * size, || format!("sums: {error:e} of {size} at {origins:?}"))?;
-        let zeros = vec![0.0; x.len()];
-        let inputs = subject.parameters.inputs(origins, &zeros);
-        let nothing = [of(&zeros), narrow.run(&inputs)].concat();
-        ensure(nothing.iter().all(|&x| x == 0.0), || format!("zeros become {nothing:?} at {origins:?}"))?;
-        let scaled =
-            |list: &[f64], exponent: i32| -> Vec<f64> { list.iter().map(|x| x * 2f64.powi(exponent)).collect() };
-        for exponent in [-300, 300] {
-            let same = bits(&of(&scaled(x, exponent))) == bits(&scaled(&fx, exponent));
-            ensure(same, || format!("2^{exponent} times {x:?} at {origins:?}"))?;
-        }
-        // In f32 products of tiny parameters and small signals are subnormal.
-        for exponent in [-60, 60].into_iter().filter(|_| i >= ORDINARY) {
-            let of = |signal: &[f64]| narrow.run(&subject.parameters.inputs(origins, signal));
-            let same = bits(&of(&scaled(x, exponent))) == bits(&scaled(&of(x), exponent));
-            ensure(same, || format!("2^{exponent} times {x:?} at {origins:?} in f32"))?;
+        let (origins, signals) = (&trials[0].origins, &trials[0].signals);
+        for (place, (x, y)) in signals.iter().zip(&trials[1].signals).enumerate() {
+            let given = |signal: &[f64]| {
+                let mut all = signals.clone();
+                all[place] = signal.to_vec();
+                subject.parameters.inputs(origins, &all)
+            };
+            let (of, in_f32) =
+                (|signal: &[f64]| subject.runner.run(&given(signal)), |signal: &[f64]| narrow.run(&given(signal)));
+            let is_square = is_product && signals.len() == 1;
+            let (fx, fy) = (of(x), of(y));
+            let sum = |a: f64, x: &[f64], b: f64, y: &[f64]| -> Vec<f64> {
+                x.iter().zip(y).map(|(x, y)| a * x + b * y).collect()
+            };
+            let (got, want) = match is_square {
+                true => (sum(1.0, &of(&sum(1.0, x, 1.0, y)), 1.0, &of(&sum(1.0, x, -1.0, y))), sum(2.0, &fx, 2.0, &fy)),
+                false => (of(&sum(0.75, x, -1.5, y)), sum(0.75, &fx, -1.5, &fy)),
+            };
+            let size = [x, y, &fx, &fy].map(|list| norm(list)).iter().sum::<f64>();
+            let error = difference(&got, &want);
+            ensure(error <= ROUNDING * size, || format!("sums: {error:e} of {size} at {origins:?}"))?;
+            let zeros = vec![0.0; x.len()];
+            let nothing = [of(&zeros), in_f32(&zeros)].concat();
+            ensure(nothing.iter().all(|&x| x == 0.0), || format!("zeros become {nothing:?} at {origins:?}"))?;
+            let scaled =
+                |list: &[f64], exponent: i32| -> Vec<f64> { list.iter().map(|x| x * 2f64.powi(exponent)).collect() };
+            let power = |exponent: i32| if is_square { 2 * exponent } else { exponent };
+            for exponent in [-300, 300] {
+                let same = bits(&of(&scaled(x, exponent))) == bits(&scaled(&fx, power(exponent)));
+                ensure(same, || format!("2^{exponent} times {x:?} at {origins:?}"))?;
+            }
+            // In f32 products of tiny parameters and small signals are subnormal.
+            for exponent in [-40, 40].into_iter().filter(|_| i >= ORDINARY) {
+                let same = bits(&in_f32(&scaled(x, exponent))) == bits(&scaled(&in_f32(x), power(exponent)));
+                ensure(same, || format!("2^{exponent} times {x:?} at {origins:?} in f32"))?;
+            }
         }
     }
     Ok(true)
@@ -135,15 +158,16 @@ fn bands_do_not_mix(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let (subject, narrow, order) = (Subject::new(spec), Runner::<f32>::new(spec), spec.order);
-    for Trial { origins, signal } in subject.trials.iter().skip(ORDINARY).take(4) {
-        let run = |signal: &[f64]| narrow.run(&subject.parameters.inputs(origins, signal));
+    for trial in subject.trials.iter().skip(ORDINARY).take(4) {
+        let (origins, signal) = trial.alone();
+        let run = |signal: &[f64]| narrow.run(&subject.given(origins, signal));
         let clean = run(signal);
         // A loop may read beyond its band and multiply by zero, which stops finite numbers alone.
         let bad = [1e38, 1e-38, 1e-45, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
         for bad in bad.into_iter().filter(|bad| bad.is_finite() || spec.form == Form::Unrolled) {
             for band in 0..order {
                 for place in places(band, order, signal.len()) {
-                    let mut spoilt = signal.clone();
+                    let mut spoilt = signal.to_vec();
                     spoilt[place] = bad;
                     let got = run(&spoilt);
                     for l in (0..order).filter(|&l| l != band) {
@@ -168,7 +192,8 @@ fn norms_are_kept(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let (subject, order) = (Subject::new(spec), spec.order);
-    for Trial { origins, signal } in &subject.trials {
+    for trial in &subject.trials {
+        let (origins, signal) = trial.alone();
         let out = subject.run(origins, signal);
         for l in 0..order {
             let [before, after] = [signal, &out].map(|list| norm(&list[places(l, order, list.len())]));
@@ -204,14 +229,15 @@ fn it_turns_as_it_says(spec: &Spec) -> Tried {
         _ => return Ok(false),
     };
     let (subject, sphere) = (Subject::new(spec), Sphere::new(order));
-    for (i, Trial { origins, signal }) in subject.trials.iter().enumerate() {
+    for (i, trial) in subject.trials.iter().enumerate() {
+        let (origins, signal) = trial.alone();
         let run = |signal: &[f64]| match &through {
             Some(rotation) => rotation.run(&[subject.run(origins, &[]), signal.to_vec()]),
             None => subject.run(origins, signal),
         };
         let mut signal = match &through {
             Some(_) => (0..order * order).map(|place| ((i + 1) * (place + 3)) as f64 % 7.0 - 2.5).collect(),
-            None => signal.clone(),
+            None => signal.to_vec(),
         };
         let matrix = match turn(spec, origins) {
             Some(Turn::Whole(matrix)) => matrix,
@@ -249,14 +275,15 @@ fn no_turn_changes_nothing(spec: &Spec) -> Tried {
     }
     let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
     let mut tried = false;
-    for Trial { origins, signal } in &subject.trials {
+    for trial in &subject.trials {
+        let (origins, signal) = trial.alone();
         let none: Vec<Origin> = origins.iter().map(identity).collect();
         // A kernel without parameters turns always, and one that leaves a spin open may do it at z.
         let zonal = signal.len() == order;
         if none.is_empty() || (matches!(turn(spec, &none), Some(Turn::Axis(_))) && !zonal) {
             continue;
         }
-        let out = narrow.run(&subject.parameters.inputs(&none, signal));
+        let out = narrow.run(&subject.given(&none, signal));
         let want = whole(signal, order);
         for l in 0..order {
             let range = places(l, order, want.len());
@@ -282,12 +309,12 @@ fn turns_are_undone_and_composed(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let subject = Subject::new(spec);
-    if subject.parameters.signal_length() != Some(order * order) {
-        return Ok(false);
-    }
     let mut tried = false;
     for trials in subject.trials.windows(2) {
-        let (a, b, signal) = (&trials[0].origins, &trials[1].origins, &trials[0].signal);
+        let ((a, signal), (b, _)) = (trials[0].alone(), trials[1].alone());
+        if signal.len() != order * order {
+            return Ok(false);
+        }
         let once = subject.run(a, signal);
         let close = |got: &[f64], want: &[f64], what: &str| {
             let error = (0..order).map(|l| {
@@ -317,8 +344,8 @@ fn the_loop_is_the_same(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let (subject, again) = (Subject::new(spec), Runner::<f64>::new(&looped));
-    for Trial { origins, signal } in &subject.trials {
-        let input = subject.parameters.inputs(origins, signal);
+    for Trial { origins, signals } in &subject.trials {
+        let input = subject.parameters.inputs(origins, signals);
         let (want, got) = (subject.runner.run(&input), again.run(&input));
         let error = difference(&got, &want);
         ensure(error <= ROUNDING * norm(&want), || format!("the loop is {error:e} off at {origins:?}"))?;
@@ -339,8 +366,9 @@ fn some_bands_are_the_same(spec: &Spec) -> Tried {
         let packed = |list: &[f64]| -> Vec<f64> {
             bands.iter().flat_map(|&l| &list[l * l..(l + 1) * (l + 1)]).copied().collect()
         };
-        for Trial { origins, signal } in subject.trials.iter().step_by(5) {
-            let mut other = signal.clone();
+        for trial in subject.trials.iter().step_by(5) {
+            let (origins, signal) = trial.alone();
+            let mut other = signal.to_vec();
             (0..order).filter(|l| !bands.contains(l)).flat_map(|l| l * l..(l + 1) * (l + 1)).for_each(|place| {
                 if let Some(x) = other.get_mut(place) {
                     *x = 0.0;
@@ -418,6 +446,14 @@ fn every_family_has_the_properties_that_its_record_says() {
     assert!(families.values().all(|families| !families.is_empty()), "{families:?}");
 }
 
+/// What is linear in each of two signals, or a square of one.
+#[test]
+fn products_are_linear_in_each_signal() {
+    for spec in toys::specs().into_iter().filter(|spec| !spec.rgb) {
+        assert_eq!(is_linear(&spec), Ok(true), "{spec}");
+    }
+}
+
 #[test]
 fn three_channels_are_three_scalars() {
     let with_signal = ALL.iter().filter(|family| family.has_signal());
@@ -443,7 +479,7 @@ fn the_basis_is_orthonormal() {
 #[test]
 fn the_quadrature_is_exact() {
     for count in [2, 5, 10] {
-        let nodes = gauss_legendre(count);
+        let nodes: Vec<(f64, f64)> = gauss_legendre(count, -1.0, 1.0).collect();
         for power in 0..2 * count as i32 {
             let got: f64 = nodes.iter().map(|(x, weight)| weight * x.powi(power)).sum();
             let want = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
