@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tiny_http::{Header, Method, Request, Response, Server};
 use zonal_cli::terminal::{Failure, out, progress};
-use zonal_codegen::files;
+use zonal_codegen::files::{self, Replace};
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Where the page is written to unless another folder is named.
@@ -23,7 +23,7 @@ const TYPES: [(&str, &str); 7] = [
 ];
 
 /// Writes the page, and serves it if asked to.
-pub fn explore(folder: Option<PathBuf>, port: u16, serves: bool) -> Result<(), Failure> {
+pub fn explore(folder: Option<PathBuf>, port: u16, serves: bool, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     // A port that is taken is known before anything is made.
     let server = serves.then(|| listen(port)).transpose()?;
@@ -31,7 +31,7 @@ pub fn explore(folder: Option<PathBuf>, port: u16, serves: bool) -> Result<(), F
     let assets = page::assets(&bar)?;
     let folder = folder.unwrap_or_else(|| PathBuf::from(FOLDER));
     let list: Vec<(&str, &[u8])> = assets.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice())).collect();
-    let changed = files::write_below(&folder, &list)?;
+    let changed = files::write_below(&folder, &list, replace)?;
     drop(bar);
     let megabytes = assets.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() as f64 / 1e6;
     out(&format!(
