@@ -1,6 +1,7 @@
 //! The command `zonal-explorer`, to which `zonal explore` and `zonal plan --plot` hand over: what is seen of kernels without
 //! drawing a picture, as a page and as plots.
 
+mod http;
 mod page;
 mod plot;
 mod serve;

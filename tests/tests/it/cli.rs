@@ -636,6 +636,8 @@ fn the_explorer_is_written_and_served() {
         ("GET //", "200"),
         ("POST /", "405"),
         ("HEAD /", "200"),
+        ("GET /favicon.ico", "204"),
+        ("GET / HTTP/1.1\r\nHost: example.org\r\nX:", "403"),
     ] {
         assert_eq!(answer(&address, request).0, status, "{request}");
     }
