@@ -12,7 +12,7 @@ use zonal_codegen::emit::Module;
 use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::fault::Fault;
-use zonal_codegen::files::{self, Difference};
+use zonal_codegen::files::{self, Difference, Replace};
 use zonal_codegen::generate::{self, Row};
 use zonal_codegen::math::convention::ZONAL;
 use zonal_codegen::math::index;
@@ -31,13 +31,13 @@ fn errors(chosen: &Chosen) -> String {
     }
 }
 
-pub fn generate(path: Option<&Path>, folder: Option<PathBuf>) -> Result<(), Failure> {
+pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     let bar = progress("planning, generating and validating");
     let plan = scene::plan(path)?;
     let files = builder::files_of(&plan)?;
     let folder = folder.unwrap_or_else(|| PathBuf::from(&plan.output));
-    let changed = files::write(&folder, &files)?;
+    let changed = files::write(&folder, &files, replace)?;
     drop(bar);
 
     let targets: Vec<&str> = plan.targets.iter().map(|target| target.name).collect();
@@ -211,7 +211,7 @@ fn refuse(folder: &Path, what: &str) -> Result<(), Failure> {
     Err(Diagnostic::nowhere(message, "name a new folder, or one that zonal wrote; orphans are removed from it").into())
 }
 
-pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
+pub fn catalog(folder: &Path, check: bool, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     let is_used = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
     if is_used && !check && !folder.join(catalog::COSTS).is_file() {
@@ -238,7 +238,7 @@ pub fn catalog(folder: &Path, check: bool) -> Result<(), Failure> {
             return refuse(folder, &format!("zonal did not write its `{path}`"));
         }
     }
-    let changed = files::write(folder, &all)?;
+    let changed = files::write(folder, &all, replace)?;
     let removed = files::remove_orphans(folder, &all, &catalog::BESIDE)?;
     out(&format!(
         "{} files in `{}`, all validated: {changed} changed, {removed} removed, in {:.1} s\n",

@@ -89,9 +89,8 @@ pub fn explore(arguments: Vec<OsString>) -> Result<(), Failure> {
     EXPLORER.run(std::iter::once("explore".into()).chain(arguments).collect())
 }
 
-pub fn plot(scene: Option<PathBuf>, json: bool, plot: PathBuf) -> Result<(), Failure> {
-    let json = json.then(|| "--json".into());
-    EXPLORER.run(
-        ["plan".into(), "--plot".into(), plot.into()].into_iter().chain(json).chain(scene.map(Into::into)).collect(),
-    )
+pub fn plot(scene: Option<PathBuf>, json: bool, plot: PathBuf, force: bool) -> Result<(), Failure> {
+    let flags = [(json, "--json"), (force, "--force")].into_iter().filter(|(is_set, _)| *is_set);
+    let arguments = ["plan".into(), "--plot".into(), plot.into()].into_iter();
+    EXPLORER.run(arguments.chain(flags.map(|(_, flag)| flag.into())).chain(scene.map(Into::into)).collect())
 }

@@ -14,6 +14,7 @@ use zonal_cli::terminal::{Failure, ended};
 use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::text::family_names;
+use zonal_codegen::files::Replace;
 use zonal_codegen::math::convention;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
@@ -34,6 +35,9 @@ enum Command {
         /// The folder to write to, instead of the one that the scene names.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Replaces files that zonal did not write, too.
+        #[arg(long)]
+        force: bool,
     },
     /// Shows what a scene would get, and why.
     Plan {
@@ -45,6 +49,9 @@ enum Command {
         /// Writes a plot too: each method's error over the angle, with what the scene allows.
         #[arg(long, value_name = "FILE.svg")]
         plot: Option<PathBuf>,
+        /// Replaces a plot that zonal did not write, too.
+        #[arg(long, requires = "plot")]
+        force: bool,
     },
     /// Lists the standard specs with their costs and errors.
     List {
@@ -126,6 +133,9 @@ enum Command {
         /// The folder of the catalogue.
         #[arg(long, value_name = "DIR", default_value = "generated")]
         dir: PathBuf,
+        /// Replaces files that zonal did not write, too; such files are never removed.
+        #[arg(long, conflicts_with = "check")]
+        force: bool,
     },
     /// Searches for lobe directions that make the zonal factorisation sparse.
     SearchLobes(search::Arguments),
@@ -139,9 +149,9 @@ fn spec_of(text: &str) -> Result<Spec, Failure> {
 /// Runs the command and says how it ended: 0, 1 for what went wrong, 2 for arguments that make no sense.
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
-        Command::Generate { scene, out } => commands::generate(scene.as_deref(), out),
-        Command::Plan { scene, json, plot: None } => commands::plan(scene.as_deref(), json),
-        Command::Plan { scene, json, plot: Some(plot) } => hand_over::plot(scene, json, plot),
+        Command::Generate { scene, out, force } => commands::generate(scene.as_deref(), out, Replace::forced(force)),
+        Command::Plan { scene, json, plot: None, .. } => commands::plan(scene.as_deref(), json),
+        Command::Plan { scene, json, plot: Some(plot), force } => hand_over::plot(scene, json, plot, force),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
         Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
         Command::Project { map, order, irradiance, convention, axes, json } => {
@@ -151,7 +161,7 @@ fn main() -> ExitCode {
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Explore { arguments } => hand_over::explore(arguments),
         Command::Render { arguments } => hand_over::render(arguments),
-        Command::Catalog { check, dir } => commands::catalog(&dir, check),
+        Command::Catalog { check, dir, force } => commands::catalog(&dir, check, Replace::forced(force)),
         Command::SearchLobes(arguments) => search::run(&arguments),
     };
     ended(result)

@@ -8,11 +8,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use zonal_cli::terminal::{Failure, out_json, progress};
 use zonal_codegen::families::Spec;
+use zonal_codegen::input;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Param, Shape};
 use zonal_codegen::promise::samples;
 use zonal_codegen::scene::diagnostic::{Diagnostic, Place, Source};
+
+/// The largest file of inputs that is read, in bytes.
+const MAX_BYTES: usize = 1 << 26;
 
 /// One parameter's numbers in flat order, for one channel or for three.
 type Channels = Vec<Vec<f64>>;
@@ -99,7 +103,7 @@ fn read(value: &Value, param: &Param, rgb: bool) -> Result<Channels, String> {
 
 fn from_file(path: &Path, spec: &Spec, params: &[Param]) -> Result<Vec<Vec<Channels>>, Diagnostic> {
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(path)
+    let text = input::read_text(path, MAX_BYTES)
         .map_err(|error| Diagnostic::nowhere(format!("{name}: cannot be read ({error})"), "check the path"))?;
     let expected =
         "the file is a list of objects keyed by parameter name, as `zonal vectors` prints them under `inputs`";

@@ -18,7 +18,7 @@
 //! Then `include!(concat!(env!("OUT_DIR"), "/kernels.rs"));` in a module of its own, and `include_str!` for the shaders.
 
 use crate::emit::language::{self, Arrays, Target};
-use crate::files::{self, Difference, File, FileError};
+use crate::files::{self, Difference, File, FileError, Replace};
 use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
 use crate::scene::diagnostic::{Diagnostic, Place};
@@ -68,6 +68,7 @@ pub struct Builder {
     kernels: Vec<Wanted>,
     targets: Vec<Target>,
     arrays: Option<Arrays>,
+    replace: Replace,
 }
 
 fn located(source: &str, text: &str) -> Located<String> {
@@ -76,7 +77,7 @@ fn located(source: &str, text: &str) -> Located<String> {
 
 impl Builder {
     fn from_origin(origin: Origin) -> Self {
-        Self { origin, kernels: vec![], targets: vec![], arrays: None }
+        Self { origin, kernels: vec![], targets: vec![], arrays: None, replace: Replace::Own }
     }
 
     /// An empty builder whose files are called `name`.
@@ -121,6 +122,13 @@ impl Builder {
         self
     }
 
+    /// Replaces files that zonal did not write, too; without it they are an error, and nothing is written.
+    #[must_use]
+    pub fn force(mut self) -> Self {
+        self.replace = Replace::Any;
+        self
+    }
+
     fn resolved(&self) -> Result<Scene, Diagnostic> {
         let mut scene = match &self.origin {
             Origin::File(path) => Scene::read(path)?,
@@ -158,10 +166,11 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// As [`Builder::generate`], or if the file system refuses; then nothing is written.
+    /// As [`Builder::generate`], or if a file stands in the way that zonal did not write, or the file system refuses; then
+    /// nothing is written.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<usize, Error> {
         let files = self.generate()?;
-        Ok(files::write(folder.as_ref(), &files)?)
+        Ok(files::write(folder.as_ref(), &files, self.replace)?)
     }
 
     /// How the files in a folder differ from what would be written; other files there are left alone.
@@ -190,7 +199,7 @@ impl Builder {
         if let (Some(environment), Maps::Folder(maps)) = (&scene.environment, &scene.maps) {
             println!("cargo::rerun-if-changed={}", maps.join(&environment.map.value).display());
         }
-        files::write(Path::new(&folder), &files_of(&Plan::new(&scene)?)?)?;
+        files::write(Path::new(&folder), &files_of(&Plan::new(&scene)?)?, self.replace)?;
         Ok(())
     }
 }

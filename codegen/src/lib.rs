@@ -44,6 +44,7 @@ pub mod families;
 pub mod fault;
 pub mod files;
 pub mod generate;
+pub mod input;
 pub mod ir;
 pub mod math;
 pub mod plan;

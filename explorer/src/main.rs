@@ -1,6 +1,7 @@
 //! The command `zonal-explorer`, to which `zonal explore` and `zonal plan --plot` hand over: what is seen of kernels without
 //! drawing a picture, as a page and as plots.
 
+mod http;
 mod page;
 mod plot;
 mod serve;
@@ -9,6 +10,7 @@ use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use zonal_cli::terminal::ended;
+use zonal_codegen::files::Replace;
 
 /// The page on which kernels are seen at work, and the plots of plans: what `zonal` hands over.
 #[derive(Parser)]
@@ -34,6 +36,9 @@ enum Command {
         /// Only writes.
         #[arg(long)]
         no_serve: bool,
+        /// Replaces files that zonal did not write, too.
+        #[arg(long)]
+        force: bool,
     },
     /// Shows what a scene would get, and why, and plots each method's error over the angle.
     Plan {
@@ -45,12 +50,15 @@ enum Command {
         /// The plot, with what the scene allows.
         #[arg(long, value_name = "FILE.svg")]
         plot: PathBuf,
+        /// Replaces a plot that zonal did not write, too.
+        #[arg(long)]
+        force: bool,
     },
 }
 
 fn main() -> ExitCode {
     ended(match Arguments::parse().command {
-        Command::Explore { out, port, no_serve } => serve::explore(out, port, !no_serve),
-        Command::Plan { scene, json, plot } => plot::plan(scene.as_deref(), json, &plot),
+        Command::Explore { out, port, no_serve, force } => serve::explore(out, port, !no_serve, Replace::forced(force)),
+        Command::Plan { scene, json, plot, force } => plot::plan(scene.as_deref(), json, &plot, Replace::forced(force)),
     })
 }

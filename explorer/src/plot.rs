@@ -7,7 +7,7 @@ use std::path::Path;
 use zonal_cli::scene;
 use zonal_cli::terminal::{Failure, progress};
 use zonal_codegen::families::Spec;
-use zonal_codegen::files::{self, File};
+use zonal_codegen::files::{self, MARK, Replace};
 use zonal_codegen::plan::mixtures::Budget;
 use zonal_codegen::plan::{Chosen, Plan};
 use zonal_codegen::scene::diagnostic::Diagnostic;
@@ -34,7 +34,7 @@ const COLOURS: [RGBColor; 10] = [
 ];
 
 /// Prints the plan of a scene after writing its plot.
-pub fn plan(path: Option<&Path>, json: bool, plot: &Path) -> Result<(), Failure> {
+pub fn plan(path: Option<&Path>, json: bool, plot: &Path, replace: Replace) -> Result<(), Failure> {
     if plot.extension().is_none_or(|extension| extension != "svg") {
         let message = format!("{}: a plot is an SVG file", plot.display());
         return Err(Diagnostic::nowhere(message, "give it a name that ends in `.svg`").into());
@@ -42,20 +42,18 @@ pub fn plan(path: Option<&Path>, json: bool, plot: &Path) -> Result<(), Failure>
     let bar = progress("planning");
     let plan = scene::plan(path)?;
     drop(bar);
-    write(&plan, plot)?;
+    write(&plan, plot, replace)?;
     scene::print(&plan, json)
 }
 
-fn write(plan: &Plan, path: &Path) -> Result<(), Failure> {
+fn write(plan: &Plan, path: &Path, replace: Replace) -> Result<(), Failure> {
     let name = path.display();
     let drawn = svg(plan).map_err(|error| Diagnostic::nowhere(format!("{name}: cannot be drawn ({error})"), ""))?;
     let text = drawn.ok_or_else(|| {
         let help = "add a `[[rotation]]` with its `max_error`";
         Diagnostic::nowhere("there is nothing to plot: the scene bounds no rotation", help)
     })?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    files::write(folder, &[File { path: file, text }])?;
+    files::write_text(path, &format!("<!-- {MARK} from the scene `{}` -->\n{text}", plan.scene), replace)?;
     Ok(())
 }
 

@@ -19,6 +19,8 @@ const CREASE_DEGREES: f64 = 60.0;
 const PARTS: usize = 3;
 /// How much of the way to the curved surface is gone (Boubekeur and Alexa 2008 recommend three quarters).
 const ROUNDING: f64 = 0.75;
+/// The largest file that is read, in bytes: some 250 for each of the triangles that it may hold.
+pub const MAX_BYTES: usize = 1 << 28;
 /// The most triangles of a file.
 const MAX_TRIANGLES: usize = 1 << 20;
 

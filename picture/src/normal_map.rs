@@ -6,6 +6,8 @@ use image::ImageFormat;
 use std::io::Cursor;
 use zonal_codegen::fault::Fault;
 
+/// The largest file that is read, in bytes: twice what the most pixels of four 16-bit channels take.
+pub const MAX_BYTES: usize = 1 << 28;
 /// The most pixels along a side.
 const MAX_SIZE: u32 = 4096;
 /// The least z of a normal: 89 degrees. What leans further, or below the horizon, is brought up to it, here and where a

@@ -3,17 +3,18 @@
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use serde::Serialize;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use zonal_cli::terminal::{Failure, ended, out};
 use zonal_codegen::fault::Fault;
-use zonal_codegen::files;
+use zonal_codegen::files::{self, MARK, Replace};
 use zonal_codegen::scene::Scene;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_picture::method::Method;
-use zonal_render::figures::{Truth, convergence, percent};
+use zonal_render::figures::{Figures, Truth, convergence, percent};
 use zonal_render::gpu::{Gpu, Stage};
 use zonal_render::strip;
 use zonal_render::subject::{Instead, Subject};
@@ -50,6 +51,17 @@ struct Arguments {
     /// How many samples a pixel has along each side.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=4))]
     samples: u64,
+    /// Replaces a picture or figures that zonal did not write, too.
+    #[arg(long)]
+    force: bool,
+}
+
+/// The figures as they lie beside the picture, for which they say who wrote it.
+#[derive(Serialize)]
+struct Beside<'a> {
+    origin: String,
+    #[serde(flatten)]
+    figures: &'a Figures,
 }
 
 /// A bar, on terminals only; it vanishes when it is dropped.
@@ -96,12 +108,13 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
         text += "\n";
         text += &reference(&gpu, &subject, &bar)?;
     }
-    let json = serde_json::to_string_pretty(&figures).map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    let json = serde_json::to_string_pretty(&Beside { origin: format!("{MARK} render"), figures: &figures })
+        .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    let json = json + "\n";
     let sidecar = output.with_extension("json");
-    let name = |place: &Path| place.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let (folder, names) = (output.parent().unwrap_or(Path::new("")), [name(&output), name(&sidecar)]);
-    files::write_below(folder, &[(&names[0], canvas.png().as_slice()), (&names[1], (json + "\n").as_bytes())])
-        .map_err(Fault::from)?;
+    let ((folder, picture), (_, beside)) = (files::split(&output), files::split(&sidecar));
+    let written = [(picture.as_str(), &canvas.png()[..]), (beside.as_str(), json.as_bytes())];
+    files::write_below(folder, &written, Replace::forced(arguments.force)).map_err(Fault::from)?;
     bar.finish_and_clear();
     let [width, height] = canvas.size;
     let seconds = start.elapsed().as_secs_f64();

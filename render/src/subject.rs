@@ -1,7 +1,7 @@
 //! What a picture shows, with every file read: the object, its normal map, its reflectance and the light around it. It
 //! knows nothing of adapters.
 
-use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::environment::{self, Map, Projection};
 // Names a family: a picture knows the tilt as two of its ways.
 use zonal_codegen::families::tilt::TILT;
 use zonal_codegen::families::{SmallAngle, Spec};
@@ -11,9 +11,9 @@ use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Job, Light, Located, Order, Scene};
 use zonal_picture::camera::Camera;
-use zonal_picture::mesh::Mesh;
+use zonal_picture::mesh::{self, Mesh};
 use zonal_picture::method::Method;
-use zonal_picture::normal_map::NormalMap;
+use zonal_picture::normal_map::{self, NormalMap};
 use zonal_picture::shade::Shading;
 
 /// What a picture shows.
@@ -74,17 +74,21 @@ impl Subject {
             let help = "write `signal = \"radiance\"`: the reflectance makes irradiance of it where that is wanted";
             return Err(Diagnostic::at(&environment.map.place, "a picture is drawn from the map's radiance", help));
         }
-        let read = |file: &Located<String>| scene.bytes(file);
         let mesh = match picture.mesh.value.as_str() {
             "sphere" => Mesh::sphere(),
             "plane" => Mesh::plane(),
-            name => located(&picture.mesh, Mesh::from_obj(name, &read(&picture.mesh)?))?,
+            name => located(&picture.mesh, Mesh::from_obj(name, &scene.bytes(&picture.mesh, mesh::MAX_BYTES)?))?,
         };
         let normals = match &picture.normals {
             None => NormalMap::flat(),
-            Some(file) => located(file, NormalMap::from_bytes(&file.value, &read(file)?))?,
+            Some(file) => {
+                located(file, NormalMap::from_bytes(&file.value, &scene.bytes(file, normal_map::MAX_BYTES)?))?
+            }
         };
-        let map = located(&environment.map, Map::from_bytes(&environment.map.value, &read(&environment.map)?))?;
+        let map = located(
+            &environment.map,
+            Map::from_bytes(&environment.map.value, &scene.bytes(&environment.map, environment::MAX_BYTES)?),
+        )?;
         let number = match picture.order.as_ref().map(|order| order.value) {
             Some(Order::Number(number)) => Some(number),
             Some(Order::Environment) | None => None,

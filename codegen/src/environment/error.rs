@@ -6,6 +6,9 @@ use std::fmt;
 /// The widest map that is read; its height is half of this.
 pub const MAX_WIDTH: usize = 8192;
 
+/// The largest file of a map that is read, in bytes: twice what 8192 × 4096 texels of four f32 take.
+pub const MAX_BYTES: usize = 1 << 30;
+
 /// Why a file is no environment map. As a [`Fault`] it names the file, what is wrong and what to do.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

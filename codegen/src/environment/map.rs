@@ -1,8 +1,9 @@
 //! A map in memory: read from a latitude-longitude image and refused if it is no radiance.
 
-use super::error::{MapError, check_size};
+use super::error::{MAX_BYTES, MapError, check_size};
 use super::openexr;
 use super::radiance::Radiance;
+use crate::input;
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -23,10 +24,11 @@ impl Map {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, or for any reason of [`Map::from_bytes`].
+    /// If the file cannot be read, is no regular file or larger than [`MAX_BYTES`](super::MAX_BYTES), or for any reason of
+    /// [`Map::from_bytes`].
     pub fn read(path: &Path) -> Result<Self, MapError> {
         let name = path.display().to_string();
-        match std::fs::read(path) {
+        match input::read(path, MAX_BYTES) {
             Ok(bytes) => Self::from_bytes(&name, &bytes),
             Err(source) => Err(MapError::Unreadable { name, source }),
         }

@@ -25,6 +25,6 @@ mod radiance;
 mod tests;
 mod waves;
 
-pub use error::{MAX_WIDTH, MapError};
+pub use error::{MAX_BYTES, MAX_WIDTH, MapError};
 pub use map::Map;
 pub use project::{Projection, cosine_lobe};

@@ -1,10 +1,11 @@
 //! A map projected on spherical harmonics in f64, as it stands in memory or as it is read, and what each order leaves
 //! out.
 
-use super::error::MapError;
+use super::error::{MAX_BYTES, MapError};
 use super::map::{Format, Map, format, solid_angle};
 use super::radiance::{Radiance, Row};
 use super::waves::{Waves, dot};
+use crate::input;
 use crate::math::quadrature::gauss_legendre_5;
 use crate::threads;
 use std::f64::consts::PI;
@@ -173,7 +174,7 @@ impl Projection {
     /// As [`Map::read`].
     pub fn read(path: &Path, order: usize) -> Result<(Self, [usize; 2]), MapError> {
         let name = path.display().to_string();
-        match std::fs::read(path) {
+        match input::read(path, MAX_BYTES) {
             Ok(bytes) => Self::from_bytes(&name, &bytes, order),
             Err(source) => Err(MapError::Unreadable { name, source }),
         }

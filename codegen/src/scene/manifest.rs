@@ -4,6 +4,7 @@ use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
 use crate::families::text::hint;
 use crate::files;
+use crate::input;
 use crate::math::convention::{Convention, ZONAL};
 use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
@@ -13,6 +14,7 @@ use crate::scene::picture::{self, BrdfTable, PictureTable};
 use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
 use serde::Deserialize;
 use serde_spanned::Spanned;
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -97,13 +99,16 @@ impl Scene {
     /// If it cannot be read or is no scene.
     pub fn read(path: &Path) -> Result<Self, Diagnostic> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| {
-            Diagnostic::nowhere(format!("{name}: cannot be read ({error})"), "check the path: a scene is a TOML file")
+        let bytes = input::read(path, MAX_BYTES).map_err(|error| match error.kind() {
+            io::ErrorKind::FileTooLarge => {
+                let message = format!("{name}: is larger than a scene may be, {MAX_BYTES} bytes");
+                Diagnostic::nowhere(message, "a scene is a TOML file of a few lines")
+            }
+            _ => Diagnostic::nowhere(
+                format!("{name}: cannot be read ({error})"),
+                "check the path: a scene is a TOML file",
+            ),
         })?;
-        if bytes.len() > MAX_BYTES {
-            let message = format!("{name}: is larger than a scene may be ({} of {MAX_BYTES} bytes)", bytes.len());
-            return Err(Diagnostic::nowhere(message, "a scene is a TOML file of a few lines"));
-        }
         let text = String::from_utf8(bytes).map_err(|error| {
             let message = format!("{name}: is no text (byte {} is not UTF-8)", error.utf8_error().valid_up_to());
             Diagnostic::nowhere(message, "a scene is a TOML file")
@@ -143,9 +148,11 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
     }
     if let Some(output) = manifest.output {
         let output = locate.at(output);
-        if !files::stays_inside(&output.value) {
+        let path = Path::new(&output.value);
+        if !files::stays_inside(&output.value) || !files::resolves_inside(Path::new("."), path) {
             let message = format!("`{}` leads out of the folder that zonal runs in", output.value);
-            let help = "write a relative path without `..`, or give another folder with `--out`";
+            let help = "write a relative path without `..` and without links to elsewhere, or leave it out and give \
+                        another folder with `--out`";
             return Err(Diagnostic::at(&output.place, message, help));
         }
         scene.output = output.value;

@@ -2,6 +2,7 @@
 
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
+use crate::input;
 use crate::math::convention::Convention;
 use crate::reflectance::brdf::Brdf;
 use crate::scene::budget::{Norm, Precision};
@@ -124,14 +125,14 @@ impl Scene {
         }
     }
 
-    /// The bytes of a file that the scene names, beside the scene or in memory.
+    /// Returns the bytes of a file that the scene names, beside the scene or in memory.
     ///
     /// # Errors
     ///
-    /// If it cannot be read.
-    pub fn bytes(&self, file: &Located<String>) -> Result<Cow<'static, [u8]>, Diagnostic> {
+    /// If it cannot be read, is no regular file, or is larger than `limit` bytes.
+    pub fn bytes(&self, file: &Located<String>, limit: usize) -> Result<Cow<'static, [u8]>, Diagnostic> {
         let read = match &self.maps {
-            Maps::Folder(folder) => std::fs::read(folder.join(&file.value)).map(Cow::Owned),
+            Maps::Folder(folder) => input::read(&folder.join(&file.value), limit).map(Cow::Owned),
             Maps::Embedded(files) => match files.iter().find(|(known, _)| *known == file.value) {
                 Some((_, bytes)) => Ok(Cow::Borrowed(*bytes)),
                 None => Err(std::io::ErrorKind::NotFound.into()),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use zonal_codegen::catalog::{BESIDE, files_of, standard};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::zhf;
-use zonal_codegen::files::{Difference, File, differences};
+use zonal_codegen::files::{Difference, File, Replace, differences};
 use zonal_codegen::generate::build;
 use zonal_codegen::promise::bound::{self, Bound};
 use zonal_tests::{catalogue, repository, spec};
@@ -43,8 +43,12 @@ fn stale_missing_and_orphaned_files_are_found() {
     let folder = std::env::temp_dir().join(format!("zonal-catalog-{}", std::process::id()));
     let file = |path: &str, text: &str| File { path: path.to_owned(), text: text.to_owned() };
     let wanted = [file("wgsl/a.wgsl", "a"), file("wgsl/b.wgsl", "b"), file("c.md", "c")];
-    assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 3);
-    assert_eq!(zonal_codegen::files::write(&folder, &wanted).expect("a temporary folder"), 0, "unchanged files stay");
+    assert_eq!(zonal_codegen::files::write(&folder, &wanted, Replace::Own).expect("a temporary folder"), 3);
+    assert_eq!(
+        zonal_codegen::files::write(&folder, &wanted, Replace::Own).expect("a temporary folder"),
+        0,
+        "unchanged files stay"
+    );
     assert_eq!(differences(&folder, &wanted, &[]).expect("readable"), []);
     std::fs::write(folder.join("wgsl/a.wgsl"), "changed").expect("writable");
     std::fs::remove_file(folder.join("c.md")).expect("removable");

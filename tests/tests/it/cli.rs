@@ -293,7 +293,7 @@ fn folders_that_cannot_be_written_are_refused() {
     let folder = Folder::new();
     folder.put("file", "a regular file");
     let message = fails(&folder, &["generate", "--out", "file/out"]);
-    assert!(message.contains("cannot create `file/out`") && message.contains("check that the folder"), "{message}");
+    assert!(message.contains("cannot create `file/out`: `file` is a file"), "{message}");
     // A folder stands where a file should be: nothing beside it is written.
     let taken = folder.path("out/glossy.rs");
     std::fs::create_dir_all(&taken).expect("a folder");
@@ -580,7 +580,7 @@ fn the_explorer_refuses_a_port_that_is_taken_and_a_folder_that_cannot_be() {
     assert!(message.contains("name another with `--port`"), "{message}");
     folder.put("file", "in the way");
     let message = fails(&folder, &["explore", "--no-serve", "--out", "file/page"]);
-    assert!(message.contains("cannot create `file/page`") && message.contains("may be written"), "{message}");
+    assert!(message.contains("cannot create `file/page`: `file` is a file"), "{message}");
     for arguments in [["--port", "99999"], ["--port", "http"]] {
         let Run { code, err, .. } = folder.run([&["explore"], &arguments[..]].concat());
         assert_eq!(code, Some(2), "{err}");
@@ -636,6 +636,8 @@ fn the_explorer_is_written_and_served() {
         ("GET //", "200"),
         ("POST /", "405"),
         ("HEAD /", "200"),
+        ("GET /favicon.ico", "204"),
+        ("GET / HTTP/1.1\r\nHost: example.org\r\nX:", "403"),
     ] {
         assert_eq!(answer(&address, request).0, status, "{request}");
     }

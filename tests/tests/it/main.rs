@@ -28,6 +28,7 @@ mod properties;
 mod readme;
 mod requirements;
 mod runtime;
+mod safety;
 mod scenes;
 mod search;
 mod shader_evaluator;
