@@ -205,6 +205,23 @@ pub fn project(
     ))
 }
 
+/// How many differences of a kind are told one by one.
+const SHOWN: usize = 10;
+
+/// The first differences of each kind, a line each, and how many others there are.
+fn shown(found: &[Difference]) -> String {
+    let lines: Vec<String> = found.iter().map(Difference::to_string).collect();
+    let of_kind = |kind: &str| {
+        let all: Vec<&str> = lines.iter().map(String::as_str).filter(|line| line.starts_with(kind)).collect();
+        let others = match all.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            others => format!("{kind} {others} others\n"),
+        };
+        all.iter().take(SHOWN).map(|line| format!("{line}\n")).collect::<String>() + &others
+    };
+    ["stale:", "orphaned:", "missing:"].map(of_kind).concat()
+}
+
 /// Refuses to treat a folder of something else as a catalogue, from which what nothing generates is removed.
 fn refuse(folder: &Path, what: &str) -> Result<(), Failure> {
     let message = format!("`{}` is no catalogue: {what}", folder.display());
@@ -225,7 +242,7 @@ pub fn catalog(folder: &Path, check: bool, replace: Replace) -> Result<(), Failu
         if found.is_empty() {
             return out(&format!("{} files are as they should be\n", all.len()));
         }
-        out(&found.iter().map(|difference| format!("{difference}\n")).collect::<String>())?;
+        out(&shown(&found))?;
         let message =
             format!("{} of the files in `{}` differ from what zonal generates", found.len(), folder.display());
         let help = format!("run `zonal catalog --dir {}`", folder.display());

@@ -98,6 +98,8 @@ enum Command {
         json: bool,
     },
     /// Prints test vectors as JSON: inputs, and what a kernel gives in f32 and f64.
+    ///
+    /// A result that is not finite is one of the strings "NaN", "Infinity" and "-Infinity".
     Vectors {
         /// The kernel, as in `rotate:5:rgb`.
         spec: String,

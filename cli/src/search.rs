@@ -142,12 +142,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         })?;
     }
     // What cannot be added to or replaced is better known before the search than after it.
+    let mut all = arguments.out.as_deref().map(known).transpose()?;
     let replace = Replace::forced(arguments.force);
     for path in [&arguments.resume, &arguments.out].into_iter().flatten() {
         let (folder, name) = files::split(path);
         files::check(folder, &[(&name, HEAD.as_bytes())], replace)?;
     }
-    let mut all = arguments.out.as_deref().map(known).transpose()?;
 
     let tries = arguments.tries as usize;
     let made: usize = searches.iter().map(|search| search.tries.min(tries)).sum();

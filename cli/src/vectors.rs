@@ -39,10 +39,20 @@ fn lengths(shape: Shape, kind: Kind, rgb: bool) -> Vec<usize> {
     lengths
 }
 
-/// Flat numbers as nested lists. What is not finite is null, since JSON has no name for it.
+/// A number; what is not finite is a string, since JSON has no number for it.
+fn number(number: f64) -> Value {
+    match number {
+        _ if number.is_nan() => json!("NaN"),
+        f64::INFINITY => json!("Infinity"),
+        f64::NEG_INFINITY => json!("-Infinity"),
+        _ => json!(number),
+    }
+}
+
+/// Flat numbers as nested lists.
 fn nest(numbers: &[f64], lengths: &[usize]) -> Value {
     match lengths {
-        [] => numbers.first().map_or(Value::Null, |&number| json!(number)),
+        [] => numbers.first().map_or(Value::Null, |&first| number(first)),
         [_, inner @ ..] => {
             let size = inner.iter().product::<usize>().max(1);
             numbers.chunks(size).map(|part| nest(part, inner)).collect()

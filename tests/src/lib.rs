@@ -2,6 +2,7 @@
 //! without a GPU.
 
 pub mod command;
+pub mod fuzz;
 pub mod house;
 pub mod shader;
 pub mod toys;

@@ -182,10 +182,12 @@ fn suggest<'a>(got: &str, known: &[&'a str]) -> Option<&'a str> {
     };
     let best = known.iter().min_by_key(|name| distance(got, name))?;
     let longer = known.iter().find(|name| got.len() >= 3 && name.contains(got));
+    let shorter = known.iter().filter(|name| name.len() >= 3 && got.starts_with(**name)).max_by_key(|name| name.len());
     match distance(got, best) {
         0 | 1 => Some(*best),
-        2 | 3 => Some(*longer.unwrap_or(best)),
-        _ => longer.copied(),
+        // A word of which more than half is wrong was not mistyped.
+        near @ (2 | 3) if near <= got.chars().count().div_ceil(2) => Some(*longer.unwrap_or(best)),
+        _ => longer.or(shorter).copied(),
     }
 }
 
@@ -195,6 +197,25 @@ pub(crate) fn hint(got: &str, known: &[&str]) -> String {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("known are {}", known.join(", ")),
     }
+}
+
+/// The options that some family of a name takes.
+fn option_names(name: &str) -> Vec<&'static str> {
+    let any = |takes: fn(&Family) -> bool| ALL.iter().any(|family| family.name == name && takes(family));
+    let mut options = Vec::new();
+    if any(|family| family.has_signal()) {
+        options.push("rgb");
+    }
+    if any(|family| family.looped.is_some()) {
+        options.push("loop");
+    }
+    if any(|family| family.half) {
+        options.push("f16");
+    }
+    if any(|family| family.some_bands) {
+        options.push("bands=0+1+2");
+    }
+    options
 }
 
 /// A piece of a spec's text and where it stands.
@@ -336,7 +357,7 @@ impl FromStr for Spec {
                 }
                 name if is_open => {
                     if !known.contains(&first_of(option)) {
-                        let all = [known, vec!["rgb", "loop", "f16"]].concat();
+                        let all = [known, option_names(head.text)].concat();
                         let message = format!("`{name}` is no method of `{}`", head.text);
                         return Err(option.error(message, hint(name, &all)));
                     }
@@ -350,8 +371,10 @@ impl FromStr for Spec {
                     }
                 }
                 name => {
-                    let known = ["rgb", "loop", "f16", "bands=0+1+2"];
-                    return Err(option.error(format!("`{name}` is no option of `{}`", head.text), hint(name, &known)));
+                    let known = option_names(spec.family.name);
+                    let help =
+                        if known.is_empty() { "leave it out: there is none".to_owned() } else { hint(name, &known) };
+                    return Err(option.error(format!("`{name}` is no option of `{}`", head.text), help));
                 }
             }
         }

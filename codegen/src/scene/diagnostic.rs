@@ -97,9 +97,24 @@ impl Diagnostic {
     }
 }
 
+/// The most characters of a message: what was found may be quoted in it, and may be of any length.
+const MAX_MESSAGE: usize = 500;
+
+/// The beginning and the end of a text that is too long to be read.
+fn shortened(text: String) -> String {
+    let count = text.chars().count();
+    if count <= MAX_MESSAGE {
+        return text;
+    }
+    let part = MAX_MESSAGE / 2;
+    let begin: String = text.chars().take(part).collect();
+    let end: String = text.chars().skip(count - part).collect();
+    format!("{begin} ... {end}")
+}
+
 impl From<Fault> for Diagnostic {
     fn from(Fault { message, help }: Fault) -> Self {
-        Self { message, help, place: None }
+        Self { message: shortened(message), help, place: None }
     }
 }
 
@@ -141,5 +156,13 @@ mod tests {
         assert_eq!(place.within("a\tb", 0..1), place);
         let error = Diagnostic::at(&inner, "`b` is no letter", "write `a`");
         assert_eq!(format!("{error:?}"), "a.toml:2:7: `b` is no letter; write `a`");
+    }
+
+    #[test]
+    fn messages_stay_readable() {
+        let long = Diagnostic::nowhere(format!("`{}` is no name", "β".repeat(100_000)), "").to_string();
+        assert!(long.chars().count() == MAX_MESSAGE + 5 && long.ends_with("ββ` is no name"), "{long}");
+        let short = "β".repeat(MAX_MESSAGE);
+        assert_eq!(Diagnostic::nowhere(short.clone(), "").to_string(), short);
     }
 }

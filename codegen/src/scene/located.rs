@@ -93,7 +93,10 @@ impl Locator {
             false => Err(Diagnostic::at(
                 &located.place,
                 format!("{what} {} is out of range", located.value),
-                format!("write a number above {least} and up to {most}"),
+                match most == f64::MAX {
+                    true => format!("write a number above {least}"),
+                    false => format!("write a number above {least} and up to {most}"),
+                },
             )),
         }
     }

@@ -1,7 +1,7 @@
 //! The manifest of a scene as TOML holds it: its tables, and how they become a scene whose values know their places.
 
 use crate::emit::language::{self, Arrays, Target};
-use crate::families::family::Job;
+use crate::families::family::{Job, MAX_ORDER, MIN_ORDER};
 use crate::families::text::hint;
 use crate::files;
 use crate::input;
@@ -10,9 +10,10 @@ use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use crate::scene::frame;
 use crate::scene::located::{Located, Locator, Order};
-use crate::scene::picture::{self, BrdfTable, PictureTable};
+use crate::scene::picture::{self, BrdfTable, Kind, PictureTable};
 use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
 use serde::Deserialize;
+use serde::de::{DeserializeOwned, IntoDeserializer};
 use serde_spanned::Spanned;
 use std::io;
 use std::path::Path;
@@ -70,6 +71,35 @@ struct RotationTable {
     name: Option<Spanned<String>>,
 }
 
+/// The words that a type knows, as serde lists them.
+fn words<T: DeserializeOwned>() -> Option<String> {
+    let error =
+        T::deserialize("".into_deserializer()).map_err(|error: serde::de::value::Error| error.to_string()).err()?;
+    error.split_once("expected ").map(|(_, known)| known.trim_start_matches("one of ").to_owned())
+}
+
+/// What the value of a field may be that must be there; `table` is the text from its table on.
+fn values(field: &str, table: &str) -> Option<String> {
+    match field {
+        "signal" => words::<Light>(),
+        "kind" if table.starts_with("[brdf]") => words::<Kind>(),
+        "kind" => words::<Job>(),
+        "name" => Some("the stem of the files, as in `name = \"probe\"`".to_owned()),
+        "map" => Some("the file of an environment map, .hdr or .exr".to_owned()),
+        "budget" => Some(BUDGET.to_owned()),
+        // Names a family: it is an example of a spec.
+        "spec" => Some("what to print, as in `spec = \"rotate:5:rgb\"`".to_owned()),
+        "order" => Some(format!("a number from {MIN_ORDER} to {MAX_ORDER}, or \"environment\"")),
+        "max_angle" => Some("a number of degrees, above 0 and up to 180".to_owned()),
+        "max_error" => Some("a number above 0, as in 0.01".to_owned()),
+        "mesh" => Some("\"sphere\", \"plane\" or the file of a mesh, .obj".to_owned()),
+        _ => None,
+    }
+}
+
+/// What a budget may be.
+const BUDGET: &str = "a share of the whole, from 0 to below 1, as in 0.05";
+
 /// What a fault of the TOML itself says, with a suggestion for a word that was mistyped.
 fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic {
     let message = error.message().trim().replace('\n', "; ");
@@ -82,7 +112,13 @@ fn toml_diagnostic(error: &toml::de::Error, source: &Arc<Source>) -> Diagnostic 
         }
         _ => match message.split_once("; ") {
             Some((message, help)) => Diagnostic::at(&place, message, help),
-            None if message.starts_with("missing field") => Diagnostic::at(&place, message, "add it"),
+            None if message.starts_with("missing field") => {
+                let help = match words.first().and_then(|field| values(field, place.text())) {
+                    Some(values) => format!("add it: {values}"),
+                    None => "add it".to_owned(),
+                };
+                Diagnostic::at(&place, message, help)
+            }
             None => Diagnostic::at(&place, message, ""),
         },
     }
@@ -256,11 +292,7 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
     let budget = locate.at(table.budget);
     if !(0.0..1.0).contains(&budget.value) {
         let message = format!("a budget of {} is out of range", budget.value);
-        return Err(Diagnostic::at(
-            &budget.place,
-            message,
-            "write a share of the whole, from 0 to below 1, as in 0.05",
-        ));
+        return Err(Diagnostic::at(&budget.place, message, format!("write {BUDGET}")));
     }
     frame::check(&convention.value, table.signal, max_order)
         .map_err(|fault| Diagnostic::of(&convention.place, fault))?;

@@ -124,7 +124,7 @@ impl FromStr for Method {
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Kind {
+pub(super) enum Kind {
     Lambert,
     Phong,
     Ward,

@@ -112,16 +112,15 @@ fn plots_pages_and_sets_spare_what_is_there() {
     spares(&folder, &["plan", "a.toml", "--plot", "a.svg"], "./a.svg");
     works(&folder, &["plan", "a.toml", "--plot", "a.svg", "--force"]);
     works(&folder, &["plan", "a.toml", "--plot", "a.svg"]);
-    folder.put("sets.toml", "# my own sets\n");
-    let search = ["search-lobes", "--mode", "band", "--size", "3", "--tries", "1"];
-    for option in ["--out", "--resume"] {
-        if option == "--resume" {
-            folder.put("sets.toml", "search = []\n");
-        }
-        let message = fails(&folder, &[&search[..], &[option, "sets.toml"]].concat());
-        assert!(message.contains("sets.toml"), "{message}");
-    }
-    spares(&folder, &[&search[..], &["--out", "a.toml"]].concat(), "./a.toml");
+    folder.put("sets.toml", "# My own sets.\nset = []\n");
+    let search = |option: &'static str, path: &'static str| {
+        ["search-lobes", "--mode", "band", "--size", "3", "--tries", "1", option, path]
+    };
+    spares(&folder, &search("--out", "sets.toml"), "./sets.toml");
+    works(&folder, &search("--resume", "state.toml"));
+    let state = fs::read_to_string(folder.path("state.toml")).expect("written");
+    folder.put("state.toml", state.replace(MARK, "changed by hand"));
+    spares(&folder, &search("--resume", "state.toml"), "./state.toml");
     fs::create_dir(folder.path("d")).expect("a folder");
     folder.put("d/index.html", "my page");
     spares(&folder, &["explore", "--no-serve", "--out", "d"], "d/index.html");
@@ -241,4 +240,117 @@ fn the_standard_input_is_read_and_bounded() {
     assert!(output.status.success() && echo.wait().expect("ends").success(), "{output:?}");
     let zeros = plan(fs::File::open("/dev/zero").expect("a device").into());
     assert!(String::from_utf8_lossy(&zeros.stderr).contains("larger than a scene may be"), "{zeros:?}");
+}
+
+#[test]
+fn a_full_disk_is_called_so() {
+    let error = |kind: std::io::ErrorKind| FileError::Io { what: "write", path: "a".into(), source: kind.into() };
+    let full = error(std::io::ErrorKind::StorageFull).to_string();
+    assert_eq!(full, "cannot write `a`: the disk is full; make room, then run it again");
+    assert!(error(std::io::ErrorKind::PermissionDenied).to_string().contains("check that the folder exists"));
+    let folder = Folder::new();
+    folder.put("file", "in the way");
+    let message = fails(&folder, &["generate", "--out", "file"]);
+    assert!(
+        message.contains("cannot create `file`: `file` is a file") && message.contains("name a folder"),
+        "{message}"
+    );
+}
+
+/// What `plan` says of a scene.
+fn said(scene: &str) -> String {
+    let folder = Folder::new();
+    folder.put("s.toml", scene);
+    fails(&folder, &["plan", "s.toml"])
+}
+
+#[test]
+fn messages_say_what_there_is() {
+    let environment = "name = \"a\"\n[environment]\nmap = \"a.hdr\"\n";
+    let zero = said(&ROTATION.replace("0.01", "0"));
+    assert!(zero.contains("help: write a number above 0\n") && zero.len() < 400, "{zero}");
+    for (scene, part) in [
+        (environment.to_owned(), "add it: `radiance` or `irradiance`"),
+        (format!("{environment}signal = \"radiance\"\n"), "add it: a share of the whole, from 0 to below 1"),
+        ("name = \"a\"\n[brdf]\nexponent = 2\n".to_owned(), "add it: `lambert`, `phong`, `ward`"),
+        ("name = \"a\"\n[[rotation]]\norder = 2\n".to_owned(), "add it: `tilt`, `y`, "),
+        (ROTATION.replace("order = 3\n", ""), "add it: a number from 2 to 16, or \"environment\""),
+        (ROTATION.replace("max_error = 0.01\n", ""), "add it: a number above 0"),
+        (ROTATION.replace("name = \"a\"\n", ""), "add it: the stem of the files"),
+    ] {
+        let message = said(&scene);
+        assert!(message.contains(part), "`{part}` is not in\n{message}");
+    }
+    let folder = Folder::new();
+    for (spec, part) in [
+        ("evaluate:3", "did you mean `eval`?"),
+        ("evl:3", "did you mean `eval`?"),
+        ("eval:3:nope", "known are rgb, f16, bands=0+1+2"),
+        ("rotate:5:nope", "known are zyz, "),
+        ("rotate:5:lopo", "did you mean `loop`?"),
+    ] {
+        let message = fails(&folder, &["show", spec]);
+        assert!(message.contains(part), "`{part}` is not in\n{message}");
+    }
+}
+
+#[test]
+fn a_long_line_is_cut_around_the_fault() {
+    for quote in ["", "\""] {
+        let brackets = said(&format!("name = {quote}{}\n", "[".repeat(100_000)));
+        assert!(brackets.len() < 1000, "{} bytes", brackets.len());
+    }
+    let long = "é".repeat(50_000);
+    let message =
+        said(&format!("# {long}\nname = \"a\" # {long}\nkernel = [{{ spec = \"eval:3\", nome = \"{long}\" }}]\n"));
+    for part in
+        ["s.toml:3:30\n", "3 | kernel = [{ spec = \"eval:3\", nome = \"", "é...\n", "^^^^", "unknown field `nome`"]
+    {
+        assert!(message.contains(part), "`{part}` is not in\n{message}");
+    }
+    assert!(message.len() < 1000, "{message}");
+    // The column is that of the line as it was written.
+    let message = said(&format!("name = \"a\"\nkernel = [{{ name = \"{long}\", nome = 1, spec = \"eval:3\" }}]\n"));
+    assert!(message.contains(&format!("s.toml:2:{}\n", 20 + 50_000 + 4)), "{message}");
+    assert!(message.contains("| ...é") && message.contains("nome = 1, spec") && message.len() < 1000, "{message}");
+    let name = said(&format!("name = \"{long}\"\n[[kernel]]\nspec = \"eval:3\"\n"));
+    assert!(name.contains("is no identifier") && name.len() < 2000, "{name}");
+}
+
+#[test]
+fn vectors_tell_nan_from_infinities() {
+    let folder = Folder::new();
+    let f32_of = |spec: &str, inputs: &str| {
+        folder.put("in.json", format!("[{inputs}]"));
+        let text = works(&folder, &["vectors", spec, "--inputs", "in.json"]);
+        let vectors: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        vectors["cases"][0]["f32"].to_string()
+    };
+    assert_eq!(f32_of("tilt:2", r#"{"n": [0, 0, -1], "c": [1, 2, 3, 4]}"#), r#"[1.0,"NaN",-3.0,"NaN"]"#);
+    for (sign, infinity) in [("", "\"Infinity\""), ("-", "\"-Infinity\"")] {
+        assert_eq!(f32_of("eval:2", &format!(r#"{{"dir": [0, 0, 1e20], "c": [0, 0, {sign}3e38, 0]}}"#)), infinity);
+    }
+    let Run { out, .. } = folder.run(["vectors", "--help"]);
+    assert!(out.contains("\"NaN\", \"Infinity\""), "{out}");
+}
+
+#[test]
+fn a_name_is_refused_where_its_language_is_asked_for() {
+    let folder = Folder::new();
+    let scene = |targets: &str| {
+        let kernel = "[[kernel]]\nspec = \"eval:3\"\nname = \"light0\"\n";
+        folder.put("s.toml", format!("name = \"a\"\ntargets = [{targets}]\n{kernel}"));
+    };
+    scene("\"rust\", \"wgsl\"");
+    assert!(fails(&folder, &["generate", "s.toml"]).contains("naga renames such a function in WGSL"));
+    scene("\"rust\"");
+    works(&folder, &["generate", "s.toml", "--out", "out"]);
+    assert!(fs::read_to_string(folder.path("out/a.rs")).expect("written").contains("fn light0"));
+}
+
+#[test]
+fn no_input_makes_a_reader_panic() {
+    for outcome in zonal_tests::fuzz::run(3000, 1) {
+        assert!(outcome.panics.is_empty(), "{}: {:?}", outcome.kind, outcome.panics);
+    }
 }

@@ -89,6 +89,7 @@ const C: Language = Language {
     generic: None,
     template: TEMPLATE,
     reserved: &[KEYWORDS, LIBRARY],
+    renames_digits: false,
     refuses: |name| {
         let rest = ["str", "mem", "is", "to"].iter().find_map(|start| name.strip_prefix(start));
         rest.filter(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()))

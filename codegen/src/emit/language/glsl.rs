@@ -56,6 +56,7 @@ pub static GLSL: Language = Language {
     template: zonal_templates::GLSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses,
+    renames_digits: true,
     check,
 };
 

@@ -67,6 +67,8 @@ pub struct Language {
     pub reserved: &'static [Words],
     /// Why a name is refused and what to do, for what no list of words can say.
     pub refuses: fn(&str) -> Option<(&'static str, &'static str)>,
+    /// Whether what reads it renames a function whose name ends in a digit, as naga does.
+    pub renames_digits: bool,
     /// Parses and checks a file: what is wrong with it, with its place. Nothing is without the feature `check`.
     pub check: fn(&str) -> Result<(), String>,
 }

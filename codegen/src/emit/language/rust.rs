@@ -66,6 +66,7 @@ pub static RUST: Language = Language {
     template: zonal_templates::RUST,
     reserved: &[RESERVED],
     refuses: |_| None,
+    renames_digits: false,
     check,
 };
 

@@ -48,6 +48,7 @@ pub static WGSL: Language = Language {
     template: zonal_templates::WGSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses: |_| None,
+    renames_digits: true,
     check,
 };
 

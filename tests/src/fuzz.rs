@@ -1,0 +1,152 @@
+//! Inputs that nobody would write: those that zonal ships, changed at random places from a seed. Whatever a reader is given,
+//! it returns a value or an error.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+use zonal_codegen::catalog;
+use zonal_codegen::environment::Map;
+use zonal_codegen::families::Spec;
+use zonal_codegen::promise::samples::Random;
+use zonal_codegen::scene::{Maps, Scene};
+use zonal_picture::mesh::Mesh;
+use zonal_picture::normal_map::NormalMap;
+
+/// The scenes beside their package.
+const SCENES: [&str; 3] = [
+    include_str!("../../scenes/glossy.toml"),
+    include_str!("../../scenes/diffuse.toml"),
+    include_str!("../../scenes/teapot.toml"),
+];
+/// A mesh with a face of each kind.
+const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
+                    f 1 2 3\nf 1/1 2/2 3/3\nf 1//1 2//1 3//1 4//1\nf -1/-1/-1 -2/-2/-1 -3/-3/-1\n";
+/// What numbers are replaced by, and what is put in anywhere.
+const EXTREMES: [&[u8]; 16] = [
+    b"0",
+    b"-1",
+    b"1e308",
+    b"-1e-320",
+    b"nan",
+    b"inf",
+    b"18446744073709551616",
+    b"4294967295",
+    b"2147483648",
+    b"\"",
+    b"[[",
+    b"\0",
+    b"\xff",
+    b"\n",
+    b"environment",
+    b"..",
+];
+
+/// Reads an input; what it returns does not matter.
+type Reader = fn(&[u8]);
+
+/// What is changed, and what reads it.
+struct Kind {
+    name: &'static str,
+    seeds: Vec<Vec<u8>>,
+    read: Reader,
+}
+
+fn kinds() -> Vec<Kind> {
+    let texts = |texts: &[&str]| texts.iter().map(|text| text.as_bytes().to_vec()).collect();
+    let specs: Vec<String> = catalog::standard().iter().map(Spec::to_string).collect();
+    let hdr = [&b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 8 +X 16\n"[..], &[128, 64, 32, 129].repeat(128)]
+        .concat();
+    let exr = include_bytes!("../data/adversarial_sky_negative.exr");
+    let normals =
+        zonal_scenes::below("normals").next().and_then(zonal_scenes::embedded).expect("there is a normal map");
+    vec![
+        Kind {
+            name: "scene",
+            seeds: texts(&SCENES),
+            read: |bytes| drop(Scene::parse("fuzz", &String::from_utf8_lossy(bytes), Maps::Embedded(&[]))),
+        },
+        Kind {
+            name: "spec",
+            seeds: specs.into_iter().map(String::into_bytes).collect(),
+            read: |bytes| drop(String::from_utf8_lossy(bytes).parse::<Spec>()),
+        },
+        Kind { name: "hdr", seeds: vec![hdr], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
+        Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
+        Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| drop(Mesh::from_obj("fuzz", bytes)) },
+        Kind {
+            name: "normals",
+            seeds: vec![normals.to_vec()],
+            read: |bytes| drop(NormalMap::from_bytes("fuzz", bytes)),
+        },
+    ]
+}
+
+/// A number below `end`, which is above 0.
+fn below(random: &mut Random, end: usize) -> usize {
+    (random.bits() % end as u64) as usize
+}
+
+/// Changes a text at one to eight places.
+fn changed(seed: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = seed.to_vec();
+    for _ in 0..=below(random, 8) {
+        let at = below(random, bytes.len() + 1);
+        // Most formats decide by their first bytes.
+        let at = if random.bits().is_multiple_of(2) { at.min(below(random, 400)) } else { at };
+        let to = (at + below(random, 16)).min(bytes.len());
+        let extreme = EXTREMES[below(random, EXTREMES.len())];
+        match below(random, 6) {
+            0 if at < bytes.len() => bytes[at] = random.bits() as u8,
+            1 => drop(bytes.drain(at..to)),
+            2 => drop(bytes.splice(at..at, bytes[at..to].repeat(1 + below(random, 20)))),
+            3 => drop(bytes.splice(at..at, extreme.iter().copied())),
+            4 => {
+                let is_digit = |byte: &u8| byte.is_ascii_digit();
+                let start = bytes[at..].iter().position(is_digit).map_or(at, |found| at + found);
+                let length = bytes[start..].iter().take_while(|byte| is_digit(byte)).count();
+                drop(bytes.splice(start..start + length, extreme.iter().copied()));
+            }
+            _ if below(random, 10) == 0 => bytes.truncate(at),
+            _ => {}
+        }
+    }
+    bytes
+}
+
+/// What became of many inputs of one kind.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The kind.
+    pub kind: &'static str,
+    /// How many inputs were read.
+    pub count: usize,
+    /// The inputs on which the reader panicked, as text.
+    pub panics: Vec<String>,
+    /// How long the slowest input took.
+    pub longest: Duration,
+    /// That input.
+    pub slowest: Vec<u8>,
+}
+
+/// Reads `count` changed inputs, shared between the kinds, from a seed.
+pub fn run(count: usize, seed: u64) -> Vec<Outcome> {
+    let kinds = kinds();
+    let share = count.div_ceil(kinds.len());
+    let outcome = |(number, kind): (u64, Kind)| {
+        let mut random = Random::new(seed ^ (number << 32));
+        let mut outcome =
+            Outcome { kind: kind.name, count: share, panics: vec![], longest: Duration::ZERO, slowest: vec![] };
+        for _ in 0..share {
+            let input = changed(&kind.seeds[below(&mut random, kind.seeds.len())], &mut random);
+            let start = Instant::now();
+            if catch_unwind(AssertUnwindSafe(|| (kind.read)(&input))).is_err() {
+                outcome.panics.push(String::from_utf8_lossy(&input).into_owned());
+            }
+            let time = start.elapsed();
+            if time > outcome.longest {
+                (outcome.longest, outcome.slowest) = (time, input);
+            }
+        }
+        outcome
+    };
+    (0..).zip(kinds).map(outcome).collect()
+}
