@@ -55,7 +55,8 @@ whole() {
     part "lints" cargo clippy --quiet --workspace --all-targets -- -D warnings
     part "runtime without std" cargo check --quiet -p zonal --no-default-features --features libm
     part "generator without its checkers" cargo check --quiet -p zonal-codegen --no-default-features
-    part "tests" cargo test --workspace --no-fail-fast
+    # Twice as many tests at once as there are processors: some wait for a compiler or a browser.
+    part "tests" env RUST_TEST_THREADS="${RUST_TEST_THREADS:-$((2 * $(nproc)))}" cargo test --workspace --no-fail-fast
     part "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
 }
 

@@ -24,7 +24,7 @@ impl Map {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is no regular file or larger than [`MAX_BYTES`](super::MAX_BYTES), or for any reason of
+    /// If the file cannot be read, is no regular file or larger than [`MAX_BYTES`], or for any reason of
     /// [`Map::from_bytes`].
     pub fn read(path: &Path) -> Result<Self, MapError> {
         let name = path.display().to_string();

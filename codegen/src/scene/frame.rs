@@ -42,7 +42,7 @@ pub fn axes(text: &str) -> Result<Axes, Fault> {
 ///
 /// # Errors
 ///
-/// As [`convention`] and [`axes`].
+/// As [`convention()`] and [`axes()`].
 pub fn wanted(name: Option<&str>, text: Option<&str>) -> Result<Convention, Fault> {
     let mut wanted = name.map_or(Ok(convention::ZONAL), convention)?;
     if let Some(text) = text {
