@@ -140,8 +140,8 @@ fn texts(function: &Function, target: Target, mode: Mode) -> Vec<(String, Dialec
 /// The most threads and browsers at once.
 const MAX_THREADS: usize = 4;
 
-/// Runs on a device of each driver more than there are processors, since a thread waits for its browser at times, and hands lines to `print`: what each driver calls
-/// itself, and every row.
+/// Runs on one device of each driver more than there are processors, since a thread waits for its browser at times, and
+/// hands lines to `print`: what each driver calls itself, and every row.
 ///
 /// # Errors
 ///
