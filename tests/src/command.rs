@@ -15,7 +15,15 @@ use crate::repository;
 /// If it does not compile.
 pub fn zonal() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
-    PATH.get_or_init(|| built(["--bin", "zonal"]))
+    PATH.get_or_init(|| built("zonal", &["--bin", "zonal", "--bin", "zonal-explorer", "--bin", "zonal-render"]))
+}
+
+/// The command, ready to run. It finds the programs that draw beside itself: under cargo it would have cargo compile them
+/// with features of their own, and the generator once more for each.
+pub fn command() -> Command {
+    let mut command = Command::new(zonal());
+    command.env_remove("CARGO");
+    command
 }
 
 /// The path of an example of a package.
@@ -24,15 +32,15 @@ pub fn zonal() -> &'static Path {
 ///
 /// If it does not compile.
 pub fn example(name: &str) -> PathBuf {
-    built(["--example", name])
+    built(name, &["--example", name])
 }
 
-/// Builds one program and returns its path. It is built with the features that the whole workspace has: with those of its
-/// own package, what the tests have compiled would be compiled again.
-fn built(program: [&str; 2]) -> PathBuf {
+/// Builds programs and returns the path of the one of this name. They are built with the features that the whole workspace
+/// has: with those of a package alone, what the tests have compiled would be compiled again.
+fn built(name: &str, programs: &[&str]) -> PathBuf {
     let build = Command::new(env!("CARGO"))
         .args(["build", "--quiet", "--message-format", "json", "--workspace"])
-        .args(program)
+        .args(programs)
         .current_dir(repository(""))
         .output()
         .expect("cargo runs");
@@ -41,6 +49,7 @@ fn built(program: [&str; 2]) -> PathBuf {
     let executable = messages
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|message| message["target"]["name"] == name)
         .find_map(|message| message["executable"].as_str().map(PathBuf::from));
     executable.expect("cargo names the executable")
 }
@@ -110,8 +119,7 @@ impl Folder {
     ///
     /// If the command cannot be run.
     pub fn run<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Run {
-        let Output { status, stdout, stderr } =
-            Command::new(zonal()).args(arguments).current_dir(&self.0).output().expect("runs");
+        let Output { status, stdout, stderr } = command().args(arguments).current_dir(&self.0).output().expect("runs");
         Run {
             code: status.code(),
             out: String::from_utf8(stdout).expect("prints text"),

@@ -140,8 +140,8 @@ fn texts(function: &Function, target: Target, mode: Mode) -> Vec<(String, Dialec
 /// The most threads and browsers at once.
 const MAX_THREADS: usize = 4;
 
-/// Runs on one device of each driver more than there are processors, since a thread waits for its browser at times, and
-/// hands lines to `print`: what each driver calls itself, and every row.
+/// Runs on as many devices of each driver as there are processors, and hands lines to `print`: what each driver calls
+/// itself, and every row.
 ///
 /// # Errors
 ///
@@ -176,7 +176,7 @@ pub fn run(mode: Mode, print: impl Fn(&dyn fmt::Display) + Sync) -> Result<(), S
         }
         Ok(())
     };
-    let count = std::thread::available_parallelism().map_or(2, |count| count.get() + 1).min(MAX_THREADS);
+    let count = std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..count).map(|_| scope.spawn(work)).collect();
         threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|_| Err("a kernel failed".to_owned())))

@@ -8,7 +8,7 @@ use std::io::Read;
 use std::process::{Command, Stdio};
 use zonal_codegen::emit::language;
 use zonal_codegen::emit::validate::validate;
-use zonal_tests::command::{Folder, Run, zonal};
+use zonal_tests::command::{Folder, Run, command, zonal};
 use zonal_tests::{numbers, repository};
 
 /// Runs what must fail; the folder must hold nothing but what was there.
@@ -513,7 +513,7 @@ fn project_tells_the_energy_of_each_band() {
 
 #[test]
 fn a_closed_pipe_ends_in_silence() {
-    let mut child = Command::new(zonal())
+    let mut child = command()
         .args(["vectors", "rotate:5", "--count", "2000"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -608,7 +608,7 @@ fn answer(address: &str, request: &str) -> (String, String, Vec<u8>) {
 fn the_explorer_is_written_and_served() {
     use std::io::{BufRead, BufReader};
     let folder = Folder::new();
-    let mut child = Command::new(zonal())
+    let mut child = command()
         .args(["explore", "--out"])
         .arg(folder.path("page"))
         .stdout(Stdio::piped())

@@ -1,10 +1,9 @@
 //! The README's figures come from the kernels and its quoted output from the command: this test compares them, and
 //! writes them with `UPDATE=1 cargo test -p zonal-tests readme`.
 
-use std::process::Command;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
-use zonal_tests::command::zonal;
+use zonal_tests::command::command;
 use zonal_tests::{repository, spec};
 
 /// The README's table of costs.
@@ -37,7 +36,7 @@ fn costs() -> String {
 fn generated() -> String {
     let folder = std::env::temp_dir().join(format!("zonal-readme-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a temporary folder");
-    let output = Command::new(zonal()).arg("generate").current_dir(&folder).output().expect("the command starts");
+    let output = command().arg("generate").current_dir(&folder).output().expect("the command starts");
     std::fs::remove_dir_all(&folder).expect("removable");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");

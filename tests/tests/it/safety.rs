@@ -223,9 +223,9 @@ fn files_are_read_up_to_a_limit() {
 #[test]
 fn the_standard_input_is_read_and_bounded() {
     use std::process::{Command, Stdio};
-    use zonal_tests::command::zonal;
+    use zonal_tests::command::command;
     let plan = |input: Stdio| {
-        let mut command = Command::new(zonal());
+        let mut command = command();
         command.args(["plan", "/dev/stdin"]).stdin(input).output().expect("runs")
     };
     let scene = fs::File::open(repository("scenes/glossy.toml")).expect("a scene");

@@ -13,7 +13,7 @@ use zonal_gpu_tests::cases::{Cases, tolerance};
 use zonal_gpu_tests::system::{compile, missing};
 use zonal_picture::method::{Judged, Method};
 use zonal_picture::shade::Shading;
-use zonal_tests::command::{Folder, zonal};
+use zonal_tests::command::{Folder, command};
 use zonal_tests::repository;
 
 /// The first inputs hold the extremes, and after eight blocks of 64 every kind of signal was there.
@@ -40,7 +40,7 @@ fn list(value: &Value) -> &[Value] {
 fn the_explorer_shows_what_the_kernels_do() {
     let _turn = crate::turn();
     let (page, work) = (Folder::new(), Folder::new());
-    let written = Command::new(zonal()).args(["explore", "--no-serve", "--out"]).arg(page.path("")).output();
+    let written = command().args(["explore", "--no-serve", "--out"]).arg(page.path("")).output();
     let written = written.expect("the command starts");
     assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
 
