@@ -38,20 +38,41 @@ pub fn example(name: &str) -> PathBuf {
 /// Builds programs and returns the path of the one of this name. They are built with the features that the whole workspace
 /// has: with those of a package alone, what the tests have compiled would be compiled again.
 fn built(name: &str, programs: &[&str]) -> PathBuf {
-    let build = Command::new(env!("CARGO"))
-        .args(["build", "--quiet", "--message-format", "json", "--workspace"])
-        .args(programs)
-        .current_dir(repository(""))
-        .output()
-        .expect("cargo runs");
-    assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
-    let messages = String::from_utf8_lossy(&build.stdout).into_owned();
+    let messages = printed(
+        Command::new(env!("CARGO"))
+            .args(["build", "--quiet", "--message-format", "json", "--workspace"])
+            .args(programs)
+            .current_dir(repository("")),
+    );
     let executable = messages
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
         .filter(|message| message["target"]["name"] == name)
         .find_map(|message| message["executable"].as_str().map(PathBuf::from));
     executable.expect("cargo names the executable")
+}
+
+/// Runs a program to its end and returns what it printed.
+///
+/// # Panics
+///
+/// If it cannot be run or fails: with all that it printed.
+pub fn printed(command: &mut Command) -> String {
+    let run = command.output().unwrap_or_else(|error| panic!("{command:?} cannot be run: {error}"));
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(run.status.success(), "{command:?} failed:\n{}{}", text(&run.stdout), text(&run.stderr));
+    text(&run.stdout)
+}
+
+/// What cargo knows of the packages of the workspace.
+///
+/// # Panics
+///
+/// If cargo does not list them.
+pub fn metadata() -> serde_json::Value {
+    let arguments = ["metadata", "--no-deps", "--format-version", "1", "--offline"];
+    let listed = printed(Command::new(env!("CARGO")).args(arguments).current_dir(repository("")));
+    serde_json::from_str(&listed).expect("cargo prints JSON")
 }
 
 /// How a run of the command ended.

@@ -2,10 +2,10 @@
 //! why not, and that who names a family or a language outside of its file says why. It knows Rust's `use` lines and paths
 //! as text, and nothing of what they mean.
 
+use crate::command::metadata;
 use crate::repository;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use zonal_codegen::families::text::family_names;
 
 /// The packages whose imports are looked at, by the folder of their sources.
@@ -295,12 +295,7 @@ pub fn targets() -> Vec<Target> {
     struct Workspace {
         packages: Vec<Package>,
     }
-    let listed = Command::new(env!("CARGO"))
-        .args(["metadata", "--no-deps", "--format-version", "1", "--offline"])
-        .current_dir(repository(""))
-        .output()
-        .expect("cargo runs");
-    let workspace: Workspace = serde_json::from_slice(&listed.stdout).expect("cargo lists the workspace as JSON");
+    let workspace: Workspace = serde_json::from_value(metadata()).expect("packages have targets");
     let targets = workspace.packages.into_iter().flat_map(|package| package.targets);
     targets.filter(|target| target.kind.iter().any(|kind| kind == "lib" || kind == "bin")).collect()
 }

@@ -323,42 +323,12 @@ impl Graph {
 
     /// The smaller of a and b; a where neither is smaller.
     pub fn min(&mut self, a: Id, b: Id) -> Id {
-        match self.is_less(b, a) {
-            Some(is_less) => {
-                if is_less {
-                    b
-                } else {
-                    a
-                }
-            }
-            None => match (self.node(a), self.node(b)) {
-                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
-                    let larger = self.max(x, y);
-                    self.neg(larger)
-                }
-                _ => self.apply(Op::Min(a, b)),
-            },
-        }
+        self.choose([b, a], [b, a], Op::Min(a, b), |g, y, x| g.max(x, y))
     }
 
     /// The larger of a and b; a where neither is larger.
     pub fn max(&mut self, a: Id, b: Id) -> Id {
-        match self.is_less(a, b) {
-            Some(is_less) => {
-                if is_less {
-                    b
-                } else {
-                    a
-                }
-            }
-            None => match (self.node(a), self.node(b)) {
-                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
-                    let smaller = self.min(x, y);
-                    self.neg(smaller)
-                }
-                _ => self.apply(Op::Max(a, b)),
-            },
-        }
+        self.choose([a, b], [b, a], Op::Max(a, b), |g, y, x| g.min(x, y))
     }
 
     /// a, or what is nearest to it from low to high.
@@ -376,22 +346,7 @@ impl Graph {
         if c == d {
             return c;
         }
-        match self.is_less(a, b) {
-            Some(is_less) => {
-                if is_less {
-                    c
-                } else {
-                    d
-                }
-            }
-            None => match (self.node(c), self.node(d)) {
-                (&Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
-                    let chosen = self.select_less(a, b, x, y);
-                    self.neg(chosen)
-                }
-                _ => self.apply(Op::Select(a, b, c, d)),
-            },
-        }
+        self.choose([a, b], [c, d], Op::Select(a, b, c, d), |g, x, y| g.select_less(a, b, x, y))
     }
 
     /// c where a ≤ b, else d: d where b < a, else c.
@@ -401,6 +356,26 @@ impl Graph {
     /// As [`Graph::select_less`].
     pub fn select_at_most(&mut self, a: Id, b: Id, c: Id, d: Id) -> Id {
         self.select_less(b, a, d, c)
+    }
+
+    /// `p` where a < b, else `q`, if that is known; of two negations the negation of what `opposite` makes of what they
+    /// negate; else the operation.
+    fn choose(
+        &mut self,
+        [a, b]: [Id; 2],
+        [p, q]: [Id; 2],
+        op: Op<Id>,
+        opposite: impl FnOnce(&mut Self, Id, Id) -> Id,
+    ) -> Id {
+        match (self.is_less(a, b), self.node(p), self.node(q)) {
+            (Some(true), ..) => p,
+            (Some(false), ..) => q,
+            (None, &Node::Op(Op::Neg(x)), &Node::Op(Op::Neg(y))) => {
+                let chosen = opposite(self, x, y);
+                self.neg(chosen)
+            }
+            _ => self.apply(op),
+        }
     }
 
     /// Whether a < b, where that is known: of constants, and of a node and itself.

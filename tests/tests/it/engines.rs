@@ -1,10 +1,9 @@
 //! `docs/ENGINES.md` is what the table of conventions says: this test compares them, and writes the page with
 //! `UPDATE=1 cargo test -p zonal-tests engines`.
 
-use crate::readme::with_block;
+use crate::readme::hold;
 use zonal_codegen::math::convention::{ALL, Convention, Holds};
 use zonal_codegen::plan::text::table;
-use zonal_tests::repository;
 
 fn rows<const N: usize>(head: [&str; N], row: impl Fn(&Convention) -> [String; N]) -> String {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
@@ -42,12 +41,5 @@ fn engines() -> String {
 
 #[test]
 fn the_page_for_engines_is_what_the_table_of_conventions_says() {
-    let path = repository("docs/ENGINES.md");
-    let text = std::fs::read_to_string(&path).expect("there is a page");
-    let want = with_block(&with_block(&text, "conventions", &conventions()), "engines", &engines());
-    if std::env::var_os("UPDATE").is_some() {
-        std::fs::write(&path, &want).expect("writable");
-    }
-    let text = std::fs::read_to_string(&path).expect("there is a page");
-    assert!(text == want, "docs/ENGINES.md is stale; run `UPDATE=1 cargo test -p zonal-tests engines`");
+    hold("docs/ENGINES.md", "engines", &[("conventions", conventions()), ("engines", engines())]);
 }

@@ -1,22 +1,19 @@
 //! The examples of the packages, run as a reader runs them: what they write is what they say, and what they print is true.
 
 use std::f64::consts::PI;
-use std::path::Path;
 use std::process::Command;
 
-use zonal_tests::command::{Folder, example};
+use zonal_tests::command::{Folder, example, printed};
 
-/// What a program prints with a folder of its own for `OUT_DIR`.
-fn printed(program: &Path, folder: &Folder) -> String {
-    let output = Command::new(program).env("OUT_DIR", folder.path("")).output().expect("it runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("prints text")
+/// What an example prints with a folder of its own for `OUT_DIR`.
+fn output(name: &str, folder: &Folder) -> String {
+    printed(Command::new(example(name)).env("OUT_DIR", folder.path("")))
 }
 
 #[test]
 fn the_build_script_writes_what_it_says() {
     let folder = Folder::new();
-    let text = printed(&example("build_script"), &folder);
+    let text = output("build_script", &folder);
     assert!(text.starts_with("cargo::rerun-if-changed=build.rs\n"), "{text}");
     assert_eq!(folder.names(), ["kernels.md", "kernels.rs", "kernels.wgsl"]);
     for name in folder.names() {
@@ -31,7 +28,7 @@ fn the_build_script_writes_what_it_says() {
 
 #[test]
 fn the_irradiance_probe_is_that_of_its_sky() {
-    let text = printed(&example("irradiance_probe"), &Folder::new());
+    let text = output("irradiance_probe", &Folder::new());
     let rows: Vec<Vec<f64>> = text
         .lines()
         .skip(1)

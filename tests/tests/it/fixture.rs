@@ -8,6 +8,7 @@ use std::process::Command;
 use std::time::SystemTime;
 
 use serde_json::Value;
+use zonal_tests::command::printed;
 use zonal_tests::repository;
 
 /// Where crates of users are built, those of other tests too.
@@ -20,16 +21,13 @@ fn cargo(command: &str, options: &[&str]) -> String {
 }
 
 fn cargo_on(manifest: &str, command: &str, options: &[&str]) -> String {
-    let output = Command::new(env!("CARGO"))
-        .args([command, "--offline", "--manifest-path"])
-        .arg(repository(manifest))
-        .args(options)
-        .env("CARGO_TARGET_DIR", USERS)
-        .output()
-        .expect("cargo runs");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    assert!(output.status.success(), "cargo {command} failed:\n{}{}", text(&output.stdout), text(&output.stderr));
-    text(&output.stdout)
+    printed(
+        Command::new(env!("CARGO"))
+            .args([command, "--offline", "--manifest-path"])
+            .arg(repository(manifest))
+            .args(options)
+            .env("CARGO_TARGET_DIR", USERS),
+    )
 }
 
 /// The folder of the build script's output, from what cargo says of the build.

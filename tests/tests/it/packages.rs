@@ -7,7 +7,7 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use zonal_tests::command::Folder;
+use zonal_tests::command::{Folder, metadata, printed};
 use zonal_tests::repository;
 
 /// What crates.io takes at most.
@@ -62,14 +62,6 @@ impl Package {
     }
 }
 
-/// Runs a program to its end and returns what it printed.
-fn output(command: &mut Command) -> String {
-    let run = command.output().unwrap_or_else(|error| panic!("{command:?} cannot be run: {error}"));
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    assert!(run.status.success(), "{command:?} failed:\n{}{}", text(&run.stdout), text(&run.stderr));
-    text(&run.stdout)
-}
-
 fn cargo(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO"));
     command.current_dir(folder);
@@ -78,8 +70,7 @@ fn cargo(folder: &Path) -> Command {
 
 /// The packages of the workspace that are not barred from being published.
 fn publishable() -> Vec<Package> {
-    let metadata = output(cargo(&repository("")).args(["metadata", "--no-deps", "--offline", "--format-version", "1"]));
-    let metadata: Value = serde_json::from_str(&metadata).expect("cargo prints JSON");
+    let metadata = metadata();
     let packages = metadata["packages"].as_array().expect("a list of packages");
     let text = |value: &Value| value.as_str().expect("a text").to_owned();
     packages
@@ -98,13 +89,13 @@ fn pack(packages: &[Package], into: &Folder) {
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/packages");
     let names = packages.iter().flat_map(|package| ["--package", &package.name]);
     let options = ["package", "--quiet", "--offline", "--allow-dirty", "--no-verify", "--target-dir", target];
-    output(cargo(&repository("")).args(options).args(names));
+    printed(cargo(&repository("")).args(options).args(names));
     for package in packages {
         let file = PathBuf::from(target).join("package").join(format!("{}.crate", package.folder()));
         let size = fs::metadata(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display())).len();
         println!("{}: {size} bytes", package.name);
         assert!(size < LARGEST, "{} has {size} bytes, and {LARGEST} is the most", package.name);
-        output(Command::new("tar").arg("-xzf").arg(&file).arg("-C").arg(into.path("")));
+        printed(Command::new("tar").arg("-xzf").arg(&file).arg("-C").arg(into.path("")));
     }
 }
 
@@ -253,7 +244,7 @@ fn what_is_published_is_whole_and_builds_elsewhere() {
         mirror(&from, &folder.join(package.folder()));
     }
     users(&packages, &folder);
-    let build = |arguments: &[&str]| output(cargo(&folder).args(arguments).env("CARGO_TARGET_DIR", USERS));
+    let build = |arguments: &[&str]| printed(cargo(&folder).args(arguments).env("CARGO_TARGET_DIR", USERS));
     let report = build(&["test", "--quiet", "--offline", "--package", "user"]);
     assert!(report.contains("1 passed"), "{report}");
     build(&["check", "--quiet", "--offline", "--package", "zonal-cli"]);

@@ -70,21 +70,25 @@ fn textwrap(line: &str) -> Vec<String> {
 }
 
 /// Returns a text with another content of the block between `<!-- name -->` and `<!-- /name -->`.
-pub fn with_block(text: &str, name: &str, block: &str) -> String {
+fn with_block(text: &str, name: &str, block: &str) -> String {
     let (open, close) = (format!("<!-- {name} -->\n"), format!("<!-- /{name} -->"));
     let start = text.find(&open).expect("the block is opened") + open.len();
     let end = text.find(&close).expect("the block is closed");
     format!("{}{block}{}", &text[..start], &text[end..])
 }
 
-#[test]
-fn the_readme_is_what_the_kernels_and_the_command_say() {
-    let path = repository("README.md");
-    let text = std::fs::read_to_string(&path).expect("there is a README");
-    let want = with_block(&with_block(&text, "generate", &generated()), "costs", &costs());
+/// Holds the blocks of a page to what they should be; `UPDATE=1 cargo test -p zonal-tests FILTER` writes them.
+pub fn hold(page: &str, filter: &str, blocks: &[(&str, String)]) {
+    let path = repository(page);
+    let read = || std::fs::read_to_string(&path).expect("there is a page");
+    let want = blocks.iter().fold(read(), |text, (name, block)| with_block(&text, name, block));
     if std::env::var_os("UPDATE").is_some() {
         std::fs::write(&path, &want).expect("writable");
     }
-    let text = std::fs::read_to_string(&path).expect("there is a README");
-    assert!(text == want, "README.md is stale; run `UPDATE=1 cargo test -p zonal-tests readme`");
+    assert!(read() == want, "{page} is stale; run `UPDATE=1 cargo test -p zonal-tests {filter}`");
+}
+
+#[test]
+fn the_readme_is_what_the_kernels_and_the_command_say() {
+    hold("README.md", "readme", &[("generate", generated()), ("costs", costs())]);
 }

@@ -1,13 +1,10 @@
 //! GLSL that is the same text in 4.50, 3.30 and ES 3.00, without a version of its own.
 
-use crate::emit::language::expression::{Binding, Text};
+use crate::emit::language::expression::Text;
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
-use crate::emit::language::record::{
-    Arrays, Float, ITEMS, Language, MultiplyAdd, Spelling, Statements, Type, Types, Way, Words,
-};
+use crate::emit::language::record::{Arrays, Float, ITEMS, Language, MultiplyAdd, Statements, Type, Types, Way, Words};
 use crate::emit::language::shader;
-use crate::ir::op::Op;
 
 /// GLSL that is the same text in 4.50, 3.30 and ES 3.00.
 pub static GLSL: Language = Language {
@@ -34,7 +31,7 @@ pub static GLSL: Language = Language {
     trailing_comma: false,
     vector_operators: true,
     multiply_add: MultiplyAdd::Infix,
-    spelling,
+    spelling: |op| shader::spelling(op, "inversesqrt", select),
     statements: Statements {
         int: "int",
         declare: |of, name, _| format!("{of} {name}"),
@@ -106,21 +103,6 @@ fn refuses(name: &str) -> Option<(&'static str, &'static str)> {
         |text: &str| heads.iter().any(|head| text.strip_prefix(head).is_some_and(|tail| tails.contains(&tail)));
     (is_opaque(bare) || is_opaque(name))
         .then_some(("is reserved in GLSL", "choose another name, with a prefix perhaps"))
-}
-
-fn spelling(op: &Op<()>) -> Spelling {
-    match op {
-        Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
-        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0 / ({})", x[0].text), Binding::Product),
-        Op::Rsqrt(_) => Spelling::Call("inversesqrt"),
-        Op::Sqrt(_) => Spelling::Call("sqrt"),
-        Op::Exp2(_) => Spelling::Call("exp2"),
-        Op::Log2(_) => Spelling::Call("log2"),
-        Op::Abs(_) => Spelling::Call("abs"),
-        Op::Min(..) => Spelling::Call("min"),
-        Op::Max(..) => Spelling::Call("max"),
-        Op::Select(..) => Spelling::Own(select, Binding::Atom),
-    }
 }
 
 /// By `mix` and not by `? :`, which may leave out what is not chosen. A vector is chosen by a vector of truth values.

@@ -1,7 +1,9 @@
 //! What the languages of shaders have in common: literals, components, the words of their built-in functions, and naga,
 //! which checks their texts.
 
-use crate::emit::language::record::Words;
+use crate::emit::language::expression::{Binding, Text};
+use crate::emit::language::record::{Spelling, Words};
+use crate::ir::op::Op;
 use crate::math::exact::Exact;
 use crate::math::half::Half;
 
@@ -59,6 +61,22 @@ pub fn constructor(of: &str) -> (String, &'static str) {
 /// Returns the line that opens a branch where one number is at most another.
 pub fn at_most(a: &str, b: &str) -> String {
     format!("if ({a} <= {b}) {{")
+}
+
+/// Returns how an operation is written, for which only the inverse square root and the selection differ.
+pub fn spelling(op: &Op<()>, inverse_root: &'static str, select: fn(&[Text], of: &str) -> String) -> Spelling {
+    match op {
+        Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
+        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0 / ({})", x[0].text), Binding::Product),
+        Op::Rsqrt(_) => Spelling::Call(inverse_root),
+        Op::Sqrt(_) => Spelling::Call("sqrt"),
+        Op::Exp2(_) => Spelling::Call("exp2"),
+        Op::Log2(_) => Spelling::Call("log2"),
+        Op::Abs(_) => Spelling::Call("abs"),
+        Op::Min(..) => Spelling::Call("min"),
+        Op::Max(..) => Spelling::Call("max"),
+        Op::Select(..) => Spelling::Own(select, Binding::Atom),
+    }
 }
 
 /// Validates what naga has parsed of a text.

@@ -1,11 +1,10 @@
 //! WGSL, WebGPU's shading language.
 
-use crate::emit::language::expression::{Binding, Text};
+use crate::emit::language::expression::Text;
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
-use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Spelling, Statements, Type, Types, Words};
+use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Statements, Type, Types, Words};
 use crate::emit::language::shader;
-use crate::ir::op::Op;
 
 /// WebGPU's shading language.
 pub static WGSL: Language = Language {
@@ -29,7 +28,7 @@ pub static WGSL: Language = Language {
     trailing_comma: false,
     vector_operators: true,
     multiply_add: MultiplyAdd::Infix,
-    spelling,
+    spelling: |op| shader::spelling(op, "inverseSqrt", select),
     statements: Statements {
         int: "i32",
         declare: |_, name, mutable| format!("{} {name}", if mutable { "var" } else { "let" }),
@@ -69,21 +68,6 @@ const RESERVED: Words = Words {
         try type typedef typeid typename typeof union unless unorm unsafe unsized use using var varying virtual volatile \
         wgsl where while with writeonly yield",
 };
-
-fn spelling(op: &Op<()>) -> Spelling {
-    match op {
-        Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Fma(..) => Spelling::Infix,
-        Op::Recip(_) => Spelling::Own(|x, _| format!("1.0 / ({})", x[0].text), Binding::Product),
-        Op::Rsqrt(_) => Spelling::Call("inverseSqrt"),
-        Op::Sqrt(_) => Spelling::Call("sqrt"),
-        Op::Exp2(_) => Spelling::Call("exp2"),
-        Op::Log2(_) => Spelling::Call("log2"),
-        Op::Abs(_) => Spelling::Call("abs"),
-        Op::Min(..) => Spelling::Call("min"),
-        Op::Max(..) => Spelling::Call("max"),
-        Op::Select(..) => Spelling::Own(select, Binding::Atom),
-    }
-}
 
 fn select(x: &[Text], _: &str) -> String {
     format!("select({}, {}, {} < {})", x[3].text, x[2].text, x[0].text, x[1].text)

@@ -119,16 +119,7 @@ impl Convention {
         if self.has_own_basis() && self.axes == Axes::default() {
             return coefficients.to_vec();
         }
-        let mut converted = vec![[0.0; N]; coefficients.len()];
-        self.each(
-            coefficients.len(),
-            |l| self.to_matrix(l),
-            |to, from, entry| {
-                let place = self.place(band_degree(to).0, band_degree(to).1);
-                (0..N).for_each(|channel| converted[place][channel] += entry * coefficients[from][channel]);
-            },
-        );
-        converted
+        self.converted(coefficients, |l| self.to_matrix(l), |place| self.there(place), |place| place)
     }
 
     /// Returns the convention's coefficients as zonal has them: the inverse of [`Convention::convert_to`].
@@ -140,29 +131,37 @@ impl Convention {
         if self.has_own_basis() && self.axes == Axes::default() {
             return coefficients.to_vec();
         }
-        let mut converted = vec![[0.0; N]; coefficients.len()];
-        self.each(
-            coefficients.len(),
-            |l| self.from_matrix(l),
-            |to, from, entry| {
-                let place = self.place(band_degree(from).0, band_degree(from).1);
-                (0..N).for_each(|channel| converted[to][channel] += entry * coefficients[place][channel]);
-            },
-        );
-        converted
+        self.converted(coefficients, |l| self.from_matrix(l), |place| place, |place| self.there(place))
     }
 
-    fn each(&self, count: usize, matrix: impl Fn(usize) -> Vec<Vec<Exact>>, mut add: impl FnMut(usize, usize, f64)) {
-        let order = count.isqrt();
+    /// Where the convention has what zonal has at a place.
+    fn there(&self, place: usize) -> usize {
+        let (l, m) = band_degree(place);
+        self.place(l, m)
+    }
+
+    /// The coefficients times the matrix of each band, whose rows and columns are zonal's places, wherever they stand.
+    fn converted<const N: usize>(
+        &self,
+        coefficients: &[[f64; N]],
+        matrix: impl Fn(usize) -> Vec<Vec<Exact>>,
+        to: impl Fn(usize) -> usize,
+        from: impl Fn(usize) -> usize,
+    ) -> Vec<[f64; N]> {
+        let (count, order) = (coefficients.len(), coefficients.len().isqrt());
         assert!(order * order == count, "{count} coefficients are no whole bands");
         assert!(order <= self.max_order, "{} takes {} bands, not {order}", self.name, self.max_order);
+        let mut converted = vec![[0.0; N]; count];
         for l in 0..order {
-            for (to, row) in matrix(l).into_iter().enumerate() {
-                for (from, entry) in row.into_iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
-                    add(l * l + to, l * l + from, entry.to_f64());
+            for (row, entries) in matrix(l).into_iter().enumerate() {
+                for (column, entry) in entries.into_iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
+                    let (entry, value) = (entry.to_f64(), coefficients[from(l * l + column)]);
+                    let sums = &mut converted[to(l * l + row)];
+                    (0..N).for_each(|channel| sums[channel] += entry * value[channel]);
                 }
             }
         }
+        converted
     }
 
     /// Whether it has zonal's signs, factors and indices, so that zonal's kernels take its coefficients and its directions
