@@ -1,6 +1,7 @@
-// Runs one shader text over many inputs, as WebGPU or as WebGL2. A job names the text, how many cases there are, and how
-// many vectors of four numbers a case takes and gives. It is fetched from the server with its numbers, and what comes out
-// is sent back there, so that no number is ever written as text. What a compiler refuses is thrown with its message.
+// Runs one shader text over many inputs, as WebGPU or as WebGL2. A job names the text, how many cases there are, how
+// many vectors of four numbers a case takes and gives, and how many of them a pixel gives in WebGL2. It is fetched from
+// the server with its numbers, and what comes out is sent back there, so that no number is ever written as text. What a
+// compiler refuses is thrown with its message.
 
 const FLOATS = 4;
 const BYTES = 4 * FLOATS;
@@ -73,9 +74,6 @@ function texture(width, height, numbers) {
   return made;
 }
 
-/** The most vectors that a pixel gives, one a target; `TARGETS` of the shader around the kernel. */
-const TARGETS = 8;
-
 /** A row of pixels is a case; a column is as many vectors of its result as there are targets. */
 function webgl2(job, numbers) {
   const program = gl.createProgram();
@@ -83,7 +81,7 @@ function webgl2(job, numbers) {
   shaders.forEach((shader) => gl.attachShader(program, shader));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-  const count = Math.min(job.outputs, TARGETS);
+  const count = job.targets;
   const width = Math.ceil(job.outputs / count);
   const targets = Array.from({ length: count }, () => texture(width, job.count, null));
   const places = targets.map((_, i) => gl.COLOR_ATTACHMENT0 + i);

@@ -3,6 +3,7 @@
 
 use crate::job::Job;
 use crate::system::missing;
+use crate::wrap::TARGETS;
 use serde_json::{Value, json};
 use std::io::{Read, Write};
 use std::path::Path;
@@ -71,6 +72,7 @@ impl Browser {
         let Job { target, text, inputs, count, takes, gives } = *job;
         let head = json!({
             "language": target.name, "text": text, "count": count, "inputs": takes, "outputs": gives,
+            "targets": TARGETS.min(gives),
         });
         let (head, body): (String, &[u8]) = (head.to_string(), bytemuck::cast_slice(inputs));
         let lengths = [head.len(), body.len()].map(|length| (length as u32).to_le_bytes()).concat();

@@ -88,7 +88,8 @@ impl Number for Wide {
 /// some merge factors, which moves roundings about. Vulkan and
 /// WGSL allow 2 ulp for an inverse square root and 2.5 ulp for a division, where the promise was measured with correct
 /// roundings; each enters band l through three angles to the power l at most, hence 3 (n - 1) times 2.5 ulp for a kernel
-/// that has one; powers and logarithms of numbers about one are within 5 ulp, which is less. A flushed subnormal number changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
+/// that has one; powers and logarithms of numbers about one are within 5 ulp, which is less. A flushed subnormal number
+/// changes a small signal by 2^-46 of it; 2^-40 leaves room for some.
 pub fn tolerance(function: &Function) -> f64 {
     let (built, order) = (&function.built, function.spec.order as f64);
     let promised = match function.spec.family.measure {
@@ -224,8 +225,9 @@ impl Cases {
         Job { target, text, inputs: &self.inputs, count: self.count, takes, gives }
     }
 
-    /// The largest error in the kernel's measure: of a band or a product as a whole, or of each number. Not finite if a zero signal
-    /// does not give exact zeros, if a subnormal one gives anything larger than that, or if anything is not a number.
+    /// The largest error in the kernel's measure: of a band or a product as a whole, or of each number. Not finite if a
+    /// zero signal does not give exact zeros, if a subnormal one gives anything larger than that, or if anything is not a
+    /// number.
     pub fn error(&self, got: &[f32]) -> f64 {
         let size = self.result * self.channels;
         let got = got.chunks(size.next_multiple_of(VECTOR)).flat_map(|result| &result[..size]);
