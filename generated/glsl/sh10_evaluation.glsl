@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_EVALUATION_GLSL
 #define ZONAL_SH10_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:10`: The spherical harmonics of order 10 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 199 (130 mul, 0 add, 69 fma); 114 constants, 107 live values.
 // Error: f32 rounding at most 6.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 7.8e-7).
-float[100] sh10_basis(vec3 dir) {
+ZONAL_HIGHP float[100] sh10_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -208,7 +221,7 @@ float[100] sh10_basis(vec3 dir) {
 // Error: f32 rounding at most 1.2e-5 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.9e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[45] SH10_BASIS_LOOP_A = float[45](
+const ZONAL_HIGHP float[45] SH10_BASIS_LOOP_A = float[45](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512, 1.9843135, 2.04939, 2.291288,
     3.0, 1.9899749, 2.0310097, 2.1712406, 2.4874685, 3.3166249, 1.9930434, 2.021315, 2.113942,
     2.3013682, 2.6739483, 3.6055512, 1.9948914, 2.0155644, 2.081666, 2.20794, 2.4308622, 2.8504386,
@@ -217,7 +230,7 @@ const float[45] SH10_BASIS_LOOP_A = float[45](
     3.1770663, 4.358899
 );
 // b, at the same places
-const float[45] SH10_BASIS_LOOP_B = float[45](
+const ZONAL_HIGHP float[45] SH10_BASIS_LOOP_B = float[45](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0, 1.0062306, 0.9797959, 0.8660254, 0.0, 1.002853,
     0.9910312, 0.9476071, 0.8291562, 0.0, 1.001542, 0.9952267, 0.9736101, 0.9251849, 0.8062258, 0.0,
     1.0009272, 0.9971551, 0.9847319, 0.9594032, 0.90909094, 0.7905694, 0.0, 1.0006008, 0.9981668,
@@ -225,11 +238,15 @@ const float[45] SH10_BASIS_LOOP_B = float[45](
     0.98366284, 0.96715283, 0.9392246, 0.8877771, 0.77055174, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[9] SH10_BASIS_LOOP_SECTORAL = float[9](
+const ZONAL_HIGHP float[9] SH10_BASIS_LOOP_SECTORAL = float[9](
     -1.7320508, -1.118034, -1.0801234, -1.0606601, -1.0488088, -1.040833, -1.0350983, -1.0307764,
     -1.0274023
 );
-float[100] sh10_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[100] sh10_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[100];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -280,7 +297,11 @@ float[100] sh10_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     9.4e-7).
-float sh10_eval(vec3 dir, float[100] c) {
+ZONAL_HIGHP float sh10_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -370,7 +391,11 @@ float sh10_eval(vec3 dir, float[100] c) {
 // Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     9.4e-7).
-vec3 sh10_eval_rgb(vec3 dir, vec3[100] c) {
+ZONAL_HIGHP vec3 sh10_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -461,7 +486,11 @@ vec3 sh10_eval_rgb(vec3 dir, vec3[100] c) {
 // Error: f32 rounding at most 1.8e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     8.3e-7).
-float sh10_eval_monomial(vec3 dir, float[100] c) {
+ZONAL_HIGHP float sh10_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[20] + (c[30] + (c[42] + (c[56] + (c[72] + c[90] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t1 = c[21] + (c[31] + (c[43] + (c[57] + (c[73] + c[91] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t2 = c[0] + (c[2] + (c[6] + (c[12] + t0 * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + t1 * dir.z) * dir.z) * dir.z) * dir.x;
@@ -506,7 +535,11 @@ float sh10_eval_monomial(vec3 dir, float[100] c) {
 // Error: f32 rounding at most 1.8e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     8.3e-7).
-vec3 sh10_eval_monomial_rgb(vec3 dir, vec3[100] c) {
+ZONAL_HIGHP vec3 sh10_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[20] + (c[30] + (c[42] + (c[56] + (c[72] + c[90] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t1 = c[21] + (c[31] + (c[43] + (c[57] + (c[73] + c[91] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t2 = c[0] + (c[2] + (c[6] + (c[12] + t0 * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + t1 * dir.z) * dir.z) * dir.z) * dir.x;
@@ -549,7 +582,11 @@ vec3 sh10_eval_monomial_rgb(vec3 dir, vec3[100] c) {
 // Operations: 218 (98 mul, 0 add, 120 fma); 122 constants, 100 live values.
 // Error: f32 rounding at most 4.6e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-5).
-float[100] sh10_to_monomial(float[100] c) {
+ZONAL_HIGHP float[100] sh10_to_monomial(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.31803697 * c[72] - 0.317846 * c[42] + 0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0];
     float t1 = 0.45165804 * c[55] - 0.4510931 * c[89] - 0.45294666 * c[29] + 0.4570458 * c[11] - 0.48860252 * c[1];
     float t2 = 3.0260246 * c[90] - 2.3899498 * c[56] + 1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2];
@@ -667,7 +704,11 @@ float[100] sh10_to_monomial(float[100] c) {
 // Operations: 654 (294 mul, 0 add, 360 fma); 122 constants, 100 live values.
 // Error: f32 rounding at most 4.6e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-5).
-vec3[100] sh10_to_monomial_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_to_monomial_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.31803697 * c[72] - 0.317846 * c[42] + 0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0];
     vec3 t1 = 0.45165804 * c[55] - 0.4510931 * c[89] - 0.45294666 * c[29] + 0.4570458 * c[11] - 0.48860252 * c[1];
     vec3 t2 = 3.0260246 * c[90] - 2.3899498 * c[56] + 1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2];

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_FACTORISATION_GLSL
 #define ZONAL_SH10_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:10`: Rotates order 10 by sparse zonal factorisation over 19 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 5571 (2410 mul, 20 add, 3141 fma); 616 constants, 932 live values.
 // Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
-float[100] sh10_zhf(mat3 m, float[100] c) {
+ZONAL_HIGHP float[100] sh10_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     float t2 = 2.0466535 * c[2];
@@ -2115,7 +2128,11 @@ float[100] sh10_zhf(mat3 m, float[100] c) {
 // Operations: 9551 (2758 mul, 30 add, 6763 fma); 616 constants, 932 live values.
 // Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
-vec3[100] sh10_zhf_rgb(mat3 m, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -4215,7 +4232,11 @@ vec3[100] sh10_zhf_rgb(mat3 m, vec3[100] c) {
 // Operations: 662 (76 mul, 5 add, 581 fma); 490 constants, 100 live values.
 // Error: f32 rounding at most 9.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-6).
-float[100] sh10_zhf_weights(float[100] c) {
+ZONAL_HIGHP float[100] sh10_zhf_weights(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.585331 * c[6] - (0.9341652 * c[5] + 0.91529125 * c[4]) + 0.42372784 * c[7] + 0.91529125 * c[8];
     float t1 = 0.56493 * c[9];
     float t2 = 0.3261625 * c[10] - t1 + 0.72932154 * c[11] - 1.2632219 * c[13] + 0.56493 * c[14] - 0.9784875 * c[15];
@@ -4438,7 +4459,11 @@ float[100] sh10_zhf_weights(float[100] c) {
 // Operations: 1986 (228 mul, 15 add, 1743 fma); 490 constants, 100 live values.
 // Error: f32 rounding at most 9.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-6).
-vec3[100] sh10_zhf_weights_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_zhf_weights_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.585331 * c[6] - (0.9341652 * c[5] + 0.91529125 * c[4]) + 0.42372784 * c[7] + 0.91529125 * c[8];
     vec3 t1 = 0.56493 * c[9];
     vec3 t2 = 0.3261625 * c[10] - t1 + 0.72932154 * c[11] - 1.2632219 * c[13] + 0.56493 * c[14] - 0.9784875 * c[15];
@@ -4661,7 +4686,11 @@ vec3[100] sh10_zhf_weights_rgb(vec3[100] c) {
 // Operations: 686 (93 mul, 3 add, 590 fma); 490 constants, 101 live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-6).
-float[100] sh10_zhf_tailored(float[100] f) {
+ZONAL_HIGHP float[100] sh10_zhf_tailored(ZONAL_HIGHP float[100] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.91529125 * f[7];
     float t1 = 0.56493 * f[11];
     float t2 = 1.0517634 * f[10] - 0.652325 * f[9] + 0.3261625 * f[11] + 2.1035268 * f[12] - 0.3261625 * f[14];
@@ -4880,7 +4909,11 @@ float[100] sh10_zhf_tailored(float[100] f) {
 // Operations: 2058 (279 mul, 9 add, 1770 fma); 490 constants, 101 live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-6).
-vec3[100] sh10_zhf_tailored_rgb(vec3[100] f) {
+ZONAL_HIGHP vec3[100] sh10_zhf_tailored_rgb(ZONAL_HIGHP vec3[100] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.91529125 * f[7];
     vec3 t1 = 0.56493 * f[11];
     vec3 t2 = 1.0517634 * f[10] - 0.652325 * f[9] + 0.3261625 * f[11] + 2.1035268 * f[12] - 0.3261625 * f[14];

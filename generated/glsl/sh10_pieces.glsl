@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_PIECES_GLSL
 #define ZONAL_SH10_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:10`: Rotates order 10 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 212 (106 mul, 1 add, 105 fma); 0 constants, 98 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[100] sh10_rotate_z(vec2 cs, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -142,7 +155,11 @@ float[100] sh10_rotate_z(vec2 cs, float[100] c) {
 // Operations: 572 (286 mul, 1 add, 285 fma); 0 constants, 98 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[100] sh10_rotate_z_rgb(vec2 cs, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -271,7 +288,11 @@ vec3[100] sh10_rotate_z_rgb(vec2 cs, vec3[100] c) {
 // Operations: 724 (108 mul, 1 add, 615 fma); 204 constants, 113 live values.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-float[100] sh10_rotate_y(vec2 cs, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -709,7 +730,11 @@ float[100] sh10_rotate_y(vec2 cs, float[100] c) {
 // Operations: 2106 (288 mul, 3 add, 1815 fma); 204 constants, 113 live values.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-vec3[100] sh10_rotate_y_rgb(vec2 cs, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -1146,7 +1171,11 @@ vec3[100] sh10_rotate_y_rgb(vec2 cs, vec3[100] c) {
 // Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-float[100] sh10_swap_yz(float[100] c) {
+ZONAL_HIGHP float[100] sh10_swap_yz(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1275,7 +1304,11 @@ float[100] sh10_swap_yz(float[100] c) {
 // Operations: 990 (276 mul, 0 add, 714 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-vec3[100] sh10_swap_yz_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_swap_yz_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1404,7 +1437,11 @@ vec3[100] sh10_swap_yz_rgb(vec3[100] c) {
 // Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-float[100] sh10_rotate_x_plus_90deg(float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_x_plus_90deg(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1533,7 +1570,11 @@ float[100] sh10_rotate_x_plus_90deg(float[100] c) {
 // Operations: 990 (276 mul, 0 add, 714 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-vec3[100] sh10_rotate_x_plus_90deg_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1662,7 +1703,11 @@ vec3[100] sh10_rotate_x_plus_90deg_rgb(vec3[100] c) {
 // Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-float[100] sh10_rotate_x_minus_90deg(float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_x_minus_90deg(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1791,7 +1836,11 @@ float[100] sh10_rotate_x_minus_90deg(float[100] c) {
 // Operations: 990 (276 mul, 0 add, 714 fma); 149 constants, 96 live values.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-vec3[100] sh10_rotate_x_minus_90deg_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];

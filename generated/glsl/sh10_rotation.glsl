@@ -2,9 +2,18 @@
 // for many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_ROTATION_GLSL
 #define ZONAL_SH10_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:10`: Rotates order 10 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 // every angle.
@@ -15,7 +24,11 @@
 //     149 live values.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-float[100] sh10_rotate(vec4 q, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -636,7 +649,11 @@ float[100] sh10_rotate(vec4 q, float[100] c) {
 //     149 live values.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-vec3[100] sh10_rotate_rgb(vec4 q, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1259,7 +1276,7 @@ vec3[100] sh10_rotate_rgb(vec4 q, vec3[100] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[339] SH10_ROTATE_LOOP_J = float[339](
+const ZONAL_HIGHP float[339] SH10_ROTATE_LOOP_J = float[339](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -1303,7 +1320,11 @@ const float[339] SH10_ROTATE_LOOP_J = float[339](
     -0.016572814, 0.15944009, -0.5093127, 0.7526808, -0.38519666, 0.8171255, -0.53222567,
     0.21608308, -0.048317645, 0.00390625
 );
-float[100] sh10_rotate_loop(vec4 q, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[100];
     float phase_cos[30];
     float phase_sin[30];
@@ -1387,7 +1408,7 @@ float[100] sh10_rotate_loop(vec4 q, float[100] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[339] SH10_ROTATE_RGB_LOOP_J = float[339](
+const ZONAL_HIGHP float[339] SH10_ROTATE_RGB_LOOP_J = float[339](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -1431,7 +1452,11 @@ const float[339] SH10_ROTATE_RGB_LOOP_J = float[339](
     -0.016572814, 0.15944009, -0.5093127, 0.7526808, -0.38519666, 0.8171255, -0.53222567,
     0.21608308, -0.048317645, 0.00390625
 );
-vec3[100] sh10_rotate_rgb_loop(vec4 q, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[100];
     float phase_cos[30];
     float phase_sin[30];
@@ -1511,7 +1536,11 @@ vec3[100] sh10_rotate_rgb_loop(vec4 q, vec3[100] c) {
 // Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
-float[100] sh10_rotate_euler(vec2[3] cs, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -2114,7 +2143,11 @@ float[100] sh10_rotate_euler(vec2[3] cs, float[100] c) {
 // Operations: 3250 (860 mul, 5 add, 2385 fma); 204 constants, 145 live values.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
-vec3[100] sh10_rotate_euler_rgb(vec2[3] cs, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -2719,7 +2752,11 @@ vec3[100] sh10_rotate_euler_rgb(vec2[3] cs, vec3[100] c) {
 //     live values.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-6).
-vec2[28] sh10_angles(vec4 q) {
+ZONAL_HIGHP vec2[28] sh10_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2822,7 +2859,11 @@ vec2[28] sh10_angles(vec4 q) {
 // Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
-float[100] sh10_rotate_angles(vec2[28] cs, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_angles(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[18].y + c[1] * cs[18].x;
     float t1 = c[3] * cs[18].x - c[1] * cs[18].y;
     float t2 = t1 * cs[9].x - c[2] * cs[9].y;
@@ -3375,7 +3416,11 @@ float[100] sh10_rotate_angles(vec2[28] cs, float[100] c) {
 // Operations: 3153 (810 mul, 3 add, 2340 fma); 203 constants, 113 live values.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
-vec3[100] sh10_rotate_angles_rgb(vec2[28] cs, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_angles_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[18].y + c[1] * cs[18].x;
     vec3 t1 = c[3] * cs[18].x - c[1] * cs[18].y;
     vec3 t2 = t1 * cs[9].x - c[2] * cs[9].y;
@@ -3929,7 +3974,11 @@ vec3[100] sh10_rotate_angles_rgb(vec2[28] cs, vec3[100] c) {
 //     372 live values.
 // Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-vec2[183] sh10_lifted(vec4 q) {
+ZONAL_HIGHP vec2[183] sh10_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4252,7 +4301,11 @@ vec2[183] sh10_lifted(vec4 q) {
 // Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-float[100] sh10_rotate_lifted(vec2[183] cs, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_lifted(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[9].y + c[1] * cs[9].x;
     float t1 = c[3] * cs[9].x - c[1] * cs[9].y;
     float t2 = c[2] + t1 * cs[18].x;
@@ -4572,7 +4625,11 @@ float[100] sh10_rotate_lifted(vec2[183] cs, float[100] c) {
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-vec3[100] sh10_rotate_lifted_rgb(vec2[183] cs, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_lifted_rgb(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[9].y + c[1] * cs[9].x;
     vec3 t1 = c[3] * cs[9].x - c[1] * cs[9].y;
     vec3 t2 = c[2] + t1 * cs[18].x;
@@ -4891,7 +4948,11 @@ vec3[100] sh10_rotate_lifted_rgb(vec2[183] cs, vec3[100] c) {
 //     150 live values.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-float[100] sh10_rotate_zxzxz(vec4 q, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -5429,7 +5490,11 @@ float[100] sh10_rotate_zxzxz(vec4 q, float[100] c) {
 //     150 live values.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-vec3[100] sh10_rotate_zxzxz_rgb(vec4 q, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -5966,7 +6031,11 @@ vec3[100] sh10_rotate_zxzxz_rgb(vec4 q, vec3[100] c) {
 //     144 live values.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
-float[100] sh10_rotate_align(vec3 n, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -6499,7 +6568,11 @@ float[100] sh10_rotate_align(vec3 n, float[100] c) {
 //     144 live values.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
-vec3[100] sh10_rotate_align_rgb(vec3 n, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -7031,7 +7104,11 @@ vec3[100] sh10_rotate_align_rgb(vec3 n, vec3[100] c) {
 // Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-float[100] sh10_rotate_zonal(vec3 dir, float[10] c) {
+ZONAL_HIGHP float[100] sh10_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[10] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -7223,7 +7300,11 @@ float[100] sh10_rotate_zonal(vec3 dir, float[10] c) {
 // Operations: 493 (424 mul, 0 add, 69 fma); 111 constants, 114 live values.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-vec3[100] sh10_rotate_zonal_rgb(vec3 dir, vec3[10] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[10] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

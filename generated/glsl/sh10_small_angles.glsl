@@ -2,9 +2,18 @@
 // approximately; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_SMALL_ANGLES_GLSL
 #define ZONAL_SH10_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor1;
 // Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_taylor1_y(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -161,7 +174,11 @@ float[100] sh10_taylor1_y(float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_taylor1_y_rgb(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -306,7 +323,11 @@ vec3[100] sh10_taylor1_y_rgb(float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_taylor15_y(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -485,7 +506,11 @@ float[100] sh10_taylor15_y(float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_taylor15_y_rgb(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -664,7 +689,11 @@ vec3[100] sh10_taylor15_y_rgb(float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
 //     without bound beyond.
-float[100] sh10_taylor2_y(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -897,7 +926,11 @@ float[100] sh10_taylor2_y(float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[100] sh10_taylor2_y_rgb(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -1130,7 +1163,11 @@ vec3[100] sh10_taylor2_y_rgb(float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf3_y(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -1439,7 +1476,11 @@ float[100] sh10_lf3_y(float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf3_y_rgb(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1748,7 +1789,11 @@ vec3[100] sh10_lf3_y_rgb(float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf5_y(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -2207,7 +2252,11 @@ float[100] sh10_lf5_y(float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf5_y_rgb(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -2667,7 +2716,7 @@ vec3[100] sh10_lf5_y_rgb(float beta, vec3[100] c) {
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
 //     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[100] SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[100](
+const ZONAL_HIGHP float[100] SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[100](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -2681,7 +2730,7 @@ const float[100] SH10_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[100](
     -3.4641016, -2.9154758, -2.1213202
 );
 // the diagonal of the second derivative of D at 0
-const float[100] SH10_TAYLOR15_Y_LOOP_DDY_DIAG = float[100](
+const ZONAL_HIGHP float[100] SH10_TAYLOR15_Y_LOOP_DDY_DIAG = float[100](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
@@ -2690,7 +2739,11 @@ const float[100] SH10_TAYLOR15_Y_LOOP_DDY_DIAG = float[100](
     -53.5, -34.0, -31.5, -28.0, -23.5, -18.0, -11.5, -4.0, -4.5, -13.0, -20.5, -27.0, -32.5, -37.0,
     -40.5, -43.0, -22.0, -45.0, -67.0, -43.0, -40.5, -37.0, -32.5, -27.0, -20.5, -13.0, -4.5
 );
-float[100] sh10_taylor15_y_loop(float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[100];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -2712,7 +2765,7 @@ float[100] sh10_taylor15_y_loop(float beta, float[100] c) {
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
 //     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[100] SH10_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[100](
+const ZONAL_HIGHP float[100] SH10_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[100](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -2726,7 +2779,7 @@ const float[100] SH10_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[100](
     -3.4641016, -2.9154758, -2.1213202
 );
 // the diagonal of the second derivative of D at 0
-const float[100] SH10_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[100](
+const ZONAL_HIGHP float[100] SH10_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[100](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
@@ -2735,7 +2788,11 @@ const float[100] SH10_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[100](
     -53.5, -34.0, -31.5, -28.0, -23.5, -18.0, -11.5, -4.0, -4.5, -13.0, -20.5, -27.0, -32.5, -37.0,
     -40.5, -43.0, -22.0, -45.0, -67.0, -43.0, -40.5, -37.0, -32.5, -27.0, -20.5, -13.0, -4.5
 );
-vec3[100] sh10_taylor15_y_rgb_loop(float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[100];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -2757,7 +2814,11 @@ vec3[100] sh10_taylor15_y_rgb_loop(float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
 //     without bound beyond.
-float[100] sh10_taylor1_zyz(vec2[2] cs, float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -3116,7 +3177,11 @@ float[100] sh10_taylor1_zyz(vec2[2] cs, float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[100] sh10_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -3475,7 +3540,11 @@ vec3[100] sh10_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_taylor15_zyz(vec2[2] cs, float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3869,7 +3938,11 @@ float[100] sh10_taylor15_zyz(vec2[2] cs, float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -4262,7 +4335,11 @@ vec3[100] sh10_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
 //     without bound beyond.
-float[100] sh10_taylor2_zyz(vec2[2] cs, float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -4709,7 +4786,11 @@ float[100] sh10_taylor2_zyz(vec2[2] cs, float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[100] sh10_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -5156,7 +5237,11 @@ vec3[100] sh10_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf3_zyz(vec2[2] cs, float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -5590,7 +5675,11 @@ float[100] sh10_lf3_zyz(vec2[2] cs, float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -6024,7 +6113,11 @@ vec3[100] sh10_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf5_zyz(vec2[2] cs, float beta, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -6608,7 +6701,11 @@ float[100] sh10_lf5_zyz(vec2[2] cs, float beta, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -7193,7 +7290,11 @@ vec3[100] sh10_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_rotate_small(vec4 q, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -7643,7 +7744,11 @@ float[100] sh10_rotate_small(vec4 q, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_rotate_small_rgb(vec4 q, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -8093,7 +8198,11 @@ vec3[100] sh10_rotate_small_rgb(vec4 q, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf5_rotate_small(vec4 q, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -8683,7 +8792,11 @@ float[100] sh10_lf5_rotate_small(vec4 q, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf5_rotate_small_rgb(vec4 q, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -9276,7 +9389,11 @@ vec3[100] sh10_lf5_rotate_small_rgb(vec4 q, vec3[100] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
 //     25 degrees; it grows without bound beyond.
-float[100] sh10_rotate_adaptive(vec4 q, float limit, float[100] c) {
+ZONAL_HIGHP float[100] sh10_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -10340,7 +10457,11 @@ float[100] sh10_rotate_adaptive(vec4 q, float limit, float[100] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
 //     25 degrees; it grows without bound beyond.
-vec3[100] sh10_rotate_adaptive_rgb(vec4 q, float limit, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH10_TILTING_GLSL
 #define ZONAL_SH10_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:10`: Tilts order 10: the shortest rotation from z to a normal, with no trigonometry; bands 1
 // and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_tilt(vec3 n, float[100] c) {
+ZONAL_HIGHP float[100] sh10_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -351,7 +364,11 @@ float[100] sh10_tilt(vec3 n, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_tilt_rgb(vec3 n, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -684,7 +701,11 @@ vec3[100] sh10_tilt_rgb(vec3 n, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf5_tilt(vec3 n, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1167,7 +1188,11 @@ float[100] sh10_lf5_tilt(vec3 n, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf5_tilt_rgb(vec3 n, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1650,7 +1675,11 @@ vec3[100] sh10_lf5_tilt_rgb(vec3 n, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_tilt_prescaled(vec3 n, float[100] c) {
+ZONAL_HIGHP float[100] sh10_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1927,7 +1956,11 @@ float[100] sh10_tilt_prescaled(vec3 n, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_tilt_prescaled_rgb(vec3 n, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -2204,7 +2237,11 @@ vec3[100] sh10_tilt_prescaled_rgb(vec3 n, vec3[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.1e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[100] sh10_lf5_tilt_prescaled(vec3 n, float[100] c) {
+ZONAL_HIGHP float[100] sh10_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -2599,7 +2636,11 @@ float[100] sh10_lf5_tilt_prescaled(vec3 n, float[100] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.1e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[100] sh10_lf5_tilt_prescaled_rgb(vec3 n, vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -2989,7 +3030,11 @@ vec3[100] sh10_lf5_tilt_prescaled_rgb(vec3 n, vec3[100] c) {
 // Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[100] sh10_tilt_scale(float[100] c) {
+ZONAL_HIGHP float[100] sh10_tilt_scale(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[100](
         c[0],
         c[1],
@@ -3101,7 +3146,11 @@ float[100] sh10_tilt_scale(float[100] c) {
 // Operations: 252 (252 mul, 0 add, 0 fma); 38 constants, 84 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[100] sh10_tilt_scale_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_tilt_scale_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[100](
         c[0],
         c[1],
@@ -3213,7 +3262,11 @@ vec3[100] sh10_tilt_scale_rgb(vec3[100] c) {
 // Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-float[100] sh10_tilt_unscale(float[100] c) {
+ZONAL_HIGHP float[100] sh10_tilt_unscale(ZONAL_HIGHP float[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[100](
         c[0],
         c[1],
@@ -3325,7 +3378,11 @@ float[100] sh10_tilt_unscale(float[100] c) {
 // Operations: 252 (252 mul, 0 add, 0 fma); 38 constants, 84 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[100] sh10_tilt_unscale_rgb(vec3[100] c) {
+ZONAL_HIGHP vec3[100] sh10_tilt_unscale_rgb(ZONAL_HIGHP vec3[100] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[100](
         c[0],
         c[1],

@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_EVALUATION_GLSL
 #define ZONAL_SH2_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:2`: The spherical harmonics of order 2 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
 // Error: f32 rounding at most 3.9e-8 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.2e-8).
-float[4] sh2_basis(vec3 dir) {
+ZONAL_HIGHP float[4] sh2_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         0.2820948,
         -(0.48860252 * dir.y),
@@ -30,18 +43,22 @@ float[4] sh2_basis(vec3 dir) {
 // Error: f32 rounding at most 1e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 4.4e-8).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[1] SH2_BASIS_LOOP_A = float[1](
+const ZONAL_HIGHP float[1] SH2_BASIS_LOOP_A = float[1](
     1.7320508
 );
 // b, at the same places
-const float[1] SH2_BASIS_LOOP_B = float[1](
+const ZONAL_HIGHP float[1] SH2_BASIS_LOOP_B = float[1](
     0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[1] SH2_BASIS_LOOP_SECTORAL = float[1](
+const ZONAL_HIGHP float[1] SH2_BASIS_LOOP_SECTORAL = float[1](
     -1.7320508
 );
-float[4] sh2_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[4] sh2_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[4];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -92,7 +109,11 @@ float[4] sh2_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 2.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     9.3e-8).
-float sh2_eval(vec3 dir, float[4] c) {
+ZONAL_HIGHP float sh2_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.z * c[2] + 0.2820948 * c[0] - 0.48860252 * dir.x * c[3] - 0.48860252 * dir.y * c[1];
     return t0;
 }
@@ -105,7 +126,11 @@ float sh2_eval(vec3 dir, float[4] c) {
 // Error: f32 rounding at most 2.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     9.3e-8).
-vec3 sh2_eval_rgb(vec3 dir, vec3[4] c) {
+ZONAL_HIGHP vec3 sh2_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.48860252 * dir.z * c[2] + 0.2820948 * c[0] - 0.48860252 * dir.x * c[3] - 0.48860252 * dir.y * c[1];
     return t0;
 }
@@ -119,7 +144,11 @@ vec3 sh2_eval_rgb(vec3 dir, vec3[4] c) {
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.8e-7).
-float sh2_eval_monomial(vec3 dir, float[4] c) {
+ZONAL_HIGHP float sh2_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
 }
 
@@ -132,7 +161,11 @@ float sh2_eval_monomial(vec3 dir, float[4] c) {
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.8e-7).
-vec3 sh2_eval_monomial_rgb(vec3 dir, vec3[4] c) {
+ZONAL_HIGHP vec3 sh2_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
 }
 
@@ -143,7 +176,11 @@ vec3 sh2_eval_monomial_rgb(vec3 dir, vec3[4] c) {
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
-float[4] sh2_to_monomial(float[4] c) {
+ZONAL_HIGHP float[4] sh2_to_monomial(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         0.2820948 * c[0],
         -(0.48860252 * c[1]),
@@ -159,7 +196,11 @@ float[4] sh2_to_monomial(float[4] c) {
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
-vec3[4] sh2_to_monomial_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         0.2820948 * c[0],
         -(0.48860252 * c[1]),

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_FACTORISATION_GLSL
 #define ZONAL_SH2_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:2`: Rotates order 2 by sparse zonal factorisation over 3 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 21 (15 mul, 0 add, 6 fma); 2 constants, 7 live values.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[4] sh2_zhf(mat3 m, float[4] c) {
+ZONAL_HIGHP float[4] sh2_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[3];
     float t1 = 2.0466535 * c[2];
     float t2 = 2.0466535 * c[1];
@@ -34,7 +47,11 @@ float[4] sh2_zhf(mat3 m, float[4] c) {
 // Operations: 45 (27 mul, 0 add, 18 fma); 2 constants, 7 live values.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[4] sh2_zhf_rgb(mat3 m, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[3];
     vec3 t1 = 2.0466535 * c[2];
     vec3 t2 = 2.0466535 * c[1];
@@ -53,7 +70,11 @@ vec3[4] sh2_zhf_rgb(mat3 m, vec3[4] c) {
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-float[4] sh2_zhf_weights(float[4] c) {
+ZONAL_HIGHP float[4] sh2_zhf_weights(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         3.5449078 * c[0],
         -(2.0466535 * c[3]),
@@ -69,7 +90,11 @@ float[4] sh2_zhf_weights(float[4] c) {
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-vec3[4] sh2_zhf_weights_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_zhf_weights_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         3.5449078 * c[0],
         -(2.0466535 * c[3]),
@@ -85,7 +110,11 @@ vec3[4] sh2_zhf_weights_rgb(vec3[4] c) {
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-float[4] sh2_zhf_tailored(float[4] f) {
+ZONAL_HIGHP float[4] sh2_zhf_tailored(ZONAL_HIGHP float[4] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         3.5449078 * f[0],
         -(2.0466535 * f[3]),
@@ -101,7 +130,11 @@ float[4] sh2_zhf_tailored(float[4] f) {
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-vec3[4] sh2_zhf_tailored_rgb(vec3[4] f) {
+ZONAL_HIGHP vec3[4] sh2_zhf_tailored_rgb(ZONAL_HIGHP vec3[4] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         3.5449078 * f[0],
         -(2.0466535 * f[3]),

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_PIECES_GLSL
 #define ZONAL_SH2_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:2`: Rotates order 2 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
-float[4] sh2_rotate_z(vec2 cs, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         c[3] * cs.y + c[1] * cs.x,
@@ -29,7 +42,11 @@ float[4] sh2_rotate_z(vec2 cs, float[4] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
-vec3[4] sh2_rotate_z_rgb(vec2 cs, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         c[3] * cs.y + c[1] * cs.x,
@@ -45,7 +62,11 @@ vec3[4] sh2_rotate_z_rgb(vec2 cs, vec3[4] c) {
 // Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
-float[4] sh2_rotate_y(vec2 cs, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         c[1],
@@ -61,7 +82,11 @@ float[4] sh2_rotate_y(vec2 cs, float[4] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
-vec3[4] sh2_rotate_y_rgb(vec2 cs, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         c[1],
@@ -76,7 +101,11 @@ vec3[4] sh2_rotate_y_rgb(vec2 cs, vec3[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-float[4] sh2_swap_yz(float[4] c) {
+ZONAL_HIGHP float[4] sh2_swap_yz(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         -c[2],
@@ -91,7 +120,11 @@ float[4] sh2_swap_yz(float[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-vec3[4] sh2_swap_yz_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_swap_yz_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         -c[2],
@@ -106,7 +139,11 @@ vec3[4] sh2_swap_yz_rgb(vec3[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-float[4] sh2_rotate_x_plus_90deg(float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_x_plus_90deg(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         c[2],
@@ -121,7 +158,11 @@ float[4] sh2_rotate_x_plus_90deg(float[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-vec3[4] sh2_rotate_x_plus_90deg_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         c[2],
@@ -136,7 +177,11 @@ vec3[4] sh2_rotate_x_plus_90deg_rgb(vec3[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-float[4] sh2_rotate_x_minus_90deg(float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_x_minus_90deg(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         -c[2],
@@ -151,7 +196,11 @@ float[4] sh2_rotate_x_minus_90deg(float[4] c) {
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
-vec3[4] sh2_rotate_x_minus_90deg_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         -c[2],

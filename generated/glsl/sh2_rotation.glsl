@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_ROTATION_GLSL
 #define ZONAL_SH2_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:2:zyz`: Rotates order 2 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 // every angle.
@@ -15,7 +24,11 @@
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-float[4] sh2_rotate_zyz(vec4 q, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -52,7 +65,11 @@ float[4] sh2_rotate_zyz(vec4 q, float[4] c) {
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-vec3[4] sh2_rotate_zyz_rgb(vec4 q, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_zyz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -91,10 +108,14 @@ vec3[4] sh2_rotate_zyz_rgb(vec4 q, vec3[4] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[3] SH2_ROTATE_ZYZ_LOOP_J = float[3](
+const ZONAL_HIGHP float[3] SH2_ROTATE_ZYZ_LOOP_J = float[3](
     -1.0, -1.0, 1.0
 );
-float[4] sh2_rotate_zyz_loop(vec4 q, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_zyz_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[4];
     float phase_cos[6];
     float phase_sin[6];
@@ -178,10 +199,14 @@ float[4] sh2_rotate_zyz_loop(vec4 q, float[4] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[3] SH2_ROTATE_ZYZ_RGB_LOOP_J = float[3](
+const ZONAL_HIGHP float[3] SH2_ROTATE_ZYZ_RGB_LOOP_J = float[3](
     -1.0, -1.0, 1.0
 );
-vec3[4] sh2_rotate_zyz_rgb_loop(vec4 q, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_zyz_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[4];
     float phase_cos[6];
     float phase_sin[6];
@@ -261,7 +286,11 @@ vec3[4] sh2_rotate_zyz_rgb_loop(vec4 q, vec3[4] c) {
 // Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[4] sh2_rotate(vec4 q, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0 * q.y;
     float t1 = 2.0 * q.z;
     float t2 = c[1] * t1 + c[2] * t0;
@@ -284,7 +313,11 @@ float[4] sh2_rotate(vec4 q, float[4] c) {
 // Operations: 48 (12 mul, 0 add, 36 fma); 1 constants, 5 live values.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[4] sh2_rotate_rgb(vec4 q, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0 * q.y;
     float t1 = 2.0 * q.z;
     vec3 t2 = c[1] * t1 + c[2] * t0;
@@ -307,7 +340,11 @@ vec3[4] sh2_rotate_rgb(vec4 q, vec3[4] c) {
 // Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
-float[4] sh2_rotate_matrix(mat3 m, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         -(c[2] * m[2].y - (c[1] * m[1].y + c[3] * m[0].y)),
@@ -324,7 +361,11 @@ float[4] sh2_rotate_matrix(mat3 m, float[4] c) {
 // Operations: 27 (9 mul, 0 add, 18 fma); 0 constants, 3 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
-vec3[4] sh2_rotate_matrix_rgb(mat3 m, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         -(c[2] * m[2].y - (c[1] * m[1].y + c[3] * m[0].y)),
@@ -340,7 +381,11 @@ vec3[4] sh2_rotate_matrix_rgb(mat3 m, vec3[4] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
-float[4] sh2_rotate_euler(vec2[3] cs, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -359,7 +404,11 @@ float[4] sh2_rotate_euler(vec2[3] cs, float[4] c) {
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[4] sh2_rotate_euler_rgb(vec2[3] cs, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -380,7 +429,11 @@ vec3[4] sh2_rotate_euler_rgb(vec2[3] cs, vec3[4] c) {
 //     values.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
-vec2[4] sh2_angles(vec4 q) {
+ZONAL_HIGHP vec2[4] sh2_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -409,7 +462,11 @@ vec2[4] sh2_angles(vec4 q) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
-float[4] sh2_rotate_angles(vec2[4] cs, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_angles(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -429,7 +486,11 @@ float[4] sh2_rotate_angles(vec2[4] cs, float[4] c) {
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
-vec3[4] sh2_rotate_angles_rgb(vec2[4] cs, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_angles_rgb(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -450,7 +511,11 @@ vec3[4] sh2_rotate_angles_rgb(vec2[4] cs, vec3[4] c) {
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-float[4] sh2_rotate_zxzxz(vec4 q, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -487,7 +552,11 @@ float[4] sh2_rotate_zxzxz(vec4 q, float[4] c) {
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-vec3[4] sh2_rotate_zxzxz_rgb(vec4 q, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -523,7 +592,11 @@ vec3[4] sh2_rotate_zxzxz_rgb(vec4 q, vec3[4] c) {
 //     values.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-float[4] sh2_rotate_align(vec3 n, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -548,7 +621,11 @@ float[4] sh2_rotate_align(vec3 n, float[4] c) {
 //     values.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-vec3[4] sh2_rotate_align_rgb(vec3 n, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -572,7 +649,11 @@ vec3[4] sh2_rotate_align_rgb(vec3 n, vec3[4] c) {
 // Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
-float[4] sh2_rotate_zonal(vec3 dir, float[2] c) {
+ZONAL_HIGHP float[4] sh2_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[2] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         -(c[1] * dir.y),
@@ -589,7 +670,11 @@ float[4] sh2_rotate_zonal(vec3 dir, float[2] c) {
 // Operations: 9 (9 mul, 0 add, 0 fma); 0 constants, 3 live values.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
-vec3[4] sh2_rotate_zonal_rgb(vec3 dir, vec3[2] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[2] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         -(c[1] * dir.y),

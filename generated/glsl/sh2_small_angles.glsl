@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_SMALL_ANGLES_GLSL
 #define ZONAL_SH2_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_taylor1_y(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0],
         c[1],
@@ -35,7 +48,11 @@ float[4] sh2_taylor1_y(float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_taylor1_y_rgb(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0],
         c[1],
@@ -54,7 +71,11 @@ vec3[4] sh2_taylor1_y_rgb(float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_taylor15_y(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - 0.5 * (beta * beta);
     return float[4](
         c[0],
@@ -74,7 +95,11 @@ float[4] sh2_taylor15_y(float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_taylor15_y_rgb(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - 0.5 * (beta * beta);
     return vec3[4](
         c[0],
@@ -94,7 +119,11 @@ vec3[4] sh2_taylor15_y_rgb(float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
 //     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
 //     without bound beyond.
-float[4] sh2_taylor2_y(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     return float[4](
         c[0],
@@ -114,7 +143,11 @@ float[4] sh2_taylor2_y(float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
 //     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
 //     without bound beyond.
-vec3[4] sh2_taylor2_y_rgb(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     return vec3[4](
         c[0],
@@ -134,7 +167,11 @@ vec3[4] sh2_taylor2_y_rgb(float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_lf3_y(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -157,7 +194,11 @@ float[4] sh2_lf3_y(float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_lf3_y_rgb(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -180,7 +221,11 @@ vec3[4] sh2_lf3_y_rgb(float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
 //     without bound beyond.
-float[4] sh2_lf5_y(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -206,7 +251,11 @@ float[4] sh2_lf5_y(float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
 //     without bound beyond.
-vec3[4] sh2_lf5_y_rgb(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -233,14 +282,18 @@ vec3[4] sh2_lf5_y_rgb(float beta, vec3[4] c) {
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[4] SH2_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[4](
+const ZONAL_HIGHP float[4] SH2_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[4](
     0.0, 0.0, 0.0, -1.0
 );
 // the diagonal of the second derivative of D at 0
-const float[4] SH2_TAYLOR15_Y_LOOP_DDY_DIAG = float[4](
+const ZONAL_HIGHP float[4] SH2_TAYLOR15_Y_LOOP_DDY_DIAG = float[4](
     0.0, 0.0, -1.0, -1.0
 );
-float[4] sh2_taylor15_y_loop(float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[4];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -262,14 +315,18 @@ float[4] sh2_taylor15_y_loop(float beta, float[4] c) {
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[4] SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[4](
+const ZONAL_HIGHP float[4] SH2_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[4](
     0.0, 0.0, 0.0, -1.0
 );
 // the diagonal of the second derivative of D at 0
-const float[4] SH2_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[4](
+const ZONAL_HIGHP float[4] SH2_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[4](
     0.0, 0.0, -1.0, -1.0
 );
-vec3[4] sh2_taylor15_y_rgb_loop(float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[4];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -291,7 +348,11 @@ vec3[4] sh2_taylor15_y_rgb_loop(float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_taylor1_zyz(vec2[2] cs, float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -314,7 +375,11 @@ float[4] sh2_taylor1_zyz(vec2[2] cs, float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -337,7 +402,11 @@ vec3[4] sh2_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_taylor15_zyz(vec2[2] cs, float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 1.0 - 0.5 * (beta * beta);
@@ -361,7 +430,11 @@ float[4] sh2_taylor15_zyz(vec2[2] cs, float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 1.0 - 0.5 * (beta * beta);
@@ -385,7 +458,11 @@ vec3[4] sh2_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_taylor2_zyz(vec2[2] cs, float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -409,7 +486,11 @@ float[4] sh2_taylor2_zyz(vec2[2] cs, float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -433,7 +514,11 @@ vec3[4] sh2_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_lf3_zyz(vec2[2] cs, float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -459,7 +544,11 @@ float[4] sh2_lf3_zyz(vec2[2] cs, float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -485,7 +574,11 @@ vec3[4] sh2_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it
 //     grows without bound beyond.
-float[4] sh2_lf5_zyz(vec2[2] cs, float beta, float[4] c) {
+ZONAL_HIGHP float[4] sh2_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -514,7 +607,11 @@ float[4] sh2_lf5_zyz(vec2[2] cs, float beta, float[4] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it
 //     grows without bound beyond.
-vec3[4] sh2_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -542,7 +639,11 @@ vec3[4] sh2_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[4] c) {
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-float[4] sh2_rotate_small(vec4 q, float[4] c) {
+ZONAL_HIGHP float[4] sh2_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -580,7 +681,11 @@ float[4] sh2_rotate_small(vec4 q, float[4] c) {
 //     values.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-vec3[4] sh2_rotate_small_rgb(vec4 q, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;

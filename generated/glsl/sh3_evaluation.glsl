@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_EVALUATION_GLSL
 #define ZONAL_SH3_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:3`: The spherical harmonics of order 3 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 13 (11 mul, 0 add, 2 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 2.1e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8e-8).
-float[9] sh3_basis(vec3 dir) {
+ZONAL_HIGHP float[9] sh3_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.x;
     float t2 = 2.236068 * dir.z;
@@ -38,18 +51,22 @@ float[9] sh3_basis(vec3 dir) {
 // Error: f32 rounding at most 3.9e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[3] SH3_BASIS_LOOP_A = float[3](
+const ZONAL_HIGHP float[3] SH3_BASIS_LOOP_A = float[3](
     1.7320508, 1.9364917, 2.236068
 );
 // b, at the same places
-const float[3] SH3_BASIS_LOOP_B = float[3](
+const ZONAL_HIGHP float[3] SH3_BASIS_LOOP_B = float[3](
     0.0, 1.118034, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[2] SH3_BASIS_LOOP_SECTORAL = float[2](
+const ZONAL_HIGHP float[2] SH3_BASIS_LOOP_SECTORAL = float[2](
     -1.7320508, -1.118034
 );
-float[9] sh3_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[9] sh3_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[9];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -100,7 +117,11 @@ float[9] sh3_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 8.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.4e-7).
-float sh3_eval(vec3 dir, float[9] c) {
+ZONAL_HIGHP float sh3_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 2.236068 * dir.z;
     float t2 = (0.9461747 * t0 - 0.31539157) * c[6] + 0.2820948 * c[0] + 0.48860252 * dir.z * c[2] - 0.48860252 * dir.x * (c[3] + c[7] * t1);
@@ -117,7 +138,11 @@ float sh3_eval(vec3 dir, float[9] c) {
 // Error: f32 rounding at most 8.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.4e-7).
-vec3 sh3_eval_rgb(vec3 dir, vec3[9] c) {
+ZONAL_HIGHP vec3 sh3_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 2.236068 * dir.z;
     vec3 t2 = (0.9461747 * t0 - 0.31539157) * c[6] + 0.2820948 * c[0] + 0.48860252 * dir.z * c[2] - 0.48860252 * dir.x * (c[3] + c[7] * t1);
@@ -135,7 +160,11 @@ vec3 sh3_eval_rgb(vec3 dir, vec3[9] c) {
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.9e-7).
-float sh3_eval_monomial(vec3 dir, float[9] c) {
+ZONAL_HIGHP float sh3_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[0] + (c[2] + c[6] * dir.z) * dir.z + (c[3] + c[7] * dir.z) * dir.x + (c[1] + c[5] * dir.z) * dir.y;
     float t1 = dir.x * dir.y;
     return t0 + c[8] * (dir.x * dir.x - dir.y * dir.y) + c[4] * (t1 + t1);
@@ -150,7 +179,11 @@ float sh3_eval_monomial(vec3 dir, float[9] c) {
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.9e-7).
-vec3 sh3_eval_monomial_rgb(vec3 dir, vec3[9] c) {
+ZONAL_HIGHP vec3 sh3_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[0] + (c[2] + c[6] * dir.z) * dir.z + (c[3] + c[7] * dir.z) * dir.x + (c[1] + c[5] * dir.z) * dir.y;
     float t1 = dir.x * dir.y;
     return t0 + c[8] * (dir.x * dir.x - dir.y * dir.y) + c[4] * (t1 + t1);
@@ -163,7 +196,11 @@ vec3 sh3_eval_monomial_rgb(vec3 dir, vec3[9] c) {
 // Operations: 10 (9 mul, 0 add, 1 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1e-7).
-float[9] sh3_to_monomial(float[9] c) {
+ZONAL_HIGHP float[9] sh3_to_monomial(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[9](
         0.2820948 * c[0] - 0.31539157 * c[6],
         -(0.48860252 * c[1]),
@@ -184,7 +221,11 @@ float[9] sh3_to_monomial(float[9] c) {
 // Operations: 30 (27 mul, 0 add, 3 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1e-7).
-vec3[9] sh3_to_monomial_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_to_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[9](
         0.2820948 * c[0] - 0.31539157 * c[6],
         -(0.48860252 * c[1]),

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_FACTORISATION_GLSL
 #define ZONAL_SH3_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:3`: Rotates order 3 by sparse zonal factorisation over 5 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 127 (70 mul, 1 add, 56 fma); 12 constants, 29 live values.
 // Error: f32 rounding at most 5.8e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.9e-7).
-float[9] sh3_zhf(mat3 m, float[9] c) {
+ZONAL_HIGHP float[9] sh3_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 3.5449078 * c[1];
     float t1 = 0.57735026 * m[0].y;
     float t2 = (0.57735026 * m[1].y - t1 + 0.57735026 * m[2].y) * 0.48860252;
@@ -80,7 +93,11 @@ float[9] sh3_zhf(mat3 m, float[9] c) {
 // Operations: 219 (98 mul, 3 add, 118 fma); 12 constants, 29 live values.
 // Error: f32 rounding at most 5.8e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.9e-7).
-vec3[9] sh3_zhf_rgb(mat3 m, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 3.5449078 * c[1];
     float t1 = 0.57735026 * m[0].y;
     float t2 = (0.57735026 * m[1].y - t1 + 0.57735026 * m[2].y) * 0.48860252;
@@ -145,7 +162,11 @@ vec3[9] sh3_zhf_rgb(mat3 m, vec3[9] c) {
 // Operations: 13 (7 mul, 1 add, 5 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 6.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4e-7).
-float[9] sh3_zhf_weights(float[9] c) {
+ZONAL_HIGHP float[9] sh3_zhf_weights(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[1];
     float t1 = 1.3729368 * c[7];
     float t2 = 1.3729368 * c[5];
@@ -169,7 +190,11 @@ float[9] sh3_zhf_weights(float[9] c) {
 // Operations: 39 (21 mul, 3 add, 15 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 6.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4e-7).
-vec3[9] sh3_zhf_weights_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_zhf_weights_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[1];
     vec3 t1 = 1.3729368 * c[7];
     vec3 t2 = 1.3729368 * c[5];
@@ -193,7 +218,11 @@ vec3[9] sh3_zhf_weights_rgb(vec3[9] c) {
 // Operations: 13 (7 mul, 2 add, 4 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
-float[9] sh3_zhf_tailored(float[9] f) {
+ZONAL_HIGHP float[9] sh3_zhf_tailored(ZONAL_HIGHP float[9] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * f[3];
     float t1 = 2.0466535 * f[2];
     float t2 = 1.3729368 * f[8];
@@ -218,7 +247,11 @@ float[9] sh3_zhf_tailored(float[9] f) {
 // Operations: 39 (21 mul, 6 add, 12 fma); 6 constants, 9 live values.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
-vec3[9] sh3_zhf_tailored_rgb(vec3[9] f) {
+ZONAL_HIGHP vec3[9] sh3_zhf_tailored_rgb(ZONAL_HIGHP vec3[9] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * f[3];
     vec3 t1 = 2.0466535 * f[2];
     vec3 t2 = 1.3729368 * f[8];

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_PIECES_GLSL
 #define ZONAL_SH3_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:3`: Rotates order 3 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 16 (8 mul, 1 add, 7 fma); 0 constants, 7 live values.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.1e-8).
-float[9] sh3_rotate_z(vec2 cs, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -37,7 +50,11 @@ float[9] sh3_rotate_z(vec2 cs, float[9] c) {
 // Operations: 40 (20 mul, 1 add, 19 fma); 0 constants, 7 live values.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.1e-8).
-vec3[9] sh3_rotate_z_rgb(vec2 cs, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -61,7 +78,11 @@ vec3[9] sh3_rotate_z_rgb(vec2 cs, vec3[9] c) {
 // Operations: 19 (9 mul, 1 add, 9 fma); 2 constants, 9 live values.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-float[9] sh3_rotate_y(vec2 cs, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -86,7 +107,11 @@ float[9] sh3_rotate_y(vec2 cs, float[9] c) {
 // Operations: 49 (21 mul, 3 add, 25 fma); 2 constants, 9 live values.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-vec3[9] sh3_rotate_y_rgb(vec2 cs, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -110,7 +135,11 @@ vec3[9] sh3_rotate_y_rgb(vec2 cs, vec3[9] c) {
 // Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 6 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-float[9] sh3_swap_yz(float[9] c) {
+ZONAL_HIGHP float[9] sh3_swap_yz(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[9](
         c[0],
         -c[2],
@@ -130,7 +159,11 @@ float[9] sh3_swap_yz(float[9] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 2 constants, 6 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-vec3[9] sh3_swap_yz_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_swap_yz_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[9](
         c[0],
         -c[2],
@@ -150,7 +183,11 @@ vec3[9] sh3_swap_yz_rgb(vec3[9] c) {
 // Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 5 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-float[9] sh3_rotate_x_plus_90deg(float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_x_plus_90deg(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[9](
         c[0],
         c[2],
@@ -170,7 +207,11 @@ float[9] sh3_rotate_x_plus_90deg(float[9] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 2 constants, 5 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-vec3[9] sh3_rotate_x_plus_90deg_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[9](
         c[0],
         c[2],
@@ -190,7 +231,11 @@ vec3[9] sh3_rotate_x_plus_90deg_rgb(vec3[9] c) {
 // Operations: 4 (2 mul, 0 add, 2 fma); 2 constants, 5 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-float[9] sh3_rotate_x_minus_90deg(float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_x_minus_90deg(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[9](
         c[0],
         -c[2],
@@ -210,7 +255,11 @@ float[9] sh3_rotate_x_minus_90deg(float[9] c) {
 // Operations: 12 (6 mul, 0 add, 6 fma); 2 constants, 5 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.7e-8).
-vec3[9] sh3_rotate_x_minus_90deg_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[9](
         c[0],
         -c[2],

@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_ROTATION_GLSL
 #define ZONAL_SH3_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:3:zyz`: Rotates order 3 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 // every angle.
@@ -15,7 +24,11 @@
 //     values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
-float[9] sh3_rotate_zyz(vec4 q, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -75,7 +88,11 @@ float[9] sh3_rotate_zyz(vec4 q, float[9] c) {
 //     live values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
-vec3[9] sh3_rotate_rgb(vec4 q, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -137,10 +154,14 @@ vec3[9] sh3_rotate_rgb(vec4 q, vec3[9] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[10] SH3_ROTATE_ZYZ_LOOP_J = float[10](
+const ZONAL_HIGHP float[10] SH3_ROTATE_ZYZ_LOOP_J = float[10](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5
 );
-float[9] sh3_rotate_zyz_loop(vec4 q, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_zyz_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[9];
     float phase_cos[9];
     float phase_sin[9];
@@ -224,10 +245,14 @@ float[9] sh3_rotate_zyz_loop(vec4 q, float[9] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[10] SH3_ROTATE_RGB_LOOP_J = float[10](
+const ZONAL_HIGHP float[10] SH3_ROTATE_RGB_LOOP_J = float[10](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5
 );
-vec3[9] sh3_rotate_rgb_loop(vec4 q, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[9];
     float phase_cos[9];
     float phase_sin[9];
@@ -307,7 +332,11 @@ vec3[9] sh3_rotate_rgb_loop(vec4 q, vec3[9] c) {
 // Operations: 64 (22 mul, 2 add, 40 fma); 5 constants, 20 live values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
-float[9] sh3_rotate(vec4 q, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0 * q.z;
     float t1 = 2.0 * q.x;
     float t2 = q.w * t1;
@@ -355,7 +384,11 @@ float[9] sh3_rotate(vec4 q, float[9] c) {
 // Operations: 158 (54 mul, 6 add, 98 fma); 5 constants, 20 live values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
-vec3[9] sh3_rotate_tensor_rgb(vec4 q, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_tensor_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0 * q.z;
     float t1 = 2.0 * q.x;
     float t2 = q.w * t1;
@@ -403,7 +436,11 @@ vec3[9] sh3_rotate_tensor_rgb(vec4 q, vec3[9] c) {
 // Operations: 47 (16 mul, 2 add, 29 fma); 4 constants, 12 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-float[9] sh3_rotate_matrix(mat3 m, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = c[4] * m[1].x + t0 * m[0].x - c[7] * m[2].x;
     float t2 = c[8] + 1.7320508 * c[6];
@@ -435,7 +472,11 @@ float[9] sh3_rotate_matrix(mat3 m, float[9] c) {
 // Operations: 141 (48 mul, 6 add, 87 fma); 4 constants, 12 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-vec3[9] sh3_rotate_matrix_rgb(mat3 m, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     vec3 t1 = c[4] * m[1].x + t0 * m[0].x - c[7] * m[2].x;
     vec3 t2 = c[8] + 1.7320508 * c[6];
@@ -466,7 +507,11 @@ vec3[9] sh3_rotate_matrix_rgb(mat3 m, vec3[9] c) {
 // Operations: 51 (25 mul, 3 add, 23 fma); 2 constants, 15 live values.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-float[9] sh3_rotate_euler(vec2[3] cs, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -508,7 +553,11 @@ float[9] sh3_rotate_euler(vec2[3] cs, float[9] c) {
 // Operations: 129 (61 mul, 5 add, 63 fma); 2 constants, 15 live values.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-vec3[9] sh3_rotate_euler_rgb(vec2[3] cs, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -552,7 +601,11 @@ vec3[9] sh3_rotate_euler_rgb(vec2[3] cs, vec3[9] c) {
 //     values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.9e-7).
-vec2[7] sh3_angles(vec4 q) {
+ZONAL_HIGHP vec2[7] sh3_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -592,7 +645,11 @@ vec2[7] sh3_angles(vec4 q) {
 // Operations: 39 (18 mul, 1 add, 20 fma); 1 constants, 11 live values.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[9] sh3_rotate_angles(vec2[7] cs, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[4].y + c[1] * cs[4].x;
     float t1 = c[3] * cs[4].x - c[1] * cs[4].y;
     float t2 = t1 * cs[2].x - c[2] * cs[2].y;
@@ -627,7 +684,11 @@ float[9] sh3_rotate_angles(vec2[7] cs, float[9] c) {
 // Operations: 117 (54 mul, 3 add, 60 fma); 1 constants, 11 live values.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[9] sh3_rotate_angles_rgb(vec2[7] cs, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[4].y + c[1] * cs[4].x;
     vec3 t1 = c[3] * cs[4].x - c[1] * cs[4].y;
     vec3 t2 = t1 * cs[2].x - c[2] * cs[2].y;
@@ -664,7 +725,11 @@ vec3[9] sh3_rotate_angles_rgb(vec2[7] cs, vec3[9] c) {
 //     live values.
 // Error: f32 rounding at most 7.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
-vec2[8] sh3_lifted(vec4 q) {
+ZONAL_HIGHP vec2[8] sh3_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -709,7 +774,11 @@ vec2[8] sh3_lifted(vec4 q) {
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[9] sh3_rotate_lifted(vec2[8] cs, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_lifted(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = c[2] + t1 * cs[4].x;
@@ -746,7 +815,11 @@ float[9] sh3_rotate_lifted(vec2[8] cs, float[9] c) {
 // Operations: 108 (36 mul, 0 add, 72 fma); 0 constants, 10 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[9] sh3_rotate_lifted_rgb(vec2[8] cs, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_lifted_rgb(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = c[2] + t1 * cs[4].x;
@@ -782,7 +855,11 @@ vec3[9] sh3_rotate_lifted_rgb(vec2[8] cs, vec3[9] c) {
 //     values.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
-float[9] sh3_rotate_zxzxz(vec4 q, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -844,7 +921,11 @@ float[9] sh3_rotate_zxzxz(vec4 q, float[9] c) {
 //     live values.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
-vec3[9] sh3_rotate_zxzxz_rgb(vec4 q, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -905,7 +986,11 @@ vec3[9] sh3_rotate_zxzxz_rgb(vec4 q, vec3[9] c) {
 //     values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
-float[9] sh3_rotate_align(vec3 n, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -946,7 +1031,11 @@ float[9] sh3_rotate_align(vec3 n, float[9] c) {
 //     values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
-vec3[9] sh3_rotate_align_rgb(vec3 n, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -986,7 +1075,11 @@ vec3[9] sh3_rotate_align_rgb(vec3 n, vec3[9] c) {
 // Operations: 18 (16 mul, 0 add, 2 fma); 4 constants, 8 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-float[9] sh3_rotate_zonal(vec3 dir, float[3] c) {
+ZONAL_HIGHP float[9] sh3_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.z;
     return float[9](
         c[0],
@@ -1009,7 +1102,11 @@ float[9] sh3_rotate_zonal(vec3 dir, float[3] c) {
 // Operations: 34 (32 mul, 0 add, 2 fma); 4 constants, 8 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
-vec3[9] sh3_rotate_zonal_rgb(vec3 dir, vec3[3] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.z;
     return vec3[9](
         c[0],

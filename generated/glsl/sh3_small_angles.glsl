@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_SMALL_ANGLES_GLSL
 #define ZONAL_SH3_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:3`: Rotates order 3 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.5e-8). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_taylor1_y(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     return float[9](
         c[0],
@@ -41,7 +54,11 @@ float[9] sh3_taylor1_y(float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.5e-8). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_taylor1_y_rgb(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     return vec3[9](
         c[0],
@@ -66,7 +83,11 @@ vec3[9] sh3_taylor1_y_rgb(float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.2e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_taylor15_y(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -93,7 +114,11 @@ float[9] sh3_taylor15_y(float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.2e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_taylor15_y_rgb(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -120,7 +145,11 @@ vec3[9] sh3_taylor15_y_rgb(float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[9] sh3_taylor2_y(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -148,7 +177,11 @@ float[9] sh3_taylor2_y(float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[9] sh3_taylor2_y_rgb(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -176,7 +209,11 @@ vec3[9] sh3_taylor2_y_rgb(float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.7e-8). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_lf3_y(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -212,7 +249,11 @@ float[9] sh3_lf3_y(float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.7e-8). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_lf3_y_rgb(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -248,7 +289,11 @@ vec3[9] sh3_lf3_y_rgb(float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_lf5_y(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -294,7 +339,11 @@ float[9] sh3_lf5_y(float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_lf5_y_rgb(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -341,14 +390,18 @@ vec3[9] sh3_lf5_y_rgb(float beta, vec3[9] c) {
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[9] SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[9](
+const ZONAL_HIGHP float[9] SH3_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[9](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0
 );
 // the diagonal of the second derivative of D at 0
-const float[9] SH3_TAYLOR15_Y_LOOP_DDY_DIAG = float[9](
+const ZONAL_HIGHP float[9] SH3_TAYLOR15_Y_LOOP_DDY_DIAG = float[9](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0
 );
-float[9] sh3_taylor15_y_loop(float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[9];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -370,14 +423,18 @@ float[9] sh3_taylor15_y_loop(float beta, float[9] c) {
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[9] SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[9](
+const ZONAL_HIGHP float[9] SH3_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[9](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0
 );
 // the diagonal of the second derivative of D at 0
-const float[9] SH3_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[9](
+const ZONAL_HIGHP float[9] SH3_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[9](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0
 );
-vec3[9] sh3_taylor15_y_rgb_loop(float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[9];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -399,7 +456,11 @@ vec3[9] sh3_taylor15_y_rgb_loop(float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_taylor1_zyz(vec2[2] cs, float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -442,7 +503,11 @@ float[9] sh3_taylor1_zyz(vec2[2] cs, float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -485,7 +550,11 @@ vec3[9] sh3_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_taylor15_zyz(vec2[2] cs, float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -530,7 +599,11 @@ float[9] sh3_taylor15_zyz(vec2[2] cs, float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -575,7 +648,11 @@ vec3[9] sh3_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_taylor2_zyz(vec2[2] cs, float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -621,7 +698,11 @@ float[9] sh3_taylor2_zyz(vec2[2] cs, float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -667,7 +748,11 @@ vec3[9] sh3_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_lf3_zyz(vec2[2] cs, float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -716,7 +801,11 @@ float[9] sh3_lf3_zyz(vec2[2] cs, float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -765,7 +854,11 @@ vec3[9] sh3_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[9] sh3_lf5_zyz(vec2[2] cs, float beta, float[9] c) {
+ZONAL_HIGHP float[9] sh3_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -824,7 +917,11 @@ float[9] sh3_lf5_zyz(vec2[2] cs, float beta, float[9] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[9] sh3_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -882,7 +979,11 @@ vec3[9] sh3_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[9] c) {
 //     values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
-float[9] sh3_rotate_small(vec4 q, float[9] c) {
+ZONAL_HIGHP float[9] sh3_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -943,7 +1044,11 @@ float[9] sh3_rotate_small(vec4 q, float[9] c) {
 //     live values.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
-vec3[9] sh3_rotate_small_rgb(vec4 q, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;

@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_TILTING_GLSL
 #define ZONAL_SH3_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:3`: Tilts order 3: the shortest rotation from z to a normal, exactly, with no trigonometry.
 // n: where the z axis goes, of unit length.
@@ -14,7 +23,11 @@
 //     values.
 // Error: f32 rounding at most 5.7e-6 of the norm of a band, for every n of unit length with n.z >= 0
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
-float[9] sh3_tilt(vec3 n, float[9] c) {
+ZONAL_HIGHP float[9] sh3_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -49,7 +62,11 @@ float[9] sh3_tilt(vec3 n, float[9] c) {
 //     live values.
 // Error: f32 rounding at most 5.7e-6 of the norm of a band, for every n of unit length with n.z >= 0
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
-vec3[9] sh3_tilt_rgb(vec3 n, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;

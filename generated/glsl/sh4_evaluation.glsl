@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_EVALUATION_GLSL
 #define ZONAL_SH4_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:4`: The spherical harmonics of order 4 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
 // Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.7e-8).
-float[16] sh4_basis(vec3 dir) {
+ZONAL_HIGHP float[16] sh4_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -53,18 +66,22 @@ float[16] sh4_basis(vec3 dir) {
 // Error: f32 rounding at most 9.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.5e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[6] SH4_BASIS_LOOP_A = float[6](
+const ZONAL_HIGHP float[6] SH4_BASIS_LOOP_A = float[6](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512
 );
 // b, at the same places
-const float[6] SH4_BASIS_LOOP_B = float[6](
+const ZONAL_HIGHP float[6] SH4_BASIS_LOOP_B = float[6](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[3] SH4_BASIS_LOOP_SECTORAL = float[3](
+const ZONAL_HIGHP float[3] SH4_BASIS_LOOP_SECTORAL = float[3](
     -1.7320508, -1.118034, -1.0801234
 );
-float[16] sh4_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[16] sh4_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[16];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -115,7 +132,11 @@ float[16] sh4_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
-float sh4_eval(vec3 dir, float[16] c) {
+ZONAL_HIGHP float sh4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = (0.9461747 * t0 - 0.31539157) * c[6] + 0.2820948 * c[0] + 0.48860252 * dir.z * (c[2] + (3.818813 * t0 - 2.291288) * c[12]);
     float t2 = 4.6770716 * t0 - 0.9354144;
@@ -137,7 +158,11 @@ float sh4_eval(vec3 dir, float[16] c) {
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
-vec3 sh4_eval_rgb(vec3 dir, vec3[16] c) {
+ZONAL_HIGHP vec3 sh4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     vec3 t1 = (0.9461747 * t0 - 0.31539157) * c[6] + 0.2820948 * c[0] + 0.48860252 * dir.z * (c[2] + (3.818813 * t0 - 2.291288) * c[12]);
     float t2 = 4.6770716 * t0 - 0.9354144;
@@ -160,7 +185,11 @@ vec3 sh4_eval_rgb(vec3 dir, vec3[16] c) {
 // Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.5e-7).
-float sh4_eval_monomial(vec3 dir, float[16] c) {
+ZONAL_HIGHP float sh4_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[0] + (c[2] + (c[6] + c[12] * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + c[13] * dir.z) * dir.z) * dir.x;
     float t1 = dir.x * dir.x - dir.y * dir.y;
     float t2 = dir.x * dir.y;
@@ -178,7 +207,11 @@ float sh4_eval_monomial(vec3 dir, float[16] c) {
 // Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.5e-7).
-vec3 sh4_eval_monomial_rgb(vec3 dir, vec3[16] c) {
+ZONAL_HIGHP vec3 sh4_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[0] + (c[2] + (c[6] + c[12] * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + c[13] * dir.z) * dir.z) * dir.x;
     float t1 = dir.x * dir.x - dir.y * dir.y;
     float t2 = dir.x * dir.y;
@@ -194,7 +227,11 @@ vec3 sh4_eval_monomial_rgb(vec3 dir, vec3[16] c) {
 // Operations: 20 (16 mul, 0 add, 4 fma); 12 constants, 16 live values.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-float[16] sh4_to_monomial(float[16] c) {
+ZONAL_HIGHP float[16] sh4_to_monomial(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         0.2820948 * c[0] - 0.31539157 * c[6],
         0.4570458 * c[11] - 0.48860252 * c[1],
@@ -222,7 +259,11 @@ float[16] sh4_to_monomial(float[16] c) {
 // Operations: 60 (48 mul, 0 add, 12 fma); 12 constants, 16 live values.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-vec3[16] sh4_to_monomial_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_to_monomial_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         0.2820948 * c[0] - 0.31539157 * c[6],
         0.4570458 * c[11] - 0.48860252 * c[1],

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_FACTORISATION_GLSL
 #define ZONAL_SH4_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:4`: Rotates order 4 by sparse zonal factorisation over 7 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 321 (173 mul, 2 add, 146 fma); 33 constants, 82 live values.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
-float[16] sh4_zhf(mat3 m, float[16] c) {
+ZONAL_HIGHP float[16] sh4_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.3632717 * c[3];
     float t1 = 0.5 * m[1].y;
     float t2 = t1 + 0.8660254 * m[0].y;
@@ -170,7 +183,11 @@ float[16] sh4_zhf(mat3 m, float[16] c) {
 // Operations: 541 (225 mul, 6 add, 310 fma); 33 constants, 82 live values.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
-vec3[16] sh4_zhf_rgb(mat3 m, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.3632717 * c[3];
     float t1 = 0.5 * m[1].y;
     float t2 = t1 + 0.8660254 * m[0].y;
@@ -325,7 +342,11 @@ vec3[16] sh4_zhf_rgb(mat3 m, vec3[16] c) {
 // Operations: 28 (12 mul, 2 add, 14 fma); 19 constants, 16 live values.
 // Error: f32 rounding at most 7.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.7e-7).
-float[16] sh4_zhf_weights(float[16] c) {
+ZONAL_HIGHP float[16] sh4_zhf_weights(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.288228 * c[7];
     float t1 = 1.321109 * c[5];
     float t2 = 0.56493 * c[9];
@@ -359,7 +380,11 @@ float[16] sh4_zhf_weights(float[16] c) {
 // Operations: 84 (36 mul, 6 add, 42 fma); 19 constants, 16 live values.
 // Error: f32 rounding at most 7.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.7e-7).
-vec3[16] sh4_zhf_weights_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_zhf_weights_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.288228 * c[7];
     vec3 t1 = 1.321109 * c[5];
     vec3 t2 = 0.56493 * c[9];
@@ -393,7 +418,11 @@ vec3[16] sh4_zhf_weights_rgb(vec3[16] c) {
 // Operations: 32 (15 mul, 1 add, 16 fma); 19 constants, 16 live values.
 // Error: f32 rounding at most 8e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3e-7).
-float[16] sh4_zhf_tailored(float[16] f) {
+ZONAL_HIGHP float[16] sh4_zhf_tailored(ZONAL_HIGHP float[16] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.321109 * f[6];
     float t1 = 1.8305825 * f[8];
     return float[16](
@@ -423,7 +452,11 @@ float[16] sh4_zhf_tailored(float[16] f) {
 // Operations: 96 (45 mul, 3 add, 48 fma); 19 constants, 16 live values.
 // Error: f32 rounding at most 8e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3e-7).
-vec3[16] sh4_zhf_tailored_rgb(vec3[16] f) {
+ZONAL_HIGHP vec3[16] sh4_zhf_tailored_rgb(ZONAL_HIGHP vec3[16] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.321109 * f[6];
     vec3 t1 = 1.8305825 * f[8];
     return vec3[16](

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_PIECES_GLSL
 #define ZONAL_SH4_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:4`: Rotates order 4 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 32 (16 mul, 1 add, 15 fma); 0 constants, 14 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.3e-8).
-float[16] sh4_rotate_z(vec2 cs, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -46,7 +59,11 @@ float[16] sh4_rotate_z(vec2 cs, float[16] c) {
 // Operations: 80 (40 mul, 1 add, 39 fma); 0 constants, 14 live values.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.3e-8).
-vec3[16] sh4_rotate_z_rgb(vec2 cs, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -79,7 +96,11 @@ vec3[16] sh4_rotate_z_rgb(vec2 cs, vec3[16] c) {
 // Operations: 52 (18 mul, 1 add, 33 fma); 8 constants, 18 live values.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-float[16] sh4_rotate_y(vec2 cs, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -129,7 +150,11 @@ float[16] sh4_rotate_y(vec2 cs, float[16] c) {
 // Operations: 138 (42 mul, 3 add, 93 fma); 8 constants, 18 live values.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-vec3[16] sh4_rotate_y_rgb(vec2 cs, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -178,7 +203,11 @@ vec3[16] sh4_rotate_y_rgb(vec2 cs, vec3[16] c) {
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
-float[16] sh4_swap_yz(float[16] c) {
+ZONAL_HIGHP float[16] sh4_swap_yz(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         c[0],
         -c[2],
@@ -205,7 +234,11 @@ float[16] sh4_swap_yz(float[16] c) {
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
-vec3[16] sh4_swap_yz_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_swap_yz_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         c[0],
         -c[2],
@@ -232,7 +265,11 @@ vec3[16] sh4_swap_yz_rgb(vec3[16] c) {
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
-float[16] sh4_rotate_x_plus_90deg(float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_x_plus_90deg(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         c[0],
         c[2],
@@ -259,7 +296,11 @@ float[16] sh4_rotate_x_plus_90deg(float[16] c) {
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
-vec3[16] sh4_rotate_x_plus_90deg_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         c[0],
         c[2],
@@ -286,7 +327,11 @@ vec3[16] sh4_rotate_x_plus_90deg_rgb(vec3[16] c) {
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
-float[16] sh4_rotate_x_minus_90deg(float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_x_minus_90deg(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         c[0],
         -c[2],
@@ -313,7 +358,11 @@ float[16] sh4_rotate_x_minus_90deg(float[16] c) {
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
-vec3[16] sh4_rotate_x_minus_90deg_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         c[0],
         -c[2],

@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_ROTATION_GLSL
 #define ZONAL_SH4_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:4`: Rotates order 4 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     live values.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
-float[16] sh4_rotate(vec4 q, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -114,7 +127,11 @@ float[16] sh4_rotate(vec4 q, float[16] c) {
 //     live values.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
-vec3[16] sh4_rotate_rgb(vec4 q, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -215,12 +232,16 @@ vec3[16] sh4_rotate_rgb(vec4 q, vec3[16] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[23] SH4_ROTATE_LOOP_J = float[23](
+const ZONAL_HIGHP float[23] SH4_ROTATE_LOOP_J = float[23](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25
 );
-float[16] sh4_rotate_loop(vec4 q, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[16];
     float phase_cos[12];
     float phase_sin[12];
@@ -304,12 +325,16 @@ float[16] sh4_rotate_loop(vec4 q, float[16] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[23] SH4_ROTATE_RGB_LOOP_J = float[23](
+const ZONAL_HIGHP float[23] SH4_ROTATE_RGB_LOOP_J = float[23](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25
 );
-vec3[16] sh4_rotate_rgb_loop(vec4 q, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[16];
     float phase_cos[12];
     float phase_sin[12];
@@ -389,7 +414,11 @@ vec3[16] sh4_rotate_rgb_loop(vec4 q, vec3[16] c) {
 // Operations: 116 (50 mul, 3 add, 63 fma); 8 constants, 28 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
-float[16] sh4_rotate_euler(vec2[3] cs, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -470,7 +499,11 @@ float[16] sh4_rotate_euler(vec2[3] cs, float[16] c) {
 // Operations: 298 (122 mul, 5 add, 171 fma); 8 constants, 28 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
-vec3[16] sh4_rotate_euler_rgb(vec2[3] cs, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -553,7 +586,11 @@ vec3[16] sh4_rotate_euler_rgb(vec2[3] cs, vec3[16] c) {
 //     values.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
-vec2[10] sh4_angles(vec4 q) {
+ZONAL_HIGHP vec2[10] sh4_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -602,7 +639,11 @@ vec2[10] sh4_angles(vec4 q) {
 // Operations: 91 (36 mul, 1 add, 54 fma); 6 constants, 20 live values.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-float[16] sh4_rotate_angles(vec2[10] cs, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_angles(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[6].y + c[1] * cs[6].x;
     float t1 = c[3] * cs[6].x - c[1] * cs[6].y;
     float t2 = t1 * cs[3].x - c[2] * cs[3].y;
@@ -668,7 +709,11 @@ float[16] sh4_rotate_angles(vec2[10] cs, float[16] c) {
 // Operations: 273 (108 mul, 3 add, 162 fma); 6 constants, 20 live values.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-vec3[16] sh4_rotate_angles_rgb(vec2[10] cs, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_angles_rgb(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[6].y + c[1] * cs[6].x;
     vec3 t1 = c[3] * cs[6].x - c[1] * cs[6].y;
     vec3 t2 = t1 * cs[3].x - c[2] * cs[3].y;
@@ -736,7 +781,11 @@ vec3[16] sh4_rotate_angles_rgb(vec2[10] cs, vec3[16] c) {
 //     live values.
 // Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
-vec2[16] sh4_lifted(vec4 q) {
+ZONAL_HIGHP vec2[16] sh4_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -796,7 +845,11 @@ vec2[16] sh4_lifted(vec4 q) {
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[16] sh4_rotate_lifted(vec2[16] cs, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_lifted(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[3].y + c[1] * cs[3].x;
     float t1 = c[3] * cs[3].x - c[1] * cs[3].y;
     float t2 = c[2] + t1 * cs[6].x;
@@ -853,7 +906,11 @@ float[16] sh4_rotate_lifted(vec2[16] cs, float[16] c) {
 // Operations: 234 (72 mul, 0 add, 162 fma); 0 constants, 18 live values.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[16] sh4_rotate_lifted_rgb(vec2[16] cs, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_lifted_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[3].y + c[1] * cs[3].x;
     vec3 t1 = c[3] * cs[3].x - c[1] * cs[3].y;
     vec3 t2 = c[2] + t1 * cs[6].x;
@@ -909,7 +966,11 @@ vec3[16] sh4_rotate_lifted_rgb(vec2[16] cs, vec3[16] c) {
 //     live values.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
-float[16] sh4_rotate_zxzxz(vec4 q, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1007,7 +1068,11 @@ float[16] sh4_rotate_zxzxz(vec4 q, float[16] c) {
 //     live values.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
-vec3[16] sh4_rotate_zxzxz_rgb(vec4 q, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1104,7 +1169,11 @@ vec3[16] sh4_rotate_zxzxz_rgb(vec4 q, vec3[16] c) {
 //     values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
-float[16] sh4_rotate_align(vec3 n, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -1177,7 +1246,11 @@ float[16] sh4_rotate_align(vec3 n, float[16] c) {
 //     live values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
-vec3[16] sh4_rotate_align_rgb(vec3 n, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -1249,7 +1322,11 @@ vec3[16] sh4_rotate_align_rgb(vec3 n, vec3[16] c) {
 // Operations: 39 (33 mul, 0 add, 6 fma); 9 constants, 18 live values.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-float[16] sh4_rotate_zonal(vec3 dir, float[4] c) {
+ZONAL_HIGHP float[16] sh4_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.z * dir.z;
@@ -1286,7 +1363,11 @@ float[16] sh4_rotate_zonal(vec3 dir, float[4] c) {
 // Operations: 69 (63 mul, 0 add, 6 fma); 9 constants, 18 live values.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-vec3[16] sh4_rotate_zonal_rgb(vec3 dir, vec3[4] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.z * dir.z;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_SMALL_ANGLES_GLSL
 #define ZONAL_SH4_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor1_y(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -51,7 +64,11 @@ float[16] sh4_taylor1_y(float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor1_y_rgb(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -86,7 +103,11 @@ vec3[16] sh4_taylor1_y_rgb(float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor15_y(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -125,7 +146,11 @@ float[16] sh4_taylor15_y(float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor15_y_rgb(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -164,7 +189,11 @@ vec3[16] sh4_taylor15_y_rgb(float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor2_y(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -207,7 +236,11 @@ float[16] sh4_taylor2_y(float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor2_y_rgb(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -250,7 +283,11 @@ vec3[16] sh4_taylor2_y_rgb(float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf3_y(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -307,7 +344,11 @@ float[16] sh4_lf3_y(float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf3_y_rgb(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -364,7 +405,11 @@ vec3[16] sh4_lf3_y_rgb(float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf5_y(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -442,7 +487,11 @@ float[16] sh4_lf5_y(float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf5_y_rgb(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -521,15 +570,19 @@ vec3[16] sh4_lf5_y_rgb(float beta, vec3[16] c) {
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[16] SH4_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[16](
+const ZONAL_HIGHP float[16] SH4_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[16](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449
 );
 // the diagonal of the second derivative of D at 0
-const float[16] SH4_TAYLOR15_Y_LOOP_DDY_DIAG = float[16](
+const ZONAL_HIGHP float[16] SH4_TAYLOR15_Y_LOOP_DDY_DIAG = float[16](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5
 );
-float[16] sh4_taylor15_y_loop(float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[16];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -551,15 +604,19 @@ float[16] sh4_taylor15_y_loop(float beta, float[16] c) {
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[16] SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[16](
+const ZONAL_HIGHP float[16] SH4_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[16](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449
 );
 // the diagonal of the second derivative of D at 0
-const float[16] SH4_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[16](
+const ZONAL_HIGHP float[16] SH4_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[16](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5
 );
-vec3[16] sh4_taylor15_y_rgb_loop(float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[16];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -581,7 +638,11 @@ vec3[16] sh4_taylor15_y_rgb_loop(float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor1_zyz(vec2[2] cs, float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -650,7 +711,11 @@ float[16] sh4_taylor1_zyz(vec2[2] cs, float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -719,7 +784,11 @@ vec3[16] sh4_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor15_zyz(vec2[2] cs, float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -792,7 +861,11 @@ float[16] sh4_taylor15_zyz(vec2[2] cs, float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -865,7 +938,11 @@ vec3[16] sh4_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_taylor2_zyz(vec2[2] cs, float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -942,7 +1019,11 @@ float[16] sh4_taylor2_zyz(vec2[2] cs, float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -1019,7 +1100,11 @@ vec3[16] sh4_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf3_zyz(vec2[2] cs, float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1099,7 +1184,11 @@ float[16] sh4_lf3_zyz(vec2[2] cs, float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1179,7 +1268,11 @@ vec3[16] sh4_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf5_zyz(vec2[2] cs, float beta, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1280,7 +1373,11 @@ float[16] sh4_lf5_zyz(vec2[2] cs, float beta, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1382,7 +1479,11 @@ vec3[16] sh4_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_rotate_small(vec4 q, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1478,7 +1579,11 @@ float[16] sh4_rotate_small(vec4 q, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_rotate_small_rgb(vec4 q, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1574,7 +1679,11 @@ vec3[16] sh4_rotate_small_rgb(vec4 q, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
 //     band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
 //     without bound beyond.
-float[16] sh4_lf5_rotate_small(vec4 q, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1681,7 +1790,11 @@ float[16] sh4_lf5_rotate_small(vec4 q, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
 //     band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
 //     without bound beyond.
-vec3[16] sh4_lf5_rotate_small_rgb(vec4 q, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1791,7 +1904,11 @@ vec3[16] sh4_lf5_rotate_small_rgb(vec4 q, vec3[16] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 //     Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1
 //     at 25 degrees; it grows without bound beyond.
-float[16] sh4_rotate_adaptive(vec4 q, float limit, float[16] c) {
+ZONAL_HIGHP float[16] sh4_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -1979,7 +2096,11 @@ float[16] sh4_rotate_adaptive(vec4 q, float limit, float[16] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 //     Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1
 //     at 25 degrees; it grows without bound beyond.
-vec3[16] sh4_rotate_adaptive_rgb(vec4 q, float limit, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_TILTING_GLSL
 #define ZONAL_SH4_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:4`: Tilts order 4: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_tilt(vec3 n, float[16] c) {
+ZONAL_HIGHP float[16] sh4_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -81,7 +94,11 @@ float[16] sh4_tilt(vec3 n, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_tilt_rgb(vec3 n, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -144,7 +161,11 @@ vec3[16] sh4_tilt_rgb(vec3 n, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf5_tilt(vec3 n, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -219,7 +240,11 @@ float[16] sh4_lf5_tilt(vec3 n, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf5_tilt_rgb(vec3 n, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -294,7 +319,11 @@ vec3[16] sh4_lf5_tilt_rgb(vec3 n, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_tilt_prescaled(vec3 n, float[16] c) {
+ZONAL_HIGHP float[16] sh4_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -355,7 +384,11 @@ float[16] sh4_tilt_prescaled(vec3 n, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_tilt_prescaled_rgb(vec3 n, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -416,7 +449,11 @@ vec3[16] sh4_tilt_prescaled_rgb(vec3 n, vec3[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
 //     grows without bound beyond.
-float[16] sh4_lf5_tilt_prescaled(vec3 n, float[16] c) {
+ZONAL_HIGHP float[16] sh4_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -487,7 +524,11 @@ float[16] sh4_lf5_tilt_prescaled(vec3 n, float[16] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
 //     grows without bound beyond.
-vec3[16] sh4_lf5_tilt_prescaled_rgb(vec3 n, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -553,7 +594,11 @@ vec3[16] sh4_lf5_tilt_prescaled_rgb(vec3 n, vec3[16] c) {
 // Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
 // Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
-float[16] sh4_tilt_scale(float[16] c) {
+ZONAL_HIGHP float[16] sh4_tilt_scale(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         c[0],
         c[1],
@@ -581,7 +626,11 @@ float[16] sh4_tilt_scale(float[16] c) {
 // Operations: 18 (18 mul, 0 add, 0 fma); 3 constants, 6 live values.
 // Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
-vec3[16] sh4_tilt_scale_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_tilt_scale_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         c[0],
         c[1],
@@ -609,7 +658,11 @@ vec3[16] sh4_tilt_scale_rgb(vec3[16] c) {
 // Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
-float[16] sh4_tilt_unscale(float[16] c) {
+ZONAL_HIGHP float[16] sh4_tilt_unscale(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         c[0],
         c[1],
@@ -637,7 +690,11 @@ float[16] sh4_tilt_unscale(float[16] c) {
 // Operations: 18 (18 mul, 0 add, 0 fma); 3 constants, 6 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
-vec3[16] sh4_tilt_unscale_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_tilt_unscale_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         c[0],
         c[1],

@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_EVALUATION_GLSL
 #define ZONAL_SH5_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:5`: The spherical harmonics of order 5 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 24 live values.
 // Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.1e-7).
-float[25] sh5_basis(vec3 dir) {
+ZONAL_HIGHP float[25] sh5_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -71,18 +84,22 @@ float[25] sh5_basis(vec3 dir) {
 // Error: f32 rounding at most 1.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.3e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[10] SH5_BASIS_LOOP_A = float[10](
+const ZONAL_HIGHP float[10] SH5_BASIS_LOOP_A = float[10](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512, 1.9843135, 2.04939, 2.291288, 3.0
 );
 // b, at the same places
-const float[10] SH5_BASIS_LOOP_B = float[10](
+const ZONAL_HIGHP float[10] SH5_BASIS_LOOP_B = float[10](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0, 1.0062306, 0.9797959, 0.8660254, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[4] SH5_BASIS_LOOP_SECTORAL = float[4](
+const ZONAL_HIGHP float[4] SH5_BASIS_LOOP_SECTORAL = float[4](
     -1.7320508, -1.118034, -1.0801234, -1.0606601
 );
-float[25] sh5_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[25] sh5_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[25];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -133,7 +150,11 @@ float[25] sh5_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 3.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.8e-7).
-float sh5_eval(vec3 dir, float[25] c) {
+ZONAL_HIGHP float sh5_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = c[6] * t1 + 0.2820948 * c[0] + c[20] * ((3.913119 * t0 - 2.0497289) * t1 - 0.3291106) + 0.48860252 * dir.z * (c[2] + (3.818813 * t0 - 2.291288) * c[12]);
@@ -161,7 +182,11 @@ float sh5_eval(vec3 dir, float[25] c) {
 // Error: f32 rounding at most 3.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.8e-7).
-vec3 sh5_eval_rgb(vec3 dir, vec3[25] c) {
+ZONAL_HIGHP vec3 sh5_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     vec3 t2 = c[6] * t1 + 0.2820948 * c[0] + c[20] * ((3.913119 * t0 - 2.0497289) * t1 - 0.3291106) + 0.48860252 * dir.z * (c[2] + (3.818813 * t0 - 2.291288) * c[12]);
@@ -190,7 +215,11 @@ vec3 sh5_eval_rgb(vec3 dir, vec3[25] c) {
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.9e-7).
-float sh5_bands_0_1_2_4_eval(vec3 dir, float[18] c) {
+ZONAL_HIGHP float sh5_bands_0_1_2_4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[18] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = c[6] * t1 + 0.2820948 * c[0] + c[13] * ((3.913119 * t0 - 2.0497289) * t1 - 0.3291106) + 0.48860252 * dir.z * c[2];
@@ -217,7 +246,11 @@ float sh5_bands_0_1_2_4_eval(vec3 dir, float[18] c) {
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.9e-7).
-vec3 sh5_bands_0_1_2_4_eval_rgb(vec3 dir, vec3[18] c) {
+ZONAL_HIGHP vec3 sh5_bands_0_1_2_4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[18] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     vec3 t2 = c[6] * t1 + 0.2820948 * c[0] + c[13] * ((3.913119 * t0 - 2.0497289) * t1 - 0.3291106) + 0.48860252 * dir.z * c[2];
@@ -244,7 +277,11 @@ vec3 sh5_bands_0_1_2_4_eval_rgb(vec3 dir, vec3[18] c) {
 // Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.3e-7).
-float sh5_eval_monomial(vec3 dir, float[25] c) {
+ZONAL_HIGHP float sh5_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[0] + (c[2] + (c[6] + (c[12] + c[20] * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + c[21] * dir.z) * dir.z) * dir.z) * dir.x;
     float t1 = dir.x * dir.x - dir.y * dir.y;
     float t2 = t0 + (c[1] + (c[5] + (c[11] + c[19] * dir.z) * dir.z) * dir.z) * dir.y + (c[8] + (c[14] + c[22] * dir.z) * dir.z) * t1;
@@ -265,7 +302,11 @@ float sh5_eval_monomial(vec3 dir, float[25] c) {
 // Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.3e-7).
-vec3 sh5_eval_monomial_rgb(vec3 dir, vec3[25] c) {
+ZONAL_HIGHP vec3 sh5_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[0] + (c[2] + (c[6] + (c[12] + c[20] * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + c[21] * dir.z) * dir.z) * dir.z) * dir.x;
     float t1 = dir.x * dir.x - dir.y * dir.y;
     vec3 t2 = t0 + (c[1] + (c[5] + (c[11] + c[19] * dir.z) * dir.z) * dir.z) * dir.y + (c[8] + (c[14] + c[22] * dir.z) * dir.z) * t1;
@@ -284,7 +325,11 @@ vec3 sh5_eval_monomial_rgb(vec3 dir, vec3[25] c) {
 // Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
-float[25] sh5_to_monomial(float[25] c) {
+ZONAL_HIGHP float[25] sh5_to_monomial(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.48860252 * c[1],
@@ -321,7 +366,11 @@ float[25] sh5_to_monomial(float[25] c) {
 // Operations: 105 (75 mul, 0 add, 30 fma); 21 constants, 25 live values.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
-vec3[25] sh5_to_monomial_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_to_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.48860252 * c[1],

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_FACTORISATION_GLSL
 #define ZONAL_SH5_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:5`: Rotates order 5 by sparse zonal factorisation over 9 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 636 (331 mul, 13 add, 292 fma); 69 constants, 131 live values.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.7e-7).
-float[25] sh5_zhf(mat3 m, float[25] c) {
+ZONAL_HIGHP float[25] sh5_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     float t2 = 2.0466535 * c[2];
@@ -300,7 +313,11 @@ float[25] sh5_zhf(mat3 m, float[25] c) {
 // Operations: 1098 (421 mul, 21 add, 656 fma); 69 constants, 131 live values.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.7e-7).
-vec3[25] sh5_zhf_rgb(mat3 m, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -585,7 +602,11 @@ vec3[25] sh5_zhf_rgb(mat3 m, vec3[25] c) {
 // Operations: 68 (22 mul, 4 add, 42 fma); 43 constants, 27 live values.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-float[25] sh5_zhf_weights(float[25] c) {
+ZONAL_HIGHP float[25] sh5_zhf_weights(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.26422182 * c[5] - 0.91529125 * c[4] + 1.585331 * c[6] - 0.45764562 * c[7] + 0.91529125 * c[8];
     float t1 = 1.5288867 * c[11];
     float t2 = 1.116541 * c[10];
@@ -632,7 +653,11 @@ float[25] sh5_zhf_weights(float[25] c) {
 // Operations: 204 (66 mul, 12 add, 126 fma); 43 constants, 27 live values.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
-vec3[25] sh5_zhf_weights_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_zhf_weights_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.26422182 * c[5] - 0.91529125 * c[4] + 1.585331 * c[6] - 0.45764562 * c[7] + 0.91529125 * c[8];
     vec3 t1 = 1.5288867 * c[11];
     vec3 t2 = 1.116541 * c[10];
@@ -679,7 +704,11 @@ vec3[25] sh5_zhf_weights_rgb(vec3[25] c) {
 // Operations: 68 (22 mul, 2 add, 44 fma); 43 constants, 25 live values.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
-float[25] sh5_zhf_tailored(float[25] f) {
+ZONAL_HIGHP float[25] sh5_zhf_tailored(ZONAL_HIGHP float[25] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.91529125 * f[7];
     float t1 = 1.8305825 * f[5];
     float t2 = 1.1842705 * f[10];
@@ -724,7 +753,11 @@ float[25] sh5_zhf_tailored(float[25] f) {
 // Operations: 204 (66 mul, 6 add, 132 fma); 43 constants, 25 live values.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
-vec3[25] sh5_zhf_tailored_rgb(vec3[25] f) {
+ZONAL_HIGHP vec3[25] sh5_zhf_tailored_rgb(ZONAL_HIGHP vec3[25] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.91529125 * f[7];
     vec3 t1 = 1.8305825 * f[5];
     vec3 t2 = 1.1842705 * f[10];

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_PIECES_GLSL
 #define ZONAL_SH5_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:5`: Rotates order 5 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 52 (26 mul, 1 add, 25 fma); 0 constants, 23 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-float[25] sh5_rotate_z(vec2 cs, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -57,7 +70,11 @@ float[25] sh5_rotate_z(vec2 cs, float[25] c) {
 // Operations: 132 (66 mul, 1 add, 65 fma); 0 constants, 23 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[25] sh5_rotate_z_rgb(vec2 cs, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -101,7 +118,11 @@ vec3[25] sh5_rotate_z_rgb(vec2 cs, vec3[25] c) {
 // Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.2e-7).
-float[25] sh5_rotate_y(vec2 cs, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -184,7 +205,11 @@ float[25] sh5_rotate_y(vec2 cs, float[25] c) {
 // Operations: 280 (68 mul, 3 add, 209 fma); 15 constants, 29 live values.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.2e-7).
-vec3[25] sh5_rotate_y_rgb(vec2 cs, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -266,7 +291,11 @@ vec3[25] sh5_rotate_y_rgb(vec2 cs, vec3[25] c) {
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-float[25] sh5_swap_yz(float[25] c) {
+ZONAL_HIGHP float[25] sh5_swap_yz(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         c[0],
         -c[2],
@@ -302,7 +331,11 @@ float[25] sh5_swap_yz(float[25] c) {
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-vec3[25] sh5_swap_yz_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_swap_yz_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         c[0],
         -c[2],
@@ -338,7 +371,11 @@ vec3[25] sh5_swap_yz_rgb(vec3[25] c) {
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-float[25] sh5_rotate_x_plus_90deg(float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_x_plus_90deg(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         c[0],
         c[2],
@@ -374,7 +411,11 @@ float[25] sh5_rotate_x_plus_90deg(float[25] c) {
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-vec3[25] sh5_rotate_x_plus_90deg_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         c[0],
         c[2],
@@ -410,7 +451,11 @@ vec3[25] sh5_rotate_x_plus_90deg_rgb(vec3[25] c) {
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-float[25] sh5_rotate_x_minus_90deg(float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_x_minus_90deg(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         c[0],
         -c[2],
@@ -446,7 +491,11 @@ float[25] sh5_rotate_x_minus_90deg(float[25] c) {
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
-vec3[25] sh5_rotate_x_minus_90deg_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         c[0],
         -c[2],

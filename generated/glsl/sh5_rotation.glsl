@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_ROTATION_GLSL
 #define ZONAL_SH5_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:5`: Rotates order 5 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     live values.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
-float[25] sh5_rotate(vec4 q, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -161,7 +174,11 @@ float[25] sh5_rotate(vec4 q, float[25] c) {
 //     live values.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
-vec3[25] sh5_rotate_rgb(vec4 q, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -309,14 +326,18 @@ vec3[25] sh5_rotate_rgb(vec4 q, vec3[25] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[44] SH5_ROTATE_LOOP_J = float[44](
+const ZONAL_HIGHP float[44] SH5_ROTATE_LOOP_J = float[44](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
     -0.75, 0.375, 0.559017, 0.73951, 0.9354144, 0.35355338, 0.559017, 0.5, -0.6614378, -0.35355338,
     0.9354144, 0.73951, -0.6614378, 0.125
 );
-float[25] sh5_rotate_loop(vec4 q, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[25];
     float phase_cos[15];
     float phase_sin[15];
@@ -400,14 +421,18 @@ float[25] sh5_rotate_loop(vec4 q, float[25] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[44] SH5_ROTATE_RGB_LOOP_J = float[44](
+const ZONAL_HIGHP float[44] SH5_ROTATE_RGB_LOOP_J = float[44](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
     -0.75, 0.375, 0.559017, 0.73951, 0.9354144, 0.35355338, 0.559017, 0.5, -0.6614378, -0.35355338,
     0.9354144, 0.73951, -0.6614378, 0.125
 );
-vec3[25] sh5_rotate_rgb_loop(vec4 q, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[25];
     float phase_cos[15];
     float phase_sin[15];
@@ -487,7 +512,11 @@ vec3[25] sh5_rotate_rgb_loop(vec4 q, vec3[25] c) {
 // Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
-float[25] sh5_rotate_euler(vec2[3] cs, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -615,7 +644,11 @@ float[25] sh5_rotate_euler(vec2[3] cs, float[25] c) {
 // Operations: 544 (200 mul, 5 add, 339 fma); 15 constants, 42 live values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
-vec3[25] sh5_rotate_euler_rgb(vec2[3] cs, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -745,7 +778,11 @@ vec3[25] sh5_rotate_euler_rgb(vec2[3] cs, vec3[25] c) {
 //     values.
 // Error: f32 rounding at most 6.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-7).
-vec2[13] sh5_angles(vec4 q) {
+ZONAL_HIGHP vec2[13] sh5_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -803,7 +840,11 @@ vec2[13] sh5_angles(vec4 q) {
 // Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-float[25] sh5_rotate_angles(vec2[13] cs, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_angles(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[8].y + c[1] * cs[8].x;
     float t1 = c[3] * cs[8].x - c[1] * cs[8].y;
     float t2 = t1 * cs[4].x - c[2] * cs[4].y;
@@ -910,7 +951,11 @@ float[25] sh5_rotate_angles(vec2[13] cs, float[25] c) {
 // Operations: 507 (180 mul, 3 add, 324 fma); 14 constants, 30 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-vec3[25] sh5_rotate_angles_rgb(vec2[13] cs, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_angles_rgb(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[8].y + c[1] * cs[8].x;
     vec3 t1 = c[3] * cs[8].x - c[1] * cs[8].y;
     vec3 t2 = t1 * cs[4].x - c[2] * cs[4].y;
@@ -1019,7 +1064,11 @@ vec3[25] sh5_rotate_angles_rgb(vec2[13] cs, vec3[25] c) {
 //     live values.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
-vec2[28] sh5_lifted(vec4 q) {
+ZONAL_HIGHP vec2[28] sh5_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1098,7 +1147,11 @@ vec2[28] sh5_lifted(vec4 q) {
 // Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-float[25] sh5_rotate_lifted(vec2[28] cs, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_lifted(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[4].y + c[1] * cs[4].x;
     float t1 = c[3] * cs[4].x - c[1] * cs[4].y;
     float t2 = c[2] + t1 * cs[8].x;
@@ -1181,7 +1234,11 @@ float[25] sh5_rotate_lifted(vec2[28] cs, float[25] c) {
 // Operations: 420 (120 mul, 0 add, 300 fma); 0 constants, 28 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-vec3[25] sh5_rotate_lifted_rgb(vec2[28] cs, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_lifted_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[4].y + c[1] * cs[4].x;
     vec3 t1 = c[3] * cs[4].x - c[1] * cs[4].y;
     vec3 t2 = c[2] + t1 * cs[8].x;
@@ -1263,7 +1320,11 @@ vec3[25] sh5_rotate_lifted_rgb(vec2[28] cs, vec3[25] c) {
 //     live values.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
-float[25] sh5_rotate_zxzxz(vec4 q, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1409,7 +1470,11 @@ float[25] sh5_rotate_zxzxz(vec4 q, float[25] c) {
 //     live values.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
-vec3[25] sh5_rotate_zxzxz_rgb(vec4 q, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1554,7 +1619,11 @@ vec3[25] sh5_rotate_zxzxz_rgb(vec4 q, vec3[25] c) {
 //     live values.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
-float[25] sh5_rotate_align(vec3 n, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -1667,7 +1736,11 @@ float[25] sh5_rotate_align(vec3 n, float[25] c) {
 //     live values.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
-vec3[25] sh5_rotate_align_rgb(vec3 n, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -1779,7 +1852,11 @@ vec3[25] sh5_rotate_align_rgb(vec3 n, vec3[25] c) {
 // Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-float[25] sh5_rotate_zonal(vec3 dir, float[5] c) {
+ZONAL_HIGHP float[25] sh5_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -1834,7 +1911,11 @@ float[25] sh5_rotate_zonal(vec3 dir, float[5] c) {
 // Operations: 112 (101 mul, 0 add, 11 fma); 19 constants, 28 live values.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-vec3[25] sh5_rotate_zonal_rgb(vec3 dir, vec3[5] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[5] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_SMALL_ANGLES_GLSL
 #define ZONAL_SH5_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_taylor1_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -64,7 +77,11 @@ float[25] sh5_taylor1_y(float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_taylor1_y_rgb(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -112,7 +129,11 @@ vec3[25] sh5_taylor1_y_rgb(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_taylor15_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -167,7 +188,11 @@ float[25] sh5_taylor15_y(float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_taylor15_y_rgb(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -222,7 +247,11 @@ vec3[25] sh5_taylor15_y_rgb(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_taylor2_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -286,7 +315,11 @@ float[25] sh5_taylor2_y(float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_taylor2_y_rgb(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -350,7 +383,11 @@ vec3[25] sh5_taylor2_y_rgb(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf3_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -434,7 +471,11 @@ float[25] sh5_lf3_y(float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf3_y_rgb(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -518,7 +559,11 @@ vec3[25] sh5_lf3_y_rgb(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf5_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -637,7 +682,11 @@ float[25] sh5_lf5_y(float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf5_y_rgb(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -757,7 +806,11 @@ vec3[25] sh5_lf5_y_rgb(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_taylor15_taylor15_taylor15_taylor1_y(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor15_taylor15_taylor15_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -810,17 +863,21 @@ float[25] sh5_taylor15_taylor15_taylor15_taylor1_y(float beta, float[25] c) {
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[25] SH5_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[25](
+const ZONAL_HIGHP float[25] SH5_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[25](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135
 );
 // the diagonal of the second derivative of D at 0
-const float[25] SH5_TAYLOR15_Y_LOOP_DDY_DIAG = float[25](
+const ZONAL_HIGHP float[25] SH5_TAYLOR15_Y_LOOP_DDY_DIAG = float[25](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0
 );
-float[25] sh5_taylor15_y_loop(float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[25];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -842,17 +899,21 @@ float[25] sh5_taylor15_y_loop(float beta, float[25] c) {
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[25] SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[25](
+const ZONAL_HIGHP float[25] SH5_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[25](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135
 );
 // the diagonal of the second derivative of D at 0
-const float[25] SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[25](
+const ZONAL_HIGHP float[25] SH5_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[25](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0
 );
-vec3[25] sh5_taylor15_y_rgb_loop(float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[25];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -874,7 +935,11 @@ vec3[25] sh5_taylor15_y_rgb_loop(float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows
 //     without bound beyond.
-float[25] sh5_taylor1_zyz(vec2[2] cs, float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -976,7 +1041,11 @@ float[25] sh5_taylor1_zyz(vec2[2] cs, float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[25] sh5_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -1078,7 +1147,11 @@ vec3[25] sh5_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_taylor15_zyz(vec2[2] cs, float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1187,7 +1260,11 @@ float[25] sh5_taylor15_zyz(vec2[2] cs, float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1296,7 +1373,11 @@ vec3[25] sh5_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[25] sh5_taylor2_zyz(vec2[2] cs, float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -1414,7 +1495,11 @@ float[25] sh5_taylor2_zyz(vec2[2] cs, float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[25] sh5_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -1532,7 +1617,11 @@ vec3[25] sh5_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf3_zyz(vec2[2] cs, float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1651,7 +1740,11 @@ float[25] sh5_lf3_zyz(vec2[2] cs, float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1770,7 +1863,11 @@ vec3[25] sh5_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf5_zyz(vec2[2] cs, float beta, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1924,7 +2021,11 @@ float[25] sh5_lf5_zyz(vec2[2] cs, float beta, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2079,7 +2180,11 @@ vec3[25] sh5_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_rotate_small(vec4 q, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2214,7 +2319,11 @@ float[25] sh5_rotate_small(vec4 q, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_rotate_small_rgb(vec4 q, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2349,7 +2458,11 @@ vec3[25] sh5_rotate_small_rgb(vec4 q, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf5_rotate_small(vec4 q, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2509,7 +2622,11 @@ float[25] sh5_lf5_rotate_small(vec4 q, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf5_rotate_small_rgb(vec4 q, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2672,7 +2789,11 @@ vec3[25] sh5_lf5_rotate_small_rgb(vec4 q, vec3[25] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
 //     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
 //     at 25 degrees; it grows without bound beyond.
-float[25] sh5_rotate_adaptive(vec4 q, float limit, float[25] c) {
+ZONAL_HIGHP float[25] sh5_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -2946,7 +3067,11 @@ float[25] sh5_rotate_adaptive(vec4 q, float limit, float[25] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
 //     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
 //     at 25 degrees; it grows without bound beyond.
-vec3[25] sh5_rotate_adaptive_rgb(vec4 q, float limit, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

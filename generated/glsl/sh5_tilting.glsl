@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH5_TILTING_GLSL
 #define ZONAL_SH5_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:5`: Tilts order 5: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[25] sh5_tilt(vec3 n, float[25] c) {
+ZONAL_HIGHP float[25] sh5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -111,7 +124,11 @@ float[25] sh5_tilt(vec3 n, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[25] sh5_tilt_rgb(vec3 n, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -204,7 +221,11 @@ vec3[25] sh5_tilt_rgb(vec3 n, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf5_tilt(vec3 n, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -325,7 +346,11 @@ float[25] sh5_lf5_tilt(vec3 n, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf5_tilt_rgb(vec3 n, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -446,7 +471,11 @@ vec3[25] sh5_lf5_tilt_rgb(vec3 n, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_tilt_prescaled(vec3 n, float[25] c) {
+ZONAL_HIGHP float[25] sh5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -533,7 +562,11 @@ float[25] sh5_tilt_prescaled(vec3 n, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_tilt_prescaled_rgb(vec3 n, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -620,7 +653,11 @@ vec3[25] sh5_tilt_prescaled_rgb(vec3 n, vec3[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[25] sh5_lf5_tilt_prescaled(vec3 n, float[25] c) {
+ZONAL_HIGHP float[25] sh5_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -731,7 +768,11 @@ float[25] sh5_lf5_tilt_prescaled(vec3 n, float[25] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[25] sh5_lf5_tilt_prescaled_rgb(vec3 n, vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -837,7 +878,11 @@ vec3[25] sh5_lf5_tilt_prescaled_rgb(vec3 n, vec3[25] c) {
 // Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
-float[25] sh5_tilt_scale(float[25] c) {
+ZONAL_HIGHP float[25] sh5_tilt_scale(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         c[0],
         c[1],
@@ -874,7 +919,11 @@ float[25] sh5_tilt_scale(float[25] c) {
 // Operations: 42 (42 mul, 0 add, 0 fma); 7 constants, 14 live values.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
-vec3[25] sh5_tilt_scale_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_tilt_scale_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         c[0],
         c[1],
@@ -911,7 +960,11 @@ vec3[25] sh5_tilt_scale_rgb(vec3[25] c) {
 // Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
-float[25] sh5_tilt_unscale(float[25] c) {
+ZONAL_HIGHP float[25] sh5_tilt_unscale(ZONAL_HIGHP float[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[25](
         c[0],
         c[1],
@@ -948,7 +1001,11 @@ float[25] sh5_tilt_unscale(float[25] c) {
 // Operations: 42 (42 mul, 0 add, 0 fma); 7 constants, 14 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
-vec3[25] sh5_tilt_unscale_rgb(vec3[25] c) {
+ZONAL_HIGHP vec3[25] sh5_tilt_unscale_rgb(ZONAL_HIGHP vec3[25] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[25](
         c[0],
         c[1],

@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_EVALUATION_GLSL
 #define ZONAL_SH6_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:6`: The spherical harmonics of order 6 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 39 live values.
 // Error: f32 rounding at most 1.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.5e-7).
-float[36] sh6_basis(vec3 dir) {
+ZONAL_HIGHP float[36] sh6_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -93,20 +106,24 @@ float[36] sh6_basis(vec3 dir) {
 // Error: f32 rounding at most 2.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.4e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[15] SH6_BASIS_LOOP_A = float[15](
+const ZONAL_HIGHP float[15] SH6_BASIS_LOOP_A = float[15](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512, 1.9843135, 2.04939, 2.291288,
     3.0, 1.9899749, 2.0310097, 2.1712406, 2.4874685, 3.3166249
 );
 // b, at the same places
-const float[15] SH6_BASIS_LOOP_B = float[15](
+const ZONAL_HIGHP float[15] SH6_BASIS_LOOP_B = float[15](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0, 1.0062306, 0.9797959, 0.8660254, 0.0, 1.002853,
     0.9910312, 0.9476071, 0.8291562, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[5] SH6_BASIS_LOOP_SECTORAL = float[5](
+const ZONAL_HIGHP float[5] SH6_BASIS_LOOP_SECTORAL = float[5](
     -1.7320508, -1.118034, -1.0801234, -1.0606601, -1.0488088
 );
-float[36] sh6_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[36] sh6_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[36];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -157,7 +174,11 @@ float[36] sh6_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.3e-7).
-float sh6_eval(vec3 dir, float[36] c) {
+ZONAL_HIGHP float sh6_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = 3.818813 * t0 - 2.291288;
@@ -195,7 +216,11 @@ float sh6_eval(vec3 dir, float[36] c) {
 // Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.3e-7).
-vec3 sh6_eval_rgb(vec3 dir, vec3[36] c) {
+ZONAL_HIGHP vec3 sh6_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = 3.818813 * t0 - 2.291288;
@@ -234,7 +259,11 @@ vec3 sh6_eval_rgb(vec3 dir, vec3[36] c) {
 // Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     5.1e-7).
-float sh6_eval_monomial(vec3 dir, float[36] c) {
+ZONAL_HIGHP float sh6_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[0] + (c[2] + (c[6] + (c[12] + (c[20] + c[30] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t1 = t0 + (c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.z) * dir.z) * dir.z) * dir.z) * dir.x + (c[1] + (c[5] + (c[11] + (c[19] + c[29] * dir.z) * dir.z) * dir.z) * dir.z) * dir.y;
     float t2 = dir.x * dir.x - dir.y * dir.y;
@@ -259,7 +288,11 @@ float sh6_eval_monomial(vec3 dir, float[36] c) {
 // Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     5.1e-7).
-vec3 sh6_eval_monomial_rgb(vec3 dir, vec3[36] c) {
+ZONAL_HIGHP vec3 sh6_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[0] + (c[2] + (c[6] + (c[12] + (c[20] + c[30] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t1 = t0 + (c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.z) * dir.z) * dir.z) * dir.z) * dir.x + (c[1] + (c[5] + (c[11] + (c[19] + c[29] * dir.z) * dir.z) * dir.z) * dir.z) * dir.y;
     float t2 = dir.x * dir.x - dir.y * dir.y;
@@ -282,7 +315,11 @@ vec3 sh6_eval_monomial_rgb(vec3 dir, vec3[36] c) {
 // Operations: 56 (36 mul, 0 add, 20 fma); 33 constants, 36 live values.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
-float[36] sh6_to_monomial(float[36] c) {
+ZONAL_HIGHP float[36] sh6_to_monomial(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
@@ -330,7 +367,11 @@ float[36] sh6_to_monomial(float[36] c) {
 // Operations: 168 (108 mul, 0 add, 60 fma); 33 constants, 36 live values.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
-vec3[36] sh6_to_monomial_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_to_monomial_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],

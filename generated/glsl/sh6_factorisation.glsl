@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_FACTORISATION_GLSL
 #define ZONAL_SH6_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:6`: Rotates order 6 by sparse zonal factorisation over 11 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 1126 (554 mul, 8 add, 564 fma); 117 constants, 217 live values.
 // Error: f32 rounding at most 1.7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.8e-6).
-float[36] sh6_zhf(mat3 m, float[36] c) {
+ZONAL_HIGHP float[36] sh6_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     float t2 = 2.0466535 * c[2];
@@ -498,7 +511,11 @@ float[36] sh6_zhf(mat3 m, float[36] c) {
 // Operations: 1934 (678 mul, 12 add, 1244 fma); 117 constants, 217 live values.
 // Error: f32 rounding at most 1.7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.8e-6).
-vec3[36] sh6_zhf_rgb(mat3 m, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[3];
     float t1 = 0.48860252 * m[0].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -981,7 +998,11 @@ vec3[36] sh6_zhf_rgb(mat3 m, vec3[36] c) {
 // Operations: 120 (28 mul, 2 add, 90 fma); 77 constants, 36 live values.
 // Error: f32 rounding at most 3.8e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
-float[36] sh6_zhf_weights(float[36] c) {
+ZONAL_HIGHP float[36] sh6_zhf_weights(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.970813 * c[5];
     float t1 = 0.59919876 * c[9];
     float t2 = 0.77356225 * c[11] - (t1 + 0.39946583 * c[10]) + 0.77356225 * c[13] - 0.6918951 * c[14] + 0.59919876 * c[15];
@@ -1049,7 +1070,11 @@ float[36] sh6_zhf_weights(float[36] c) {
 // Operations: 360 (84 mul, 6 add, 270 fma); 77 constants, 36 live values.
 // Error: f32 rounding at most 3.8e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
-vec3[36] sh6_zhf_weights_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_zhf_weights_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.970813 * c[5];
     vec3 t1 = 0.59919876 * c[9];
     vec3 t2 = 0.77356225 * c[11] - (t1 + 0.39946583 * c[10]) + 0.77356225 * c[13] - 0.6918951 * c[14] + 0.59919876 * c[15];
@@ -1117,7 +1142,11 @@ vec3[36] sh6_zhf_weights_rgb(vec3[36] c) {
 // Operations: 122 (30 mul, 4 add, 88 fma); 77 constants, 36 live values.
 // Error: f32 rounding at most 5.8e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-float[36] sh6_zhf_tailored(float[36] f) {
+ZONAL_HIGHP float[36] sh6_zhf_tailored(ZONAL_HIGHP float[36] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.970813 * f[4];
     float t1 = 0.59919876 * f[9];
     float t2 = 0.847395 * f[10];
@@ -1183,7 +1212,11 @@ float[36] sh6_zhf_tailored(float[36] f) {
 // Operations: 366 (90 mul, 12 add, 264 fma); 77 constants, 36 live values.
 // Error: f32 rounding at most 5.8e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-vec3[36] sh6_zhf_tailored_rgb(vec3[36] f) {
+ZONAL_HIGHP vec3[36] sh6_zhf_tailored_rgb(ZONAL_HIGHP vec3[36] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.970813 * f[4];
     vec3 t1 = 0.59919876 * f[9];
     vec3 t2 = 0.847395 * f[10];

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_PIECES_GLSL
 #define ZONAL_SH6_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:6`: Rotates order 6 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 76 (38 mul, 1 add, 37 fma); 0 constants, 34 live values.
 // Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-float[36] sh6_rotate_z(vec2 cs, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -70,7 +83,11 @@ float[36] sh6_rotate_z(vec2 cs, float[36] c) {
 // Operations: 196 (98 mul, 1 add, 97 fma); 0 constants, 34 live values.
 // Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-vec3[36] sh6_rotate_z_rgb(vec2 cs, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -127,7 +144,11 @@ vec3[36] sh6_rotate_z_rgb(vec2 cs, vec3[36] c) {
 // Operations: 172 (40 mul, 1 add, 131 fma); 33 constants, 42 live values.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
-float[36] sh6_rotate_y(vec2 cs, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -255,7 +276,11 @@ float[36] sh6_rotate_y(vec2 cs, float[36] c) {
 // Operations: 482 (100 mul, 3 add, 379 fma); 33 constants, 42 live values.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
-vec3[36] sh6_rotate_y_rgb(vec2 cs, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -382,7 +407,11 @@ vec3[36] sh6_rotate_y_rgb(vec2 cs, vec3[36] c) {
 // Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
-float[36] sh6_swap_yz(float[36] c) {
+ZONAL_HIGHP float[36] sh6_swap_yz(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         c[0],
         -c[2],
@@ -429,7 +458,11 @@ float[36] sh6_swap_yz(float[36] c) {
 // Operations: 204 (84 mul, 0 add, 120 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
-vec3[36] sh6_swap_yz_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_swap_yz_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         c[0],
         -c[2],
@@ -476,7 +509,11 @@ vec3[36] sh6_swap_yz_rgb(vec3[36] c) {
 // Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
-float[36] sh6_rotate_x_plus_90deg(float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_x_plus_90deg(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         c[0],
         c[2],
@@ -523,7 +560,11 @@ float[36] sh6_rotate_x_plus_90deg(float[36] c) {
 // Operations: 204 (84 mul, 0 add, 120 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
-vec3[36] sh6_rotate_x_plus_90deg_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         c[0],
         c[2],
@@ -570,7 +611,11 @@ vec3[36] sh6_rotate_x_plus_90deg_rgb(vec3[36] c) {
 // Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
-float[36] sh6_rotate_x_minus_90deg(float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_x_minus_90deg(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         c[0],
         -c[2],
@@ -617,7 +662,11 @@ float[36] sh6_rotate_x_minus_90deg(float[36] c) {
 // Operations: 204 (84 mul, 0 add, 120 fma); 27 constants, 32 live values.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
-vec3[36] sh6_rotate_x_minus_90deg_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         c[0],
         -c[2],

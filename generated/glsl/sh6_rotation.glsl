@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_ROTATION_GLSL
 #define ZONAL_SH6_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:6`: Rotates order 6 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     live values.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
-float[36] sh6_rotate(vec4 q, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -225,7 +238,11 @@ float[36] sh6_rotate(vec4 q, float[36] c) {
 //     live values.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
-vec3[36] sh6_rotate_rgb(vec4 q, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -437,7 +454,7 @@ vec3[36] sh6_rotate_rgb(vec4 q, vec3[36] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[75] SH6_ROTATE_LOOP_J = float[75](
+const ZONAL_HIGHP float[75] SH6_ROTATE_LOOP_J = float[75](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -448,7 +465,11 @@ const float[75] SH6_ROTATE_LOOP_J = float[75](
     -0.6614378, 0.40504628, 0.8125, -0.41926274, -0.19764236, 0.79549515, -0.572822, 0.90571105,
     -0.41926274, 0.0625
 );
-float[36] sh6_rotate_loop(vec4 q, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[36];
     float phase_cos[18];
     float phase_sin[18];
@@ -532,7 +553,7 @@ float[36] sh6_rotate_loop(vec4 q, float[36] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[75] SH6_ROTATE_RGB_LOOP_J = float[75](
+const ZONAL_HIGHP float[75] SH6_ROTATE_RGB_LOOP_J = float[75](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -543,7 +564,11 @@ const float[75] SH6_ROTATE_RGB_LOOP_J = float[75](
     -0.6614378, 0.40504628, 0.8125, -0.41926274, -0.19764236, 0.79549515, -0.572822, 0.90571105,
     -0.41926274, 0.0625
 );
-vec3[36] sh6_rotate_rgb_loop(vec4 q, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[36];
     float phase_cos[18];
     float phase_sin[18];
@@ -623,7 +648,11 @@ vec3[36] sh6_rotate_rgb_loop(vec4 q, vec3[36] c) {
 // Operations: 324 (116 mul, 3 add, 205 fma); 33 constants, 59 live values.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-float[36] sh6_rotate_euler(vec2[3] cs, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -815,7 +844,11 @@ float[36] sh6_rotate_euler(vec2[3] cs, float[36] c) {
 // Operations: 874 (296 mul, 5 add, 573 fma); 33 constants, 59 live values.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-vec3[36] sh6_rotate_euler_rgb(vec2[3] cs, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1009,7 +1042,11 @@ vec3[36] sh6_rotate_euler_rgb(vec2[3] cs, vec3[36] c) {
 //     values.
 // Error: f32 rounding at most 8e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
-vec2[16] sh6_angles(vec4 q) {
+ZONAL_HIGHP vec2[16] sh6_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1076,7 +1113,11 @@ vec2[16] sh6_angles(vec4 q) {
 // Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
-float[36] sh6_rotate_angles(vec2[16] cs, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_angles(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[10].y + c[1] * cs[10].x;
     float t1 = c[3] * cs[10].x - c[1] * cs[10].y;
     float t2 = t1 * cs[5].x - c[2] * cs[5].y;
@@ -1241,7 +1282,11 @@ float[36] sh6_rotate_angles(vec2[16] cs, float[36] c) {
 // Operations: 825 (270 mul, 3 add, 552 fma); 32 constants, 43 live values.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
-vec3[36] sh6_rotate_angles_rgb(vec2[16] cs, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_angles_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[10].y + c[1] * cs[10].x;
     vec3 t1 = c[3] * cs[10].x - c[1] * cs[10].y;
     vec3 t2 = t1 * cs[5].x - c[2] * cs[5].y;
@@ -1408,7 +1453,11 @@ vec3[36] sh6_rotate_angles_rgb(vec2[16] cs, vec3[36] c) {
 //     92 live values.
 // Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-vec2[45] sh6_lifted(vec4 q) {
+ZONAL_HIGHP vec2[45] sh6_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1511,7 +1560,11 @@ vec2[45] sh6_lifted(vec4 q) {
 // Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[36] sh6_rotate_lifted(vec2[45] cs, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_lifted(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[5].y + c[1] * cs[5].x;
     float t1 = c[3] * cs[5].x - c[1] * cs[5].y;
     float t2 = c[2] + t1 * cs[10].x;
@@ -1626,7 +1679,11 @@ float[36] sh6_rotate_lifted(vec2[45] cs, float[36] c) {
 // Operations: 675 (180 mul, 0 add, 495 fma); 0 constants, 40 live values.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[36] sh6_rotate_lifted_rgb(vec2[45] cs, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_lifted_rgb(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[5].y + c[1] * cs[5].x;
     vec3 t1 = c[3] * cs[5].x - c[1] * cs[5].y;
     vec3 t2 = c[2] + t1 * cs[10].x;
@@ -1740,7 +1797,11 @@ vec3[36] sh6_rotate_lifted_rgb(vec2[45] cs, vec3[36] c) {
 //     live values.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
-float[36] sh6_rotate_zxzxz(vec4 q, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1944,7 +2005,11 @@ float[36] sh6_rotate_zxzxz(vec4 q, float[36] c) {
 //     live values.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
-vec3[36] sh6_rotate_zxzxz_rgb(vec4 q, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2147,7 +2212,11 @@ vec3[36] sh6_rotate_zxzxz_rgb(vec4 q, vec3[36] c) {
 //     live values.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
-float[36] sh6_rotate_align(vec3 n, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -2315,7 +2384,11 @@ float[36] sh6_rotate_align(vec3 n, float[36] c) {
 //     live values.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
-vec3[36] sh6_rotate_align_rgb(vec3 n, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -2482,7 +2555,11 @@ vec3[36] sh6_rotate_align_rgb(vec3 n, vec3[36] c) {
 // Operations: 97 (78 mul, 0 add, 19 fma); 31 constants, 41 live values.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
-float[36] sh6_rotate_zonal(vec3 dir, float[6] c) {
+ZONAL_HIGHP float[36] sh6_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -2559,7 +2636,11 @@ float[36] sh6_rotate_zonal(vec3 dir, float[6] c) {
 // Operations: 167 (148 mul, 0 add, 19 fma); 31 constants, 41 live values.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
-vec3[36] sh6_rotate_zonal_rgb(vec3 dir, vec3[6] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_SMALL_ANGLES_GLSL
 #define ZONAL_SH6_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor1_y(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -77,7 +90,11 @@ float[36] sh6_taylor1_y(float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor1_y_rgb(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -138,7 +155,11 @@ vec3[36] sh6_taylor1_y_rgb(float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor15_y(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -210,7 +231,11 @@ float[36] sh6_taylor15_y(float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor15_y_rgb(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.7320508 * beta;
@@ -282,7 +307,11 @@ vec3[36] sh6_taylor15_y_rgb(float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor2_y(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -368,7 +397,11 @@ float[36] sh6_taylor2_y(float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor2_y_rgb(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -454,7 +487,11 @@ vec3[36] sh6_taylor2_y_rgb(float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf3_y(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -571,7 +608,11 @@ float[36] sh6_lf3_y(float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf3_y_rgb(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -688,7 +729,11 @@ vec3[36] sh6_lf3_y_rgb(float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf5_y(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -857,7 +902,11 @@ float[36] sh6_lf5_y(float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf5_y_rgb(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1027,19 +1076,23 @@ vec3[36] sh6_lf5_y_rgb(float beta, vec3[36] c) {
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[36] SH6_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[36](
+const ZONAL_HIGHP float[36] SH6_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[36](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
     -3.8729835, -2.6457512, -2.4494898, -2.1213202, -1.5811388
 );
 // the diagonal of the second derivative of D at 0
-const float[36] SH6_TAYLOR15_Y_LOOP_DDY_DIAG = float[36](
+const ZONAL_HIGHP float[36] SH6_TAYLOR15_Y_LOOP_DDY_DIAG = float[36](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5
 );
-float[36] sh6_taylor15_y_loop(float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[36];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1061,19 +1114,23 @@ float[36] sh6_taylor15_y_loop(float beta, float[36] c) {
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[36] SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[36](
+const ZONAL_HIGHP float[36] SH6_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[36](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
     -3.8729835, -2.6457512, -2.4494898, -2.1213202, -1.5811388
 );
 // the diagonal of the second derivative of D at 0
-const float[36] SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[36](
+const ZONAL_HIGHP float[36] SH6_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[36](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5
 );
-vec3[36] sh6_taylor15_y_rgb_loop(float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[36];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1095,7 +1152,11 @@ vec3[36] sh6_taylor15_y_rgb_loop(float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor1_zyz(vec2[2] cs, float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -1234,7 +1295,11 @@ float[36] sh6_taylor1_zyz(vec2[2] cs, float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -1373,7 +1438,11 @@ vec3[36] sh6_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor15_zyz(vec2[2] cs, float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1523,7 +1592,11 @@ float[36] sh6_taylor15_zyz(vec2[2] cs, float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -1673,7 +1746,11 @@ vec3[36] sh6_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_taylor2_zyz(vec2[2] cs, float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -1837,7 +1914,11 @@ float[36] sh6_taylor2_zyz(vec2[2] cs, float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -2001,7 +2082,11 @@ vec3[36] sh6_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf3_zyz(vec2[2] cs, float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2167,7 +2252,11 @@ float[36] sh6_lf3_zyz(vec2[2] cs, float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2333,7 +2422,11 @@ vec3[36] sh6_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf5_zyz(vec2[2] cs, float beta, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2551,7 +2644,11 @@ float[36] sh6_lf5_zyz(vec2[2] cs, float beta, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2770,7 +2867,11 @@ vec3[36] sh6_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_rotate_small(vec4 q, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2952,7 +3053,11 @@ float[36] sh6_rotate_small(vec4 q, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_rotate_small_rgb(vec4 q, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3134,7 +3239,11 @@ vec3[36] sh6_rotate_small_rgb(vec4 q, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf5_rotate_small(vec4 q, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3358,7 +3467,11 @@ float[36] sh6_lf5_rotate_small(vec4 q, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
 //     worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf5_rotate_small_rgb(vec4 q, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3585,7 +3698,11 @@ vec3[36] sh6_lf5_rotate_small_rgb(vec4 q, vec3[36] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 //     Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
 //     at 25 degrees; it grows without bound beyond.
-float[36] sh6_rotate_adaptive(vec4 q, float limit, float[36] c) {
+ZONAL_HIGHP float[36] sh6_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -3970,7 +4087,11 @@ float[36] sh6_rotate_adaptive(vec4 q, float limit, float[36] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 //     Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
 //     at 25 degrees; it grows without bound beyond.
-vec3[36] sh6_rotate_adaptive_rgb(vec4 q, float limit, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

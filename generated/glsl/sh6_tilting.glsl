@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_TILTING_GLSL
 #define ZONAL_SH6_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:6`: Tilts order 6: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_tilt(vec3 n, float[36] c) {
+ZONAL_HIGHP float[36] sh6_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -147,7 +160,11 @@ float[36] sh6_tilt(vec3 n, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_tilt_rgb(vec3 n, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -276,7 +293,11 @@ vec3[36] sh6_tilt_rgb(vec3 n, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf5_tilt(vec3 n, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -451,7 +472,11 @@ float[36] sh6_lf5_tilt(vec3 n, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf5_tilt_rgb(vec3 n, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -626,7 +651,11 @@ vec3[36] sh6_lf5_tilt_rgb(vec3 n, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_tilt_prescaled(vec3 n, float[36] c) {
+ZONAL_HIGHP float[36] sh6_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -743,7 +772,11 @@ float[36] sh6_tilt_prescaled(vec3 n, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_tilt_prescaled_rgb(vec3 n, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -860,7 +893,11 @@ vec3[36] sh6_tilt_prescaled_rgb(vec3 n, vec3[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
 //     grows without bound beyond.
-float[36] sh6_lf5_tilt_prescaled(vec3 n, float[36] c) {
+ZONAL_HIGHP float[36] sh6_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1015,7 +1052,11 @@ float[36] sh6_lf5_tilt_prescaled(vec3 n, float[36] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
 //     grows without bound beyond.
-vec3[36] sh6_lf5_tilt_prescaled_rgb(vec3 n, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1165,7 +1206,11 @@ vec3[36] sh6_lf5_tilt_prescaled_rgb(vec3 n, vec3[36] c) {
 // Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[36] sh6_tilt_scale(float[36] c) {
+ZONAL_HIGHP float[36] sh6_tilt_scale(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         c[0],
         c[1],
@@ -1213,7 +1258,11 @@ float[36] sh6_tilt_scale(float[36] c) {
 // Operations: 72 (72 mul, 0 add, 0 fma); 12 constants, 24 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[36] sh6_tilt_scale_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_tilt_scale_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         c[0],
         c[1],
@@ -1261,7 +1310,11 @@ vec3[36] sh6_tilt_scale_rgb(vec3[36] c) {
 // Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
-float[36] sh6_tilt_unscale(float[36] c) {
+ZONAL_HIGHP float[36] sh6_tilt_unscale(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         c[0],
         c[1],
@@ -1309,7 +1362,11 @@ float[36] sh6_tilt_unscale(float[36] c) {
 // Operations: 72 (72 mul, 0 add, 0 fma); 12 constants, 24 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
-vec3[36] sh6_tilt_unscale_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_tilt_unscale_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         c[0],
         c[1],

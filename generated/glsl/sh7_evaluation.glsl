@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_EVALUATION_GLSL
 #define ZONAL_SH7_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:7`: The spherical harmonics of order 7 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 90 (62 mul, 0 add, 28 fma); 50 constants, 50 live values.
 // Error: f32 rounding at most 2.7e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 4.2e-7).
-float[49] sh7_basis(vec3 dir) {
+ZONAL_HIGHP float[49] sh7_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -116,21 +129,25 @@ float[49] sh7_basis(vec3 dir) {
 // Error: f32 rounding at most 4.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 7.4e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[21] SH7_BASIS_LOOP_A = float[21](
+const ZONAL_HIGHP float[21] SH7_BASIS_LOOP_A = float[21](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512, 1.9843135, 2.04939, 2.291288,
     3.0, 1.9899749, 2.0310097, 2.1712406, 2.4874685, 3.3166249, 1.9930434, 2.021315, 2.113942,
     2.3013682, 2.6739483, 3.6055512
 );
 // b, at the same places
-const float[21] SH7_BASIS_LOOP_B = float[21](
+const ZONAL_HIGHP float[21] SH7_BASIS_LOOP_B = float[21](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0, 1.0062306, 0.9797959, 0.8660254, 0.0, 1.002853,
     0.9910312, 0.9476071, 0.8291562, 0.0, 1.001542, 0.9952267, 0.9736101, 0.9251849, 0.8062258, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[6] SH7_BASIS_LOOP_SECTORAL = float[6](
+const ZONAL_HIGHP float[6] SH7_BASIS_LOOP_SECTORAL = float[6](
     -1.7320508, -1.118034, -1.0801234, -1.0606601, -1.0488088, -1.040833
 );
-float[49] sh7_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[49] sh7_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[49];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -181,7 +198,11 @@ float[49] sh7_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 1.2e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.9e-7).
-float sh7_eval(vec3 dir, float[49] c) {
+ZONAL_HIGHP float sh7_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -230,7 +251,11 @@ float sh7_eval(vec3 dir, float[49] c) {
 // Error: f32 rounding at most 1.2e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.9e-7).
-vec3 sh7_eval_rgb(vec3 dir, vec3[49] c) {
+ZONAL_HIGHP vec3 sh7_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -280,7 +305,11 @@ vec3 sh7_eval_rgb(vec3 dir, vec3[49] c) {
 // Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     6e-7).
-float sh7_eval_monomial(vec3 dir, float[49] c) {
+ZONAL_HIGHP float sh7_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[2] + (c[6] + (c[12] + (c[20] + (c[30] + c[42] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t1 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t2 = c[1] + (c[5] + (c[11] + (c[19] + (c[29] + c[41] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
@@ -309,7 +338,11 @@ float sh7_eval_monomial(vec3 dir, float[49] c) {
 // Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     6e-7).
-vec3 sh7_eval_monomial_rgb(vec3 dir, vec3[49] c) {
+ZONAL_HIGHP vec3 sh7_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[2] + (c[6] + (c[12] + (c[20] + (c[30] + c[42] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t1 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t2 = c[1] + (c[5] + (c[11] + (c[19] + (c[29] + c[41] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
@@ -336,7 +369,11 @@ vec3 sh7_eval_monomial_rgb(vec3 dir, vec3[49] c) {
 // Operations: 84 (49 mul, 0 add, 35 fma); 49 constants, 49 live values.
 // Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
-float[49] sh7_to_monomial(float[49] c) {
+ZONAL_HIGHP float[49] sh7_to_monomial(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         0.31735665 * c[20] - 0.317846 * c[42] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
@@ -397,7 +434,11 @@ float[49] sh7_to_monomial(float[49] c) {
 // Operations: 252 (147 mul, 0 add, 105 fma); 49 constants, 49 live values.
 // Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
-vec3[49] sh7_to_monomial_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_to_monomial_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         0.31735665 * c[20] - 0.317846 * c[42] - 0.31539157 * c[6] + 0.2820948 * c[0],
         0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_FACTORISATION_GLSL
 #define ZONAL_SH7_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:7`: Rotates order 7 by sparse zonal factorisation over 13 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 1816 (850 mul, 14 add, 952 fma); 194 constants, 341 live values.
 // Error: f32 rounding at most 2.2e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-6).
-float[49] sh7_zhf(mat3 m, float[49] c) {
+ZONAL_HIGHP float[49] sh7_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     float t2 = 2.0466535 * c[2];
@@ -747,7 +760,11 @@ float[49] sh7_zhf(mat3 m, float[49] c) {
 // Operations: 3144 (1024 mul, 18 add, 2102 fma); 194 constants, 341 live values.
 // Error: f32 rounding at most 2.2e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-6).
-vec3[49] sh7_zhf_rgb(mat3 m, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -1479,7 +1496,11 @@ vec3[49] sh7_zhf_rgb(mat3 m, vec3[49] c) {
 // Operations: 211 (40 mul, 2 add, 169 fma); 139 constants, 49 live values.
 // Error: f32 rounding at most 4.6e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
-float[49] sh7_zhf_weights(float[49] c) {
+ZONAL_HIGHP float[49] sh7_zhf_weights(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.970813 * c[5];
     float t1 = 0.847395 * c[10];
     float t2 = 1.0048869 * c[11];
@@ -1570,7 +1591,11 @@ float[49] sh7_zhf_weights(float[49] c) {
 // Operations: 633 (120 mul, 6 add, 507 fma); 139 constants, 49 live values.
 // Error: f32 rounding at most 4.6e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
-vec3[49] sh7_zhf_weights_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_zhf_weights_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.970813 * c[5];
     vec3 t1 = 0.847395 * c[10];
     vec3 t2 = 1.0048869 * c[11];
@@ -1661,7 +1686,11 @@ vec3[49] sh7_zhf_weights_rgb(vec3[49] c) {
 // Operations: 213 (42 mul, 1 add, 170 fma); 139 constants, 49 live values.
 // Error: f32 rounding at most 4.1e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
-float[49] sh7_zhf_tailored(float[49] f) {
+ZONAL_HIGHP float[49] sh7_zhf_tailored(ZONAL_HIGHP float[49] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.970813 * f[5];
     float t1 = 0.778382 * f[11];
     float t2 = 0.847395 * f[9];
@@ -1753,7 +1782,11 @@ float[49] sh7_zhf_tailored(float[49] f) {
 // Operations: 639 (126 mul, 3 add, 510 fma); 139 constants, 49 live values.
 // Error: f32 rounding at most 4.1e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
-vec3[49] sh7_zhf_tailored_rgb(vec3[49] f) {
+ZONAL_HIGHP vec3[49] sh7_zhf_tailored_rgb(ZONAL_HIGHP vec3[49] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.970813 * f[5];
     vec3 t1 = 0.778382 * f[11];
     vec3 t2 = 0.847395 * f[9];

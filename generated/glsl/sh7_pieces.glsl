@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_PIECES_GLSL
 #define ZONAL_SH7_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:7`: Rotates order 7 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 104 (52 mul, 1 add, 51 fma); 0 constants, 47 live values.
 // Error: f32 rounding at most 8e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.4e-7).
-float[49] sh7_rotate_z(vec2 cs, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -85,7 +98,11 @@ float[49] sh7_rotate_z(vec2 cs, float[49] c) {
 // Operations: 272 (136 mul, 1 add, 135 fma); 0 constants, 47 live values.
 // Error: f32 rounding at most 8e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.4e-7).
-vec3[49] sh7_rotate_z_rgb(vec2 cs, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -157,7 +174,11 @@ vec3[49] sh7_rotate_z_rgb(vec2 cs, vec3[49] c) {
 // Operations: 264 (54 mul, 1 add, 209 fma); 53 constants, 57 live values.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-float[49] sh7_rotate_y(vec2 cs, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -346,7 +367,11 @@ float[49] sh7_rotate_y(vec2 cs, float[49] c) {
 // Operations: 750 (138 mul, 3 add, 609 fma); 53 constants, 57 live values.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
-vec3[49] sh7_rotate_y_rgb(vec2 cs, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -534,7 +559,11 @@ vec3[49] sh7_rotate_y_rgb(vec2 cs, vec3[49] c) {
 // Operations: 111 (41 mul, 0 add, 70 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-float[49] sh7_swap_yz(float[49] c) {
+ZONAL_HIGHP float[49] sh7_swap_yz(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         c[0],
         -c[2],
@@ -594,7 +623,11 @@ float[49] sh7_swap_yz(float[49] c) {
 // Operations: 333 (123 mul, 0 add, 210 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-vec3[49] sh7_swap_yz_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_swap_yz_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         c[0],
         -c[2],
@@ -654,7 +687,11 @@ vec3[49] sh7_swap_yz_rgb(vec3[49] c) {
 // Operations: 111 (41 mul, 0 add, 70 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-float[49] sh7_rotate_x_plus_90deg(float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_x_plus_90deg(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         c[0],
         c[2],
@@ -714,7 +751,11 @@ float[49] sh7_rotate_x_plus_90deg(float[49] c) {
 // Operations: 333 (123 mul, 0 add, 210 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-vec3[49] sh7_rotate_x_plus_90deg_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         c[0],
         c[2],
@@ -774,7 +815,11 @@ vec3[49] sh7_rotate_x_plus_90deg_rgb(vec3[49] c) {
 // Operations: 111 (41 mul, 0 add, 70 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-float[49] sh7_rotate_x_minus_90deg(float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_x_minus_90deg(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         c[0],
         -c[2],
@@ -834,7 +879,11 @@ float[49] sh7_rotate_x_minus_90deg(float[49] c) {
 // Operations: 333 (123 mul, 0 add, 210 fma); 46 constants, 45 live values.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
-vec3[49] sh7_rotate_x_minus_90deg_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         c[0],
         -c[2],

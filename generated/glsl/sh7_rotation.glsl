@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_ROTATION_GLSL
 #define ZONAL_SH7_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:7`: Rotates order 7 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     live values.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-float[49] sh7_rotate(vec4 q, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -306,7 +319,11 @@ float[49] sh7_rotate(vec4 q, float[49] c) {
 //     live values.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-vec3[49] sh7_rotate_rgb(vec4 q, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -599,7 +616,7 @@ vec3[49] sh7_rotate_rgb(vec4 q, vec3[49] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[118] SH7_ROTATE_LOOP_J = float[118](
+const ZONAL_HIGHP float[118] SH7_ROTATE_LOOP_J = float[118](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -615,7 +632,11 @@ const float[118] SH7_ROTATE_LOOP_J = float[118](
     -0.6846532, -0.5625, -0.49607837, -0.1711633, 0.8125, -0.2538762, -0.10825317, 0.586302,
     -0.80282706, -0.67169327, 0.69526863, -0.2538762, 0.03125
 );
-float[49] sh7_rotate_loop(vec4 q, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[49];
     float phase_cos[21];
     float phase_sin[21];
@@ -699,7 +720,7 @@ float[49] sh7_rotate_loop(vec4 q, float[49] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[118] SH7_ROTATE_RGB_LOOP_J = float[118](
+const ZONAL_HIGHP float[118] SH7_ROTATE_RGB_LOOP_J = float[118](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -715,7 +736,11 @@ const float[118] SH7_ROTATE_RGB_LOOP_J = float[118](
     -0.6846532, -0.5625, -0.49607837, -0.1711633, 0.8125, -0.2538762, -0.10825317, 0.586302,
     -0.80282706, -0.67169327, 0.69526863, -0.2538762, 0.03125
 );
-vec3[49] sh7_rotate_rgb_loop(vec4 q, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[49];
     float phase_cos[21];
     float phase_sin[21];
@@ -795,7 +820,11 @@ vec3[49] sh7_rotate_rgb_loop(vec4 q, vec3[49] c) {
 // Operations: 472 (158 mul, 3 add, 311 fma); 53 constants, 76 live values.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
-float[49] sh7_rotate_euler(vec2[3] cs, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1068,7 +1097,11 @@ float[49] sh7_rotate_euler(vec2[3] cs, float[49] c) {
 // Operations: 1294 (410 mul, 5 add, 879 fma); 53 constants, 76 live values.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
-vec3[49] sh7_rotate_euler_rgb(vec2[3] cs, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1343,7 +1376,11 @@ vec3[49] sh7_rotate_euler_rgb(vec2[3] cs, vec3[49] c) {
 //     values.
 // Error: f32 rounding at most 9.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
-vec2[19] sh7_angles(vec4 q) {
+ZONAL_HIGHP vec2[19] sh7_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1419,7 +1456,11 @@ vec2[19] sh7_angles(vec4 q) {
 // Operations: 411 (126 mul, 1 add, 284 fma); 52 constants, 56 live values.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-float[49] sh7_rotate_angles(vec2[19] cs, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_angles(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[12].y + c[1] * cs[12].x;
     float t1 = c[3] * cs[12].x - c[1] * cs[12].y;
     float t2 = t1 * cs[6].x - c[2] * cs[6].y;
@@ -1659,7 +1700,11 @@ float[49] sh7_rotate_angles(vec2[19] cs, float[49] c) {
 // Operations: 1233 (378 mul, 3 add, 852 fma); 52 constants, 56 live values.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-vec3[49] sh7_rotate_angles_rgb(vec2[19] cs, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_angles_rgb(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[12].y + c[1] * cs[12].x;
     vec3 t1 = c[3] * cs[12].x - c[1] * cs[12].y;
     vec3 t2 = t1 * cs[6].x - c[2] * cs[6].y;
@@ -1901,7 +1946,11 @@ vec3[49] sh7_rotate_angles_rgb(vec2[19] cs, vec3[49] c) {
 //     139 live values.
 // Error: f32 rounding at most 2.6e-5 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
-vec2[68] sh7_lifted(vec4 q) {
+ZONAL_HIGHP vec2[68] sh7_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2038,7 +2087,11 @@ vec2[68] sh7_lifted(vec4 q) {
 // Operations: 336 (84 mul, 0 add, 252 fma); 0 constants, 54 live values.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[49] sh7_rotate_lifted(vec2[68] cs, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_lifted(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[6].y + c[1] * cs[6].x;
     float t1 = c[3] * cs[6].x - c[1] * cs[6].y;
     float t2 = c[2] + t1 * cs[12].x;
@@ -2191,7 +2244,11 @@ float[49] sh7_rotate_lifted(vec2[68] cs, float[49] c) {
 // Operations: 1008 (252 mul, 0 add, 756 fma); 0 constants, 54 live values.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[49] sh7_rotate_lifted_rgb(vec2[68] cs, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_lifted_rgb(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[6].y + c[1] * cs[6].x;
     vec3 t1 = c[3] * cs[6].x - c[1] * cs[6].y;
     vec3 t2 = c[2] + t1 * cs[12].x;
@@ -2343,7 +2400,11 @@ vec3[49] sh7_rotate_lifted_rgb(vec2[68] cs, vec3[49] c) {
 //     live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-float[49] sh7_rotate_zxzxz(vec4 q, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2615,7 +2676,11 @@ float[49] sh7_rotate_zxzxz(vec4 q, float[49] c) {
 //     live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-vec3[49] sh7_rotate_zxzxz_rgb(vec4 q, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2886,7 +2951,11 @@ vec3[49] sh7_rotate_zxzxz_rgb(vec4 q, vec3[49] c) {
 //     live values.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
-float[49] sh7_rotate_align(vec3 n, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -3127,7 +3196,11 @@ float[49] sh7_rotate_align(vec3 n, float[49] c) {
 //     live values.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
-vec3[49] sh7_rotate_align_rgb(vec3 n, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -3367,7 +3440,11 @@ vec3[49] sh7_rotate_align_rgb(vec3 n, vec3[49] c) {
 // Operations: 135 (107 mul, 0 add, 28 fma); 47 constants, 57 live values.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-float[49] sh7_rotate_zonal(vec3 dir, float[7] c) {
+ZONAL_HIGHP float[49] sh7_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[7] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -3467,7 +3544,11 @@ float[49] sh7_rotate_zonal(vec3 dir, float[7] c) {
 // Operations: 231 (203 mul, 0 add, 28 fma); 47 constants, 57 live values.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
-vec3[49] sh7_rotate_zonal_rgb(vec3 dir, vec3[7] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[7] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_SMALL_ANGLES_GLSL
 #define ZONAL_SH7_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:7`: Rotates order 7 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at 10, 1.2e0 at 15, 2.9e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor1_y(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -94,7 +107,11 @@ float[49] sh7_taylor1_y(float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at 10, 1.2e0 at 15, 2.9e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor1_y_rgb(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -172,7 +189,11 @@ vec3[49] sh7_taylor1_y_rgb(float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor15_y(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -266,7 +287,11 @@ float[49] sh7_taylor15_y(float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor15_y_rgb(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -360,7 +385,11 @@ vec3[49] sh7_taylor15_y_rgb(float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at 10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor2_y(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -476,7 +505,11 @@ float[49] sh7_taylor2_y(float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at 10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor2_y_rgb(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -592,7 +625,11 @@ vec3[49] sh7_taylor2_y_rgb(float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf3_y(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -748,7 +785,11 @@ float[49] sh7_lf3_y(float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf3_y_rgb(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -904,7 +945,11 @@ vec3[49] sh7_lf3_y_rgb(float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf5_y(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -1132,7 +1177,11 @@ float[49] sh7_lf5_y(float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf5_y_rgb(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1361,7 +1410,7 @@ vec3[49] sh7_lf5_y_rgb(float beta, vec3[49] c) {
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[49] SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[49](
+const ZONAL_HIGHP float[49] SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[49](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -1369,13 +1418,17 @@ const float[49] SH7_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[49](
     3.0, 3.1622777, 0.0, -4.582576, -3.1622777, -3.0, -2.738613, -2.345208, -1.7320508
 );
 // the diagonal of the second derivative of D at 0
-const float[49] SH7_TAYLOR15_Y_LOOP_DDY_DIAG = float[49](
+const ZONAL_HIGHP float[49] SH7_TAYLOR15_Y_LOOP_DDY_DIAG = float[49](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
     -16.5, -13.0, -8.5, -3.0
 );
-float[49] sh7_taylor15_y_loop(float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[49];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1397,7 +1450,7 @@ float[49] sh7_taylor15_y_loop(float beta, float[49] c) {
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[49] SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[49](
+const ZONAL_HIGHP float[49] SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[49](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -1405,13 +1458,17 @@ const float[49] SH7_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[49](
     3.0, 3.1622777, 0.0, -4.582576, -3.1622777, -3.0, -2.738613, -2.345208, -1.7320508
 );
 // the diagonal of the second derivative of D at 0
-const float[49] SH7_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[49](
+const ZONAL_HIGHP float[49] SH7_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[49](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
     -16.5, -13.0, -8.5, -3.0
 );
-vec3[49] sh7_taylor15_y_rgb_loop(float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[49];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1433,7 +1490,11 @@ vec3[49] sh7_taylor15_y_rgb_loop(float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at 10, 1.2e0 at 15, 2.9e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor1_zyz(vec2[2] cs, float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -1617,7 +1678,11 @@ float[49] sh7_taylor1_zyz(vec2[2] cs, float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-1 at 5, 5.4e-1 at 10, 1.2e0 at 15, 2.9e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -1801,7 +1866,11 @@ vec3[49] sh7_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor15_zyz(vec2[2] cs, float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2001,7 +2070,11 @@ float[49] sh7_taylor15_zyz(vec2[2] cs, float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
 //     worst band's in spectral norm: 6.8e-2 at 5, 3.1e-1 at 10, 7.8e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2201,7 +2274,11 @@ vec3[49] sh7_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.4e-7). Method error, the
 //     worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at 10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_taylor2_zyz(vec2[2] cs, float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -2423,7 +2500,11 @@ float[49] sh7_taylor2_zyz(vec2[2] cs, float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.4e-7). Method error, the
 //     worst band's in spectral norm: 2.4e-2 at 5, 1.9e-1 at 10, 6.2e-1 at 15, 2.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -2645,7 +2726,11 @@ vec3[49] sh7_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf3_zyz(vec2[2] cs, float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2866,7 +2951,11 @@ float[49] sh7_lf3_zyz(vec2[2] cs, float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3087,7 +3176,11 @@ vec3[49] sh7_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf5_zyz(vec2[2] cs, float beta, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3380,7 +3473,11 @@ float[49] sh7_lf5_zyz(vec2[2] cs, float beta, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3674,7 +3771,11 @@ vec3[49] sh7_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_rotate_small(vec4 q, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3911,7 +4012,11 @@ float[49] sh7_rotate_small(vec4 q, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_rotate_small_rgb(vec4 q, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4148,7 +4253,11 @@ vec3[49] sh7_rotate_small_rgb(vec4 q, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
 //     worst band's in spectral norm: 4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf5_rotate_small(vec4 q, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4447,7 +4556,11 @@ float[49] sh7_lf5_rotate_small(vec4 q, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
 //     worst band's in spectral norm: 4.6e-4 at 5, 4e-3 at 10, 1.6e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf5_rotate_small_rgb(vec4 q, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4749,7 +4862,11 @@ vec3[49] sh7_lf5_rotate_small_rgb(vec4 q, vec3[49] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 //     Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0
 //     at 25 degrees; it grows without bound beyond.
-float[49] sh7_rotate_adaptive(vec4 q, float limit, float[49] c) {
+ZONAL_HIGHP float[49] sh7_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -5270,7 +5387,11 @@ float[49] sh7_rotate_adaptive(vec4 q, float limit, float[49] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 //     Method error, the worst band's in spectral norm: 6.1e-3 at 5, 5.1e-2 at 10, 1.9e-1 at 15, 2.5e0
 //     at 25 degrees; it grows without bound beyond.
-vec3[49] sh7_rotate_adaptive_rgb(vec4 q, float limit, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH7_TILTING_GLSL
 #define ZONAL_SH7_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:7`: Tilts order 7: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_tilt(vec3 n, float[49] c) {
+ZONAL_HIGHP float[49] sh7_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -189,7 +202,11 @@ float[49] sh7_tilt(vec3 n, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_tilt_rgb(vec3 n, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -360,7 +377,11 @@ vec3[49] sh7_tilt_rgb(vec3 n, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_lf5_tilt(vec3 n, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -599,7 +620,11 @@ float[49] sh7_lf5_tilt(vec3 n, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_lf5_tilt_rgb(vec3 n, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -838,7 +863,11 @@ vec3[49] sh7_lf5_tilt_rgb(vec3 n, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[49] sh7_tilt_prescaled(vec3 n, float[49] c) {
+ZONAL_HIGHP float[49] sh7_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -989,7 +1018,11 @@ float[49] sh7_tilt_prescaled(vec3 n, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[49] sh7_tilt_prescaled_rgb(vec3 n, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1140,7 +1173,11 @@ vec3[49] sh7_tilt_prescaled_rgb(vec3 n, vec3[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[49] sh7_lf5_tilt_prescaled(vec3 n, float[49] c) {
+ZONAL_HIGHP float[49] sh7_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1347,7 +1384,11 @@ float[49] sh7_lf5_tilt_prescaled(vec3 n, float[49] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[49] sh7_lf5_tilt_prescaled_rgb(vec3 n, vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1549,7 +1590,11 @@ vec3[49] sh7_lf5_tilt_prescaled_rgb(vec3 n, vec3[49] c) {
 // Operations: 36 (36 mul, 0 add, 0 fma); 17 constants, 36 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[49] sh7_tilt_scale(float[49] c) {
+ZONAL_HIGHP float[49] sh7_tilt_scale(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         c[0],
         c[1],
@@ -1610,7 +1655,11 @@ float[49] sh7_tilt_scale(float[49] c) {
 // Operations: 108 (108 mul, 0 add, 0 fma); 17 constants, 36 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[49] sh7_tilt_scale_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_tilt_scale_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         c[0],
         c[1],
@@ -1671,7 +1720,11 @@ vec3[49] sh7_tilt_scale_rgb(vec3[49] c) {
 // Operations: 36 (36 mul, 0 add, 0 fma); 17 constants, 36 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
-float[49] sh7_tilt_unscale(float[49] c) {
+ZONAL_HIGHP float[49] sh7_tilt_unscale(ZONAL_HIGHP float[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[49](
         c[0],
         c[1],
@@ -1732,7 +1785,11 @@ float[49] sh7_tilt_unscale(float[49] c) {
 // Operations: 108 (108 mul, 0 add, 0 fma); 17 constants, 36 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
-vec3[49] sh7_tilt_unscale_rgb(vec3[49] c) {
+ZONAL_HIGHP vec3[49] sh7_tilt_unscale_rgb(ZONAL_HIGHP vec3[49] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[49](
         c[0],
         c[1],

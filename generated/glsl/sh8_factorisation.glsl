@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH8_FACTORISATION_GLSL
 #define ZONAL_SH8_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:8`: Rotates order 8 by sparse zonal factorisation over 15 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 2753 (1252 mul, 10 add, 1491 fma); 255 constants, 477 live values.
 // Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6e-6).
-float[64] sh8_zhf(mat3 m, float[64] c) {
+ZONAL_HIGHP float[64] sh8_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     float t2 = 2.0466535 * c[2];
@@ -1098,7 +1111,11 @@ float[64] sh8_zhf(mat3 m, float[64] c) {
 // Operations: 4707 (1466 mul, 12 add, 3229 fma); 255 constants, 477 live values.
 // Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6e-6).
-vec3[64] sh8_zhf_rgb(mat3 m, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -2181,7 +2198,11 @@ vec3[64] sh8_zhf_rgb(mat3 m, vec3[64] c) {
 // Operations: 299 (45 mul, 1 add, 253 fma); 179 constants, 65 live values.
 // Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8e-7).
-float[64] sh8_zhf_weights(float[64] c) {
+ZONAL_HIGHP float[64] sh8_zhf_weights(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.585331 * c[6] - (0.87203574 * c[5] + 0.91529125 * c[4]) + 0.34291506 * c[7] - 0.91529125 * c[8];
     float t1 = 1.2632219 * c[11] - (1.5933937 * c[10] + 0.9784875 * c[9]);
     float t2 = 2.2042568 * c[14];
@@ -2305,7 +2326,11 @@ float[64] sh8_zhf_weights(float[64] c) {
 // Operations: 897 (135 mul, 3 add, 759 fma); 179 constants, 65 live values.
 // Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8e-7).
-vec3[64] sh8_zhf_weights_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_zhf_weights_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.585331 * c[6] - (0.87203574 * c[5] + 0.91529125 * c[4]) + 0.34291506 * c[7] - 0.91529125 * c[8];
     vec3 t1 = 1.2632219 * c[11] - (1.5933937 * c[10] + 0.9784875 * c[9]);
     vec3 t2 = 2.2042568 * c[14];
@@ -2429,7 +2454,11 @@ vec3[64] sh8_zhf_weights_rgb(vec3[64] c) {
 // Operations: 318 (54 mul, 1 add, 263 fma); 179 constants, 64 live values.
 // Error: f32 rounding at most 9.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
-float[64] sh8_zhf_tailored(float[64] f) {
+ZONAL_HIGHP float[64] sh8_zhf_tailored(ZONAL_HIGHP float[64] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.91529125 * f[8];
     float t1 = 0.53706604 * f[9] - 0.53706604 * f[10] - 2.2042568 * f[11] - 0.06732157 * f[12] - 2.2042568 * f[13];
     float t2 = 1.0378428 * f[22] - (0.92252684 * f[20] + 0.46126342 * f[16] + 0.46126342 * f[21]) - 0.92252684 * f[24];
@@ -2550,7 +2579,11 @@ float[64] sh8_zhf_tailored(float[64] f) {
 // Operations: 954 (162 mul, 3 add, 789 fma); 179 constants, 64 live values.
 // Error: f32 rounding at most 9.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
-vec3[64] sh8_zhf_tailored_rgb(vec3[64] f) {
+ZONAL_HIGHP vec3[64] sh8_zhf_tailored_rgb(ZONAL_HIGHP vec3[64] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.91529125 * f[8];
     vec3 t1 = 0.53706604 * f[9] - 0.53706604 * f[10] - 2.2042568 * f[11] - 0.06732157 * f[12] - 2.2042568 * f[13];
     vec3 t2 = 1.0378428 * f[22] - (0.92252684 * f[20] + 0.46126342 * f[16] + 0.46126342 * f[21]) - 0.92252684 * f[24];

@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH8_PIECES_GLSL
 #define ZONAL_SH8_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:8`: Rotates order 8 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 136 (68 mul, 1 add, 67 fma); 0 constants, 62 live values.
 // Error: f32 rounding at most 9.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-float[64] sh8_rotate_z(vec2 cs, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -102,7 +115,11 @@ float[64] sh8_rotate_z(vec2 cs, float[64] c) {
 // Operations: 360 (180 mul, 1 add, 179 fma); 0 constants, 62 live values.
 // Error: f32 rounding at most 9.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
-vec3[64] sh8_rotate_z_rgb(vec2 cs, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -191,7 +208,11 @@ vec3[64] sh8_rotate_z_rgb(vec2 cs, vec3[64] c) {
 // Operations: 386 (70 mul, 1 add, 315 fma); 96 constants, 74 live values.
 // Error: f32 rounding at most 4e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.6e-7).
-float[64] sh8_rotate_y(vec2 cs, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -447,7 +468,11 @@ float[64] sh8_rotate_y(vec2 cs, float[64] c) {
 // Operations: 1108 (182 mul, 3 add, 923 fma); 96 constants, 74 live values.
 // Error: f32 rounding at most 4e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.6e-7).
-vec3[64] sh8_rotate_y_rgb(vec2 cs, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -702,7 +727,11 @@ vec3[64] sh8_rotate_y_rgb(vec2 cs, vec3[64] c) {
 // Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-float[64] sh8_swap_yz(float[64] c) {
+ZONAL_HIGHP float[64] sh8_swap_yz(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[64](
         c[0],
         -c[2],
@@ -777,7 +806,11 @@ float[64] sh8_swap_yz(float[64] c) {
 // Operations: 504 (168 mul, 0 add, 336 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-vec3[64] sh8_swap_yz_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_swap_yz_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[64](
         c[0],
         -c[2],
@@ -852,7 +885,11 @@ vec3[64] sh8_swap_yz_rgb(vec3[64] c) {
 // Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-float[64] sh8_rotate_x_plus_90deg(float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_x_plus_90deg(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[64](
         c[0],
         c[2],
@@ -927,7 +964,11 @@ float[64] sh8_rotate_x_plus_90deg(float[64] c) {
 // Operations: 504 (168 mul, 0 add, 336 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-vec3[64] sh8_rotate_x_plus_90deg_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[64](
         c[0],
         c[2],
@@ -1002,7 +1043,11 @@ vec3[64] sh8_rotate_x_plus_90deg_rgb(vec3[64] c) {
 // Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-float[64] sh8_rotate_x_minus_90deg(float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_x_minus_90deg(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[64](
         c[0],
         -c[2],
@@ -1077,7 +1122,11 @@ float[64] sh8_rotate_x_minus_90deg(float[64] c) {
 // Operations: 504 (168 mul, 0 add, 336 fma); 75 constants, 60 live values.
 // Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
-vec3[64] sh8_rotate_x_minus_90deg_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[64](
         c[0],
         -c[2],

@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH8_ROTATION_GLSL
 #define ZONAL_SH8_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:8`: Rotates order 8 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     live values.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
-float[64] sh8_rotate(vec4 q, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -397,7 +410,11 @@ float[64] sh8_rotate(vec4 q, float[64] c) {
 //     102 live values.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
-vec3[64] sh8_rotate_rgb(vec4 q, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -781,7 +798,7 @@ vec3[64] sh8_rotate_rgb(vec4 q, vec3[64] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[175] SH8_ROTATE_LOOP_J = float[175](
+const ZONAL_HIGHP float[175] SH8_ROTATE_LOOP_J = float[175](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -804,7 +821,11 @@ const float[175] SH8_ROTATE_LOOP_J = float[175](
     -0.10364453, 0.53855276, -0.44879395, -0.5700449, 0.671875, -0.149053, -0.0584634, 0.3983609,
     -0.7927282, 0.45768183, -0.8562443, 0.49435288, -0.149053, 0.015625
 );
-float[64] sh8_rotate_loop(vec4 q, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[64];
     float phase_cos[24];
     float phase_sin[24];
@@ -888,7 +909,7 @@ float[64] sh8_rotate_loop(vec4 q, float[64] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[175] SH8_ROTATE_RGB_LOOP_J = float[175](
+const ZONAL_HIGHP float[175] SH8_ROTATE_RGB_LOOP_J = float[175](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -911,7 +932,11 @@ const float[175] SH8_ROTATE_RGB_LOOP_J = float[175](
     -0.10364453, 0.53855276, -0.44879395, -0.5700449, 0.671875, -0.149053, -0.0584634, 0.3983609,
     -0.7927282, 0.45768183, -0.8562443, 0.49435288, -0.149053, 0.015625
 );
-vec3[64] sh8_rotate_rgb_loop(vec4 q, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[64];
     float phase_cos[24];
     float phase_sin[24];
@@ -991,7 +1016,11 @@ vec3[64] sh8_rotate_rgb_loop(vec4 q, vec3[64] c) {
 // Operations: 658 (206 mul, 3 add, 449 fma); 96 constants, 98 live values.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-float[64] sh8_rotate_euler(vec2[3] cs, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1355,7 +1384,11 @@ float[64] sh8_rotate_euler(vec2[3] cs, float[64] c) {
 // Operations: 1828 (542 mul, 5 add, 1281 fma); 96 constants, 98 live values.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
-vec3[64] sh8_rotate_euler_rgb(vec2[3] cs, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1721,7 +1754,11 @@ vec3[64] sh8_rotate_euler_rgb(vec2[3] cs, vec3[64] c) {
 //     values.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-vec2[22] sh8_angles(vec4 q) {
+ZONAL_HIGHP vec2[22] sh8_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1806,7 +1843,11 @@ vec2[22] sh8_angles(vec4 q) {
 // Operations: 585 (168 mul, 1 add, 416 fma); 95 constants, 74 live values.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
-float[64] sh8_rotate_angles(vec2[22] cs, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_angles(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[14].y + c[1] * cs[14].x;
     float t1 = c[3] * cs[14].x - c[1] * cs[14].y;
     float t2 = t1 * cs[7].x - c[2] * cs[7].y;
@@ -2131,7 +2172,11 @@ float[64] sh8_rotate_angles(vec2[22] cs, float[64] c) {
 // Operations: 1755 (504 mul, 3 add, 1248 fma); 95 constants, 74 live values.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
-vec3[64] sh8_rotate_angles_rgb(vec2[22] cs, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_angles_rgb(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[14].y + c[1] * cs[14].x;
     vec3 t1 = c[3] * cs[14].x - c[1] * cs[14].y;
     vec3 t2 = t1 * cs[7].x - c[2] * cs[7].y;
@@ -2458,7 +2503,11 @@ vec3[64] sh8_rotate_angles_rgb(vec2[22] cs, vec3[64] c) {
 //     200 live values.
 // Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
-vec2[98] sh8_lifted(vec4 q) {
+ZONAL_HIGHP vec2[98] sh8_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2632,7 +2681,11 @@ vec2[98] sh8_lifted(vec4 q) {
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-float[64] sh8_rotate_lifted(vec2[98] cs, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_lifted(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[7].y + c[1] * cs[7].x;
     float t1 = c[3] * cs[7].x - c[1] * cs[7].y;
     float t2 = c[2] + t1 * cs[14].x;
@@ -2829,7 +2882,11 @@ float[64] sh8_rotate_lifted(vec2[98] cs, float[64] c) {
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
-vec3[64] sh8_rotate_lifted_rgb(vec2[98] cs, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_lifted_rgb(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[7].y + c[1] * cs[7].x;
     vec3 t1 = c[3] * cs[7].x - c[1] * cs[7].y;
     vec3 t2 = c[2] + t1 * cs[14].x;
@@ -3025,7 +3082,11 @@ vec3[64] sh8_rotate_lifted_rgb(vec2[98] cs, vec3[64] c) {
 //     live values.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-float[64] sh8_rotate_zxzxz(vec4 q, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3375,7 +3436,11 @@ float[64] sh8_rotate_zxzxz(vec4 q, float[64] c) {
 //     101 live values.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-vec3[64] sh8_rotate_zxzxz_rgb(vec4 q, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3724,7 +3789,11 @@ vec3[64] sh8_rotate_zxzxz_rgb(vec4 q, vec3[64] c) {
 //     live values.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
-float[64] sh8_rotate_align(vec3 n, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -4045,7 +4114,11 @@ float[64] sh8_rotate_align(vec3 n, float[64] c) {
 //     98 live values.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
-vec3[64] sh8_rotate_align_rgb(vec3 n, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -4365,7 +4438,11 @@ vec3[64] sh8_rotate_align_rgb(vec3 n, vec3[64] c) {
 // Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[64] sh8_rotate_zonal(vec3 dir, float[8] c) {
+ZONAL_HIGHP float[64] sh8_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[8] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -4493,7 +4570,11 @@ float[64] sh8_rotate_zonal(vec3 dir, float[8] c) {
 // Operations: 308 (268 mul, 0 add, 40 fma); 65 constants, 73 live values.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[64] sh8_rotate_zonal_rgb(vec3 dir, vec3[8] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[8] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH8_SMALL_ANGLES_GLSL
 #define ZONAL_SH8_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_taylor1_y(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -114,7 +127,11 @@ float[64] sh8_taylor1_y(float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_taylor1_y_rgb(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -212,7 +229,11 @@ vec3[64] sh8_taylor1_y_rgb(float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_taylor15_y(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -331,7 +352,11 @@ float[64] sh8_taylor15_y(float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
 //     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_taylor15_y_rgb(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -450,7 +475,11 @@ vec3[64] sh8_taylor15_y_rgb(float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
 //     without bound beyond.
-float[64] sh8_taylor2_y(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -601,7 +630,11 @@ float[64] sh8_taylor2_y(float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[64] sh8_taylor2_y_rgb(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -752,7 +785,11 @@ vec3[64] sh8_taylor2_y_rgb(float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf3_y(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -953,7 +990,11 @@ float[64] sh8_lf3_y(float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf3_y_rgb(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1154,7 +1195,11 @@ vec3[64] sh8_lf3_y_rgb(float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf5_y(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -1450,7 +1495,11 @@ float[64] sh8_lf5_y(float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf5_y_rgb(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1747,7 +1796,7 @@ vec3[64] sh8_lf5_y_rgb(float beta, vec3[64] c) {
 //     band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows
 //     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[64] SH8_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[64](
+const ZONAL_HIGHP float[64] SH8_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[64](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -1757,14 +1806,18 @@ const float[64] SH8_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[64](
     -3.535534, -3.3166249, -3.0, -2.5495098, -1.8708287
 );
 // the diagonal of the second derivative of D at 0
-const float[64] SH8_TAYLOR15_Y_LOOP_DDY_DIAG = float[64](
+const ZONAL_HIGHP float[64] SH8_TAYLOR15_Y_LOOP_DDY_DIAG = float[64](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
     -16.5, -13.0, -8.5, -3.0, -3.5, -10.0, -15.5, -20.0, -23.5, -26.0, -13.5, -28.0, -41.5, -26.0,
     -23.5, -20.0, -15.5, -10.0, -3.5
 );
-float[64] sh8_taylor15_y_loop(float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[64];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1786,7 +1839,7 @@ float[64] sh8_taylor15_y_loop(float beta, float[64] c) {
 //     band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows
 //     without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[64] SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[64](
+const ZONAL_HIGHP float[64] SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[64](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -1796,14 +1849,18 @@ const float[64] SH8_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[64](
     -3.535534, -3.3166249, -3.0, -2.5495098, -1.8708287
 );
 // the diagonal of the second derivative of D at 0
-const float[64] SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[64](
+const ZONAL_HIGHP float[64] SH8_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[64](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
     -16.5, -13.0, -8.5, -3.0, -3.5, -10.0, -15.5, -20.0, -23.5, -26.0, -13.5, -28.0, -41.5, -26.0,
     -23.5, -20.0, -15.5, -10.0, -3.5
 );
-vec3[64] sh8_taylor15_y_rgb_loop(float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[64];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -1825,7 +1882,11 @@ vec3[64] sh8_taylor15_y_rgb_loop(float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.2e-7). Method error, the
 //     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_taylor1_zyz(vec2[2] cs, float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -2061,7 +2122,11 @@ float[64] sh8_taylor1_zyz(vec2[2] cs, float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.2e-7). Method error, the
 //     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -2297,7 +2362,11 @@ vec3[64] sh8_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_taylor15_zyz(vec2[2] cs, float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2554,7 +2623,11 @@ float[64] sh8_taylor15_zyz(vec2[2] cs, float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -2811,7 +2884,11 @@ vec3[64] sh8_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
 //     without bound beyond.
-float[64] sh8_taylor2_zyz(vec2[2] cs, float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -3100,7 +3177,11 @@ float[64] sh8_taylor2_zyz(vec2[2] cs, float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
 //     without bound beyond.
-vec3[64] sh8_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -3389,7 +3470,11 @@ vec3[64] sh8_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf3_zyz(vec2[2] cs, float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3673,7 +3758,11 @@ float[64] sh8_lf3_zyz(vec2[2] cs, float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3957,7 +4046,11 @@ vec3[64] sh8_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf5_zyz(vec2[2] cs, float beta, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -4336,7 +4429,11 @@ float[64] sh8_lf5_zyz(vec2[2] cs, float beta, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -4716,7 +4813,11 @@ vec3[64] sh8_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_rotate_small(vec4 q, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -5016,7 +5117,11 @@ float[64] sh8_rotate_small(vec4 q, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
 //     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_rotate_small_rgb(vec4 q, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -5316,7 +5421,11 @@ vec3[64] sh8_rotate_small_rgb(vec4 q, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf5_rotate_small(vec4 q, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -5701,7 +5810,11 @@ float[64] sh8_lf5_rotate_small(vec4 q, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf5_rotate_small_rgb(vec4 q, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -6089,7 +6202,11 @@ vec3[64] sh8_lf5_rotate_small_rgb(vec4 q, vec3[64] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 //     Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
 //     25 degrees; it grows without bound beyond.
-float[64] sh8_rotate_adaptive(vec4 q, float limit, float[64] c) {
+ZONAL_HIGHP float[64] sh8_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -6764,7 +6881,11 @@ float[64] sh8_rotate_adaptive(vec4 q, float limit, float[64] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 //     Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
 //     25 degrees; it grows without bound beyond.
-vec3[64] sh8_rotate_adaptive_rgb(vec4 q, float limit, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

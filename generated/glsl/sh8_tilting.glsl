@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH8_TILTING_GLSL
 #define ZONAL_SH8_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:8`: Tilts order 8: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_tilt(vec3 n, float[64] c) {
+ZONAL_HIGHP float[64] sh8_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -237,7 +250,11 @@ float[64] sh8_tilt(vec3 n, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_tilt_rgb(vec3 n, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -456,7 +473,11 @@ vec3[64] sh8_tilt_rgb(vec3 n, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[64] sh8_lf5_tilt(vec3 n, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -767,7 +788,11 @@ float[64] sh8_lf5_tilt(vec3 n, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[64] sh8_lf5_tilt_rgb(vec3 n, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1078,7 +1103,11 @@ vec3[64] sh8_lf5_tilt_rgb(vec3 n, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.5e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_tilt_prescaled(vec3 n, float[64] c) {
+ZONAL_HIGHP float[64] sh8_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1267,7 +1296,11 @@ float[64] sh8_tilt_prescaled(vec3 n, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.5e-7). Method error, the
 //     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_tilt_prescaled_rgb(vec3 n, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1456,7 +1489,11 @@ vec3[64] sh8_tilt_prescaled_rgb(vec3 n, vec3[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[64] sh8_lf5_tilt_prescaled(vec3 n, float[64] c) {
+ZONAL_HIGHP float[64] sh8_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1719,7 +1756,11 @@ float[64] sh8_lf5_tilt_prescaled(vec3 n, float[64] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
 //     worst band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[64] sh8_lf5_tilt_prescaled_rgb(vec3 n, vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1977,7 +2018,11 @@ vec3[64] sh8_lf5_tilt_prescaled_rgb(vec3 n, vec3[64] c) {
 // Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[64] sh8_tilt_scale(float[64] c) {
+ZONAL_HIGHP float[64] sh8_tilt_scale(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[64](
         c[0],
         c[1],
@@ -2053,7 +2098,11 @@ float[64] sh8_tilt_scale(float[64] c) {
 // Operations: 150 (150 mul, 0 add, 0 fma); 23 constants, 50 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[64] sh8_tilt_scale_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_tilt_scale_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[64](
         c[0],
         c[1],
@@ -2129,7 +2178,11 @@ vec3[64] sh8_tilt_scale_rgb(vec3[64] c) {
 // Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8e-8).
-float[64] sh8_tilt_unscale(float[64] c) {
+ZONAL_HIGHP float[64] sh8_tilt_unscale(ZONAL_HIGHP float[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[64](
         c[0],
         c[1],
@@ -2205,7 +2258,11 @@ float[64] sh8_tilt_unscale(float[64] c) {
 // Operations: 150 (150 mul, 0 add, 0 fma); 23 constants, 50 live values.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8e-8).
-vec3[64] sh8_tilt_unscale_rgb(vec3[64] c) {
+ZONAL_HIGHP vec3[64] sh8_tilt_unscale_rgb(ZONAL_HIGHP vec3[64] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[64](
         c[0],
         c[1],

@@ -2,9 +2,18 @@
 // generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_EVALUATION_GLSL
 #define ZONAL_SH9_EVALUATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `basis:9`: The spherical harmonics of order 9 at a direction, accurate also near the poles (Sloan
 // 2013's recurrence, rearranged).
@@ -13,7 +22,11 @@
 // Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 83 live values.
 // Error: f32 rounding at most 5.2e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.7e-7).
-float[81] sh9_basis(vec3 dir) {
+ZONAL_HIGHP float[81] sh9_basis(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -174,24 +187,28 @@ float[81] sh9_basis(vec3 dir) {
 // Error: f32 rounding at most 8.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
-const float[36] SH9_BASIS_LOOP_A = float[36](
+const ZONAL_HIGHP float[36] SH9_BASIS_LOOP_A = float[36](
     1.7320508, 1.9364917, 2.236068, 1.9720266, 2.09165, 2.6457512, 1.9843135, 2.04939, 2.291288,
     3.0, 1.9899749, 2.0310097, 2.1712406, 2.4874685, 3.3166249, 1.9930434, 2.021315, 2.113942,
     2.3013682, 2.6739483, 3.6055512, 1.9948914, 2.0155644, 2.081666, 2.20794, 2.4308622, 2.8504386,
     3.8729835, 1.9960899, 2.0118694, 2.0615528, 2.1532216, 2.304886, 2.5570416, 3.0178044, 4.1231055
 );
 // b, at the same places
-const float[36] SH9_BASIS_LOOP_B = float[36](
+const ZONAL_HIGHP float[36] SH9_BASIS_LOOP_B = float[36](
     0.0, 1.118034, 0.0, 1.0183501, 0.9354144, 0.0, 1.0062306, 0.9797959, 0.8660254, 0.0, 1.002853,
     0.9910312, 0.9476071, 0.8291562, 0.0, 1.001542, 0.9952267, 0.9736101, 0.9251849, 0.8062258, 0.0,
     1.0009272, 0.9971551, 0.9847319, 0.9594032, 0.90909094, 0.7905694, 0.0, 1.0006008, 0.9981668,
     0.9903379, 0.9752174, 0.9481764, 0.8970695, 0.7791937, 0.0
 );
 // y_mm by y_(m-1)(m-1) and x + iy, from m = 1
-const float[8] SH9_BASIS_LOOP_SECTORAL = float[8](
+const ZONAL_HIGHP float[8] SH9_BASIS_LOOP_SECTORAL = float[8](
     -1.7320508, -1.118034, -1.0801234, -1.0606601, -1.0488088, -1.040833, -1.0350983, -1.0307764
 );
-float[81] sh9_basis_loop(vec3 dir) {
+ZONAL_HIGHP float[81] sh9_basis_loop(ZONAL_HIGHP vec3 dir) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[81];
     r[0] = 0.2820948;
     float cos_last = 0.2820948;
@@ -242,7 +259,11 @@ float[81] sh9_basis_loop(vec3 dir) {
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     7.7e-7).
-float sh9_eval(vec3 dir, float[81] c) {
+ZONAL_HIGHP float sh9_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -316,7 +337,11 @@ float sh9_eval(vec3 dir, float[81] c) {
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     7.7e-7).
-vec3 sh9_eval_rgb(vec3 dir, vec3[81] c) {
+ZONAL_HIGHP vec3 sh9_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.9461747 * t0 - 0.31539157;
     float t2 = (3.913119 * t0 - 2.0497289) * t1 - 0.3291106;
@@ -391,7 +416,11 @@ vec3 sh9_eval_rgb(vec3 dir, vec3[81] c) {
 // Error: f32 rounding at most 1.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.1e-6).
-float sh9_eval_monomial(vec3 dir, float[81] c) {
+ZONAL_HIGHP float sh9_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[12] + (c[20] + (c[30] + (c[42] + (c[56] + c[72] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t1 = c[13] + (c[21] + (c[31] + (c[43] + (c[57] + c[73] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     float t2 = c[0] + (c[2] + (c[6] + t0 * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + t1 * dir.z) * dir.z) * dir.x;
@@ -431,7 +460,11 @@ float sh9_eval_monomial(vec3 dir, float[81] c) {
 // Error: f32 rounding at most 1.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.1e-6).
-vec3 sh9_eval_monomial_rgb(vec3 dir, vec3[81] c) {
+ZONAL_HIGHP vec3 sh9_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[12] + (c[20] + (c[30] + (c[42] + (c[56] + c[72] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t1 = c[13] + (c[21] + (c[31] + (c[43] + (c[57] + c[73] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
     vec3 t2 = c[0] + (c[2] + (c[6] + t0 * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + t1 * dir.z) * dir.z) * dir.x;
@@ -469,7 +502,11 @@ vec3 sh9_eval_monomial_rgb(vec3 dir, vec3[81] c) {
 // Operations: 163 (79 mul, 0 add, 84 fma); 92 constants, 81 live values.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
-float[81] sh9_to_monomial(float[81] c) {
+ZONAL_HIGHP float[81] sh9_to_monomial(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.31803697 * c[72] - 0.317846 * c[42] + 0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0];
     float t1 = 65.229774 * c[70];
     float t2 = 65.229774 * c[74];
@@ -565,7 +602,11 @@ float[81] sh9_to_monomial(float[81] c) {
 // Operations: 489 (237 mul, 0 add, 252 fma); 92 constants, 81 live values.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
-vec3[81] sh9_to_monomial_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_to_monomial_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.31803697 * c[72] - 0.317846 * c[42] + 0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0];
     vec3 t1 = 65.229774 * c[70];
     vec3 t2 = 65.229774 * c[74];

@@ -2,9 +2,18 @@
 // edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_FACTORISATION_GLSL
 #define ZONAL_SH9_FACTORISATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `zhf:9`: Rotates order 9 by sparse zonal factorisation over 17 shared lobes (Nowrouzezahrai et al.
 // 2012, the standard rotation).
@@ -14,7 +23,11 @@
 // Operations: 4016 (1777 mul, 10 add, 2229 fma); 464 constants, 691 live values.
 // Error: f32 rounding at most 6.3e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
-float[81] sh9_zhf(mat3 m, float[81] c) {
+ZONAL_HIGHP float[81] sh9_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     float t2 = 2.0466535 * c[2];
@@ -1538,7 +1551,11 @@ float[81] sh9_zhf(mat3 m, float[81] c) {
 // Operations: 6918 (2071 mul, 18 add, 4829 fma); 464 constants, 691 live values.
 // Error: f32 rounding at most 6.3e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
-vec3[81] sh9_zhf_rgb(mat3 m, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.0466535 * c[1];
     float t1 = 0.48860252 * m[1].y;
     vec3 t2 = 2.0466535 * c[2];
@@ -3061,7 +3078,11 @@ vec3[81] sh9_zhf_rgb(mat3 m, vec3[81] c) {
 // Operations: 484 (68 mul, 4 add, 412 fma); 361 constants, 81 live values.
 // Error: f32 rounding at most 6.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.8e-7).
-float[81] sh9_zhf_weights(float[81] c) {
+ZONAL_HIGHP float[81] sh9_zhf_weights(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.56049913 * c[5] + 0.91529125 * c[4] + 1.585331 * c[6] + 0.9341652 * c[7] - 0.91529125 * c[8];
     float t1 = 0.9784875 * c[9];
     float t2 = 1.2632219 * c[11] - (t1 + 0.3261625 * c[10]) + 0.72932154 * c[13] - 0.56493 * c[14] + 0.56493 * c[15];
@@ -3230,7 +3251,11 @@ float[81] sh9_zhf_weights(float[81] c) {
 // Operations: 1452 (204 mul, 12 add, 1236 fma); 361 constants, 81 live values.
 // Error: f32 rounding at most 6.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.8e-7).
-vec3[81] sh9_zhf_weights_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_zhf_weights_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.56049913 * c[5] + 0.91529125 * c[4] + 1.585331 * c[6] + 0.9341652 * c[7] - 0.91529125 * c[8];
     vec3 t1 = 0.9784875 * c[9];
     vec3 t2 = 1.2632219 * c[11] - (t1 + 0.3261625 * c[10]) + 0.72932154 * c[13] - 0.56493 * c[14] + 0.56493 * c[15];
@@ -3399,7 +3424,11 @@ vec3[81] sh9_zhf_weights_rgb(vec3[81] c) {
 // Operations: 486 (70 mul, 6 add, 410 fma); 361 constants, 81 live values.
 // Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-float[81] sh9_zhf_tailored(float[81] f) {
+ZONAL_HIGHP float[81] sh9_zhf_tailored(ZONAL_HIGHP float[81] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.91529125 * f[5];
     float t1 = 1.4946643 * f[4];
     float t2 = 0.9784875 * f[14];
@@ -3570,7 +3599,11 @@ float[81] sh9_zhf_tailored(float[81] f) {
 // Operations: 1458 (210 mul, 18 add, 1230 fma); 361 constants, 81 live values.
 // Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-vec3[81] sh9_zhf_tailored_rgb(vec3[81] f) {
+ZONAL_HIGHP vec3[81] sh9_zhf_tailored_rgb(ZONAL_HIGHP vec3[81] f) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.91529125 * f[5];
     vec3 t1 = 1.4946643 * f[4];
     vec3 t2 = 0.9784875 * f[14];

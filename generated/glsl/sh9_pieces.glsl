@@ -2,9 +2,18 @@
 // axis; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_PIECES_GLSL
 #define ZONAL_SH9_PIECES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate_z:9`: Rotates order 9 about z by the angle of (cos, sin).
 // cs: (cos alpha, sin alpha).
@@ -13,7 +22,11 @@
 // Operations: 172 (86 mul, 1 add, 85 fma); 0 constants, 79 live values.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
-float[81] sh9_rotate_z(vec2 cs, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -121,7 +134,11 @@ float[81] sh9_rotate_z(vec2 cs, float[81] c) {
 // Operations: 460 (230 mul, 1 add, 229 fma); 0 constants, 79 live values.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
-vec3[81] sh9_rotate_z_rgb(vec2 cs, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = cs.x * cs.x - cs.y * cs.y;
     float t1 = cs.x * cs.y;
     float t2 = t1 + t1;
@@ -229,7 +246,11 @@ vec3[81] sh9_rotate_z_rgb(vec2 cs, vec3[81] c) {
 // Operations: 540 (88 mul, 1 add, 451 fma); 135 constants, 92 live values.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.6e-7).
-float[81] sh9_rotate_y(vec2 cs, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -576,7 +597,11 @@ float[81] sh9_rotate_y(vec2 cs, float[81] c) {
 // Operations: 1562 (232 mul, 3 add, 1327 fma); 135 constants, 92 live values.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.6e-7).
-vec3[81] sh9_rotate_y_rgb(vec2 cs, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[8] - 1.7320508 * c[6];
     float t1 = cs.y * cs.y;
     float t2 = cs.x * cs.y;
@@ -922,7 +947,11 @@ vec3[81] sh9_rotate_y_rgb(vec2 cs, vec3[81] c) {
 // Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-float[81] sh9_swap_yz(float[81] c) {
+ZONAL_HIGHP float[81] sh9_swap_yz(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1017,7 +1046,11 @@ float[81] sh9_swap_yz(float[81] c) {
 // Operations: 717 (219 mul, 0 add, 498 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[81] sh9_swap_yz_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_swap_yz_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1112,7 +1145,11 @@ vec3[81] sh9_swap_yz_rgb(vec3[81] c) {
 // Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-float[81] sh9_rotate_x_plus_90deg(float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_x_plus_90deg(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1207,7 +1244,11 @@ float[81] sh9_rotate_x_plus_90deg(float[81] c) {
 // Operations: 717 (219 mul, 0 add, 498 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[81] sh9_rotate_x_plus_90deg_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1302,7 +1343,11 @@ vec3[81] sh9_rotate_x_plus_90deg_rgb(vec3[81] c) {
 // Operations: 239 (73 mul, 0 add, 166 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-float[81] sh9_rotate_x_minus_90deg(float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_x_minus_90deg(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     float t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     float t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];
@@ -1397,7 +1442,11 @@ float[81] sh9_rotate_x_minus_90deg(float[81] c) {
 // Operations: 717 (219 mul, 0 add, 498 fma); 107 constants, 77 live values.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
-vec3[81] sh9_rotate_x_minus_90deg_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 0.39218438 * c[74] + 0.2734375 * c[72] + 0.41132647 * c[76] + 0.45768183 * c[78] + 0.62670666 * c[80];
     vec3 t1 = 0.32775277 * c[74] + 0.41132647 * c[72] - 0.28125 * c[76] - 0.73020756 * c[78] + 0.33329263 * c[80];
     vec3 t2 = 0.62670666 * c[72] - 0.6991205 * c[74] + 0.33329263 * c[76] - 0.08558165 * c[78] + 0.0078125 * c[80];

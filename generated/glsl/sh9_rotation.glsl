@@ -2,9 +2,18 @@
 // many of them; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_ROTATION_GLSL
 #define ZONAL_SH9_ROTATION_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `rotate:9`: Rotates order 9 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 // angle.
@@ -15,7 +24,11 @@
 //     122 live values.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
-float[81] sh9_rotate(vec4 q, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -514,7 +527,11 @@ float[81] sh9_rotate(vec4 q, float[81] c) {
 //     122 live values.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
-vec3[81] sh9_rotate_rgb(vec4 q, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -1015,7 +1032,7 @@ vec3[81] sh9_rotate_rgb(vec4 q, vec3[81] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[248] SH9_ROTATE_LOOP_J = float[248](
+const ZONAL_HIGHP float[248] SH9_ROTATE_LOOP_J = float[248](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -1047,7 +1064,11 @@ const float[248] SH9_ROTATE_LOOP_J = float[248](
     0.45768183, 0.0, -0.73020756, 0.5, -0.08558165, -0.03125, 0.25674495, -0.66658527, 0.6991205,
     0.62670666, -0.6991205, 0.33329263, -0.08558165, 0.0078125
 );
-float[81] sh9_rotate_loop(vec4 q, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[81];
     float phase_cos[27];
     float phase_sin[27];
@@ -1131,7 +1152,7 @@ float[81] sh9_rotate_loop(vec4 q, float[81] c) {
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
 // below l; of these the even columns in the rows from l, the odd columns in those below l
-const float[248] SH9_ROTATE_RGB_LOOP_J = float[248](
+const ZONAL_HIGHP float[248] SH9_ROTATE_RGB_LOOP_J = float[248](
     -1.0, -1.0, 1.0, -1.0, 1.0, -0.5, -0.8660254, -1.0, -0.8660254, 0.5, 0.7905694, -0.61237246,
     1.0, 0.61237246, 0.7905694, 0.7905694, 0.61237246, -0.25, -0.96824586, -0.61237246, 0.7905694,
     -0.96824586, 0.25, 0.9354144, -0.35355338, 0.75, -0.6614378, 0.35355338, 0.9354144, -0.6614378,
@@ -1163,7 +1184,11 @@ const float[248] SH9_ROTATE_RGB_LOOP_J = float[248](
     0.45768183, 0.0, -0.73020756, 0.5, -0.08558165, -0.03125, 0.25674495, -0.66658527, 0.6991205,
     0.62670666, -0.6991205, 0.33329263, -0.08558165, 0.0078125
 );
-vec3[81] sh9_rotate_rgb_loop(vec4 q, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[81];
     float phase_cos[27];
     float phase_sin[27];
@@ -1243,7 +1268,11 @@ vec3[81] sh9_rotate_rgb_loop(vec4 q, vec3[81] c) {
 // Operations: 884 (260 mul, 3 add, 621 fma); 135 constants, 118 live values.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
-float[81] sh9_rotate_euler(vec2[3] cs, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     float t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     float t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -1724,7 +1753,11 @@ float[81] sh9_rotate_euler(vec2[3] cs, float[81] c) {
 // Operations: 2482 (692 mul, 5 add, 1785 fma); 135 constants, 118 live values.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
-vec3[81] sh9_rotate_euler_rgb(vec2[3] cs, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[2].y + c[1] * cs[2].x;
     vec3 t1 = c[3] * cs[2].x - c[1] * cs[2].y;
     vec3 t2 = t1 * cs[1].x - c[2] * cs[1].y;
@@ -2207,7 +2240,11 @@ vec3[81] sh9_rotate_euler_rgb(vec2[3] cs, vec3[81] c) {
 //     live values.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-vec2[25] sh9_angles(vec4 q) {
+ZONAL_HIGHP vec2[25] sh9_angles(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -2301,7 +2338,11 @@ vec2[25] sh9_angles(vec4 q) {
 // Operations: 799 (216 mul, 1 add, 582 fma); 134 constants, 90 live values.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
-float[81] sh9_rotate_angles(vec2[25] cs, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_angles(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[16].y + c[1] * cs[16].x;
     float t1 = c[3] * cs[16].x - c[1] * cs[16].y;
     float t2 = t1 * cs[8].x - c[2] * cs[8].y;
@@ -2737,7 +2778,11 @@ float[81] sh9_rotate_angles(vec2[25] cs, float[81] c) {
 // Operations: 2397 (648 mul, 3 add, 1746 fma); 134 constants, 90 live values.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
-vec3[81] sh9_rotate_angles_rgb(vec2[25] cs, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_angles_rgb(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[16].y + c[1] * cs[16].x;
     vec3 t1 = c[3] * cs[16].x - c[1] * cs[16].y;
     vec3 t2 = t1 * cs[8].x - c[2] * cs[8].y;
@@ -3175,7 +3220,11 @@ vec3[81] sh9_rotate_angles_rgb(vec2[25] cs, vec3[81] c) {
 //     277 live values.
 // Error: f32 rounding at most 3.3e-5 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
-vec2[136] sh9_lifted(vec4 q) {
+ZONAL_HIGHP vec2[136] sh9_lifted(ZONAL_HIGHP vec4 q) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -3394,7 +3443,11 @@ vec2[136] sh9_lifted(vec4 q) {
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-float[81] sh9_rotate_lifted(vec2[136] cs, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_lifted(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[8].y + c[1] * cs[8].x;
     float t1 = c[3] * cs[8].x - c[1] * cs[8].y;
     float t2 = c[2] + t1 * cs[16].x;
@@ -3649,7 +3702,11 @@ float[81] sh9_rotate_lifted(vec2[136] cs, float[81] c) {
 // Operations: 1944 (432 mul, 0 add, 1512 fma); 0 constants, 88 live values.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-vec3[81] sh9_rotate_lifted_rgb(vec2[136] cs, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_lifted_rgb(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[8].y + c[1] * cs[8].x;
     vec3 t1 = c[3] * cs[8].x - c[1] * cs[8].y;
     vec3 t2 = c[2] + t1 * cs[16].x;
@@ -3903,7 +3960,11 @@ vec3[81] sh9_rotate_lifted_rgb(vec2[136] cs, vec3[81] c) {
 //     125 live values.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
-float[81] sh9_rotate_zxzxz(vec4 q, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4342,7 +4403,11 @@ float[81] sh9_rotate_zxzxz(vec4 q, float[81] c) {
 //     125 live values.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
-vec3[81] sh9_rotate_zxzxz_rgb(vec4 q, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -4780,7 +4845,11 @@ vec3[81] sh9_rotate_zxzxz_rgb(vec4 q, vec3[81] c) {
 //     121 live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
-float[81] sh9_rotate_align(vec3 n, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -5206,7 +5275,11 @@ float[81] sh9_rotate_align(vec3 n, float[81] c) {
 //     121 live values.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
-vec3[81] sh9_rotate_align_rgb(vec3 n, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = n.x + 1e-15;
     float t1 = n.y * n.y + t0 * t0;
     float t2 = inversesqrt(t1);
@@ -5631,7 +5704,11 @@ vec3[81] sh9_rotate_align_rgb(vec3 n, vec3[81] c) {
 // Operations: 234 (181 mul, 0 add, 53 fma); 87 constants, 93 live values.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
-float[81] sh9_rotate_zonal(vec3 dir, float[9] c) {
+ZONAL_HIGHP float[81] sh9_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;
@@ -5789,7 +5866,11 @@ float[81] sh9_rotate_zonal(vec3 dir, float[9] c) {
 // Operations: 394 (341 mul, 0 add, 53 fma); 87 constants, 93 live values.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
-vec3[81] sh9_rotate_zonal_rgb(vec3 dir, vec3[9] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * dir.x * dir.y;
     float t1 = 1.7320508 * dir.z;
     float t2 = dir.y * t1;

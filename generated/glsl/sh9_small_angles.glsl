@@ -2,9 +2,18 @@
 // do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_SMALL_ANGLES_GLSL
 #define ZONAL_SH9_SMALL_ANGLES_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `taylor1:9`: Rotates order 9 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 // forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
@@ -16,7 +25,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor1_y(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -137,7 +150,11 @@ float[81] sh9_taylor1_y(float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor1_y_rgb(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.7320508 * beta;
     float t1 = 1.2247449 * beta;
     float t2 = 1.5811388 * beta;
@@ -258,7 +275,11 @@ vec3[81] sh9_taylor1_y_rgb(float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.8e-7). Method error, the
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor15_y(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -405,7 +426,11 @@ float[81] sh9_taylor15_y(float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.8e-7). Method error, the
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor15_y_rgb(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = 1.0 - 0.5 * t0;
     float t2 = 1.0 - 1.5 * t0;
@@ -552,7 +577,11 @@ vec3[81] sh9_taylor15_y_rgb(float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.6e-7). Method error, the
 //     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor2_y(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     float t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -743,7 +772,11 @@ float[81] sh9_taylor2_y(float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.6e-7). Method error, the
 //     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor2_y_rgb(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.5 * beta;
     float t1 = 0.8660254 * beta;
     vec3 t2 = c[7] - c[6] * t1 + c[8] * t0;
@@ -934,7 +967,11 @@ vec3[81] sh9_taylor2_y_rgb(float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf3_y(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -1186,7 +1223,11 @@ float[81] sh9_lf3_y(float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf3_y_rgb(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.5 + 0.041666668 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -1438,7 +1479,11 @@ vec3[81] sh9_lf3_y_rgb(float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.4e-2 at 15, 3.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf5_y(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     float t2 = c[2] + c[3] * t1;
@@ -1811,7 +1856,11 @@ float[81] sh9_lf5_y(float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.4e-2 at 15, 3.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf5_y_rgb(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = beta * beta;
     float t1 = (0.19098301 + 0.004398867 * t0) * beta;
     vec3 t2 = c[2] + c[3] * t1;
@@ -2185,7 +2234,7 @@ vec3[81] sh9_lf5_y_rgb(float beta, vec3[81] c) {
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[81] SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[81](
+const ZONAL_HIGHP float[81] SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[81](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -2197,7 +2246,7 @@ const float[81] SH9_TAYLOR15_Y_LOOP_DY_SUB_DIAG = float[81](
     -3.2403703, -2.738613, -2.0
 );
 // the diagonal of the second derivative of D at 0
-const float[81] SH9_TAYLOR15_Y_LOOP_DDY_DIAG = float[81](
+const ZONAL_HIGHP float[81] SH9_TAYLOR15_Y_LOOP_DDY_DIAG = float[81](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
@@ -2205,7 +2254,11 @@ const float[81] SH9_TAYLOR15_Y_LOOP_DDY_DIAG = float[81](
     -23.5, -20.0, -15.5, -10.0, -3.5, -4.0, -11.5, -18.0, -23.5, -28.0, -31.5, -34.0, -17.5, -36.0,
     -53.5, -34.0, -31.5, -28.0, -23.5, -18.0, -11.5, -4.0
 );
-float[81] sh9_taylor15_y_loop(float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float r[81];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -2227,7 +2280,7 @@ float[81] sh9_taylor15_y_loop(float beta, float[81] c) {
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
 // dD/dbeta at 0, from m - 1 to m
-const float[81] SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[81](
+const ZONAL_HIGHP float[81] SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[81](
     0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.7320508, -1.0, 0.0, 1.2247449, 1.5811388, 0.0,
     -2.4494898, -1.5811388, -1.2247449, 0.0, 1.4142135, 1.8708287, 2.1213202, 0.0, -3.1622777,
     -2.1213202, -1.8708287, -1.4142135, 0.0, 1.5811388, 2.1213202, 2.4494898, 2.6457512, 0.0,
@@ -2239,7 +2292,7 @@ const float[81] SH9_TAYLOR15_Y_RGB_LOOP_DY_SUB_DIAG = float[81](
     -3.2403703, -2.738613, -2.0
 );
 // the diagonal of the second derivative of D at 0
-const float[81] SH9_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[81](
+const ZONAL_HIGHP float[81] SH9_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[81](
     0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -3.0, -4.0, -1.0, -1.5, -4.0, -2.5, -6.0, -8.5, -4.0, -1.5,
     -2.0, -5.5, -8.0, -4.5, -10.0, -14.5, -8.0, -5.5, -2.0, -2.5, -7.0, -10.5, -13.0, -7.0, -15.0,
     -22.0, -13.0, -10.5, -7.0, -2.5, -3.0, -8.5, -13.0, -16.5, -19.0, -10.0, -21.0, -31.0, -19.0,
@@ -2247,7 +2300,11 @@ const float[81] SH9_TAYLOR15_Y_RGB_LOOP_DDY_DIAG = float[81](
     -23.5, -20.0, -15.5, -10.0, -3.5, -4.0, -11.5, -18.0, -23.5, -28.0, -31.5, -34.0, -17.5, -36.0,
     -53.5, -34.0, -31.5, -28.0, -23.5, -18.0, -11.5, -4.0
 );
-vec3[81] sh9_taylor15_y_rgb_loop(float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 r[81];
     float half_square = 0.5 * beta * beta;
     r[0] = c[0];
@@ -2269,7 +2326,11 @@ vec3[81] sh9_taylor15_y_rgb_loop(float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.6e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor1_zyz(vec2[2] cs, float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = t1 - c[2] * beta;
@@ -2564,7 +2625,11 @@ float[81] sh9_taylor1_zyz(vec2[2] cs, float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.6e-7). Method error, the
 //     worst band's in spectral norm: 2.5e-1 at 5, 9.3e-1 at 10, 2e0 at 15, 4.3e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     vec3 t2 = t1 - c[2] * beta;
@@ -2859,7 +2924,11 @@ vec3[81] sh9_taylor1_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.3e-7). Method error, the
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor15_zyz(vec2[2] cs, float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3180,7 +3249,11 @@ float[81] sh9_taylor15_zyz(vec2[2] cs, float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.3e-7). Method error, the
 //     worst band's in spectral norm: 1.3e-1 at 5, 5.8e-1 at 10, 1.6e0 at 15, 5.2e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -3501,7 +3574,11 @@ vec3[81] sh9_taylor15_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.3e-7). Method error, the
 //     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_taylor2_zyz(vec2[2] cs, float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -3866,7 +3943,11 @@ float[81] sh9_taylor2_zyz(vec2[2] cs, float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.3e-7). Method error, the
 //     worst band's in spectral norm: 5.7e-2 at 5, 4.4e-1 at 10, 1.5e0 at 15, 5.7e0 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = 0.5 * beta;
@@ -4231,7 +4312,11 @@ vec3[81] sh9_taylor2_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf3_zyz(vec2[2] cs, float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -4586,7 +4671,11 @@ float[81] sh9_lf3_zyz(vec2[2] cs, float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.7e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -4941,7 +5030,11 @@ vec3[81] sh9_lf3_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.4e-2 at 15, 3.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-float[81] sh9_lf5_zyz(vec2[2] cs, float beta, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     float t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -5417,7 +5510,11 @@ float[81] sh9_lf5_zyz(vec2[2] cs, float beta, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.4e-2 at 15, 3.4e-1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[81] sh9_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[3] * cs[1].y + c[1] * cs[1].x;
     vec3 t1 = c[3] * cs[1].x - c[1] * cs[1].y;
     float t2 = beta * beta;
@@ -5894,7 +5991,11 @@ vec3[81] sh9_lf5_zyz_rgb(vec2[2] cs, float beta, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-6). Method error, the worst
 //     band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows
 //     without bound beyond.
-float[81] sh9_rotate_small(vec4 q, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -6265,7 +6366,11 @@ float[81] sh9_rotate_small(vec4 q, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-6). Method error, the worst
 //     band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1 at 25 degrees; it grows
 //     without bound beyond.
-vec3[81] sh9_rotate_small_rgb(vec4 q, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -6636,7 +6741,11 @@ vec3[81] sh9_rotate_small_rgb(vec4 q, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf5_rotate_small(vec4 q, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -7118,7 +7227,11 @@ float[81] sh9_lf5_rotate_small(vec4 q, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 1.1e-2 at 10, 4.5e-2 at 15, 3.4e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf5_rotate_small_rgb(vec4 q, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = q.y + 1e-15;
     float t1 = q.w + 1e-15;
     float t2 = q.z * q.z + t1 * t1;
@@ -7603,7 +7716,11 @@ vec3[81] sh9_lf5_rotate_small_rgb(vec4 q, vec3[81] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1
 //     at 25 degrees; it grows without bound beyond.
-float[81] sh9_rotate_adaptive(vec4 q, float limit, float[81] c) {
+ZONAL_HIGHP float[81] sh9_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;
@@ -8466,7 +8583,11 @@ float[81] sh9_rotate_adaptive(vec4 q, float limit, float[81] c) {
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.9e-1 at 15, 2.6e1
 //     at 25 degrees; it grows without bound beyond.
-vec3[81] sh9_rotate_adaptive_rgb(vec4 q, float limit, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_rotate_adaptive_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float limit, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     if (q.y * q.y + q.x * q.x <= limit * limit) {
         float t0 = q.y + 1e-15;
         float t1 = q.w + 1e-15;

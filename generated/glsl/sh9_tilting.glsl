@@ -2,9 +2,18 @@
 // not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH9_TILTING_GLSL
 #define ZONAL_SH9_TILTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `tilt:9`: Tilts order 9: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 // 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
@@ -18,7 +27,11 @@
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_tilt(vec3 n, float[81] c) {
+ZONAL_HIGHP float[81] sh9_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -291,7 +304,11 @@ float[81] sh9_tilt(vec3 n, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_tilt_rgb(vec3 n, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -564,7 +581,11 @@ vec3[81] sh9_tilt_rgb(vec3 n, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.1e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 9.9e-3 at 10, 4.2e-2 at 15, 3.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf5_tilt(vec3 n, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -957,7 +978,11 @@ float[81] sh9_lf5_tilt(vec3 n, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.1e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 9.9e-3 at 10, 4.2e-2 at 15, 3.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf5_tilt_rgb(vec3 n, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1350,7 +1375,11 @@ vec3[81] sh9_lf5_tilt_rgb(vec3 n, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_tilt_prescaled(vec3 n, float[81] c) {
+ZONAL_HIGHP float[81] sh9_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -1581,7 +1610,11 @@ float[81] sh9_tilt_prescaled(vec3 n, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-6). Method error, the
 //     worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_tilt_prescaled_rgb(vec3 n, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -1812,7 +1845,11 @@ vec3[81] sh9_tilt_prescaled_rgb(vec3 n, vec3[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 9.9e-3 at 10, 4.2e-2 at 15, 3.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-float[81] sh9_lf5_tilt_prescaled(vec3 n, float[81] c) {
+ZONAL_HIGHP float[81] sh9_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     float t2 = c[2] + t0 * t1;
@@ -2139,7 +2176,11 @@ float[81] sh9_lf5_tilt_prescaled(vec3 n, float[81] c) {
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 1.1e-3 at 5, 9.9e-3 at 10, 4.2e-2 at 15, 3.2e-1 at 25 degrees; it
 //     grows without bound beyond.
-vec3[81] sh9_lf5_tilt_prescaled_rgb(vec3 n, vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = c[1] * n.y + c[3] * n.x;
     float t1 = 1.0 / (n.z + 1.0);
     vec3 t2 = c[2] + t0 * t1;
@@ -2461,7 +2502,11 @@ vec3[81] sh9_lf5_tilt_prescaled_rgb(vec3 n, vec3[81] c) {
 // Operations: 66 (66 mul, 0 add, 0 fma); 30 constants, 66 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[81] sh9_tilt_scale(float[81] c) {
+ZONAL_HIGHP float[81] sh9_tilt_scale(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[81](
         c[0],
         c[1],
@@ -2554,7 +2599,11 @@ float[81] sh9_tilt_scale(float[81] c) {
 // Operations: 198 (198 mul, 0 add, 0 fma); 30 constants, 66 live values.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[81] sh9_tilt_scale_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_tilt_scale_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[81](
         c[0],
         c[1],
@@ -2647,7 +2696,11 @@ vec3[81] sh9_tilt_scale_rgb(vec3[81] c) {
 // Operations: 66 (66 mul, 0 add, 0 fma); 30 constants, 66 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
-float[81] sh9_tilt_unscale(float[81] c) {
+ZONAL_HIGHP float[81] sh9_tilt_unscale(ZONAL_HIGHP float[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[81](
         c[0],
         c[1],
@@ -2740,7 +2793,11 @@ float[81] sh9_tilt_unscale(float[81] c) {
 // Operations: 198 (198 mul, 0 add, 0 fma); 30 constants, 66 live values.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
-vec3[81] sh9_tilt_unscale_rgb(vec3[81] c) {
+ZONAL_HIGHP vec3[81] sh9_tilt_unscale_rgb(ZONAL_HIGHP vec3[81] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[81](
         c[0],
         c[1],

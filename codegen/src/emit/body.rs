@@ -59,7 +59,7 @@ impl Printer<'_> {
             Operand::Tiny => Text::literal(self.dialect.tiny().to_owned()),
             Operand::Input { param, index } => {
                 let param = &self.listing.params[param];
-                Text::atom(self.dialect.component(param.name, param.shape, index), param.kind)
+                Text::atom(self.dialect.component(param.name, param.shape, param.kind, index), param.kind)
             }
         };
         (text, vec![])

@@ -2,7 +2,7 @@
 //! arrays are passed. Types, components and values follow from the language's record.
 
 use crate::emit::language::expression::Text;
-use crate::emit::language::record::{Float, ITEMS, Numbers, Type, Way};
+use crate::emit::language::record::{Float, ITEMS, Numbers, Type, Types, Way};
 use crate::emit::language::{Arrays, Target};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::{Param, Shape};
@@ -73,6 +73,11 @@ impl Dialect {
     /// Returns the type of a parameter or a result, a struct perhaps that holds an array.
     pub fn passed(self, shape: Shape, kind: Kind) -> Type {
         let of = self.type_of(shape, kind);
+        if let Some(length) = of.length.filter(|_| self.arrays == Arrays::Vec4) {
+            let Types { vector, array, .. } = self.language.types;
+            let item = vector(&self.numbers().scalar, 4);
+            return Type { text: array(&item, length), item, ..of };
+        }
         match self.structure(&of) {
             Some(name) => Type { shape, item: name.clone(), length: None, text: name },
             None => of,
@@ -94,7 +99,7 @@ impl Dialect {
 
     /// Returns whether a result of this shape is written to a parameter.
     pub fn is_written(self, shape: Shape) -> bool {
-        self.arrays == Arrays::Reference && is_array(shape)
+        self.arrays == Arrays::Reference && shape.is_array()
     }
 
     /// Returns a parameter in a signature.
@@ -109,14 +114,23 @@ impl Dialect {
 
     /// Returns what is indexed of a parameter or a result.
     pub fn items(self, name: &str, shape: Shape) -> String {
-        match self.arrays == Arrays::Struct && is_array(shape) {
+        match self.arrays == Arrays::Struct && shape.is_array() {
             true => format!("{name}.{ITEMS}"),
             false => name.to_owned(),
         }
     }
 
-    /// Returns component `index`, in flat order, of a parameter or a result.
-    pub fn component(self, name: &str, shape: Shape, index: usize) -> String {
+    /// Returns what stands behind an item of an array of numbers of this kind where the item is more than the number.
+    pub fn within(self, kind: Kind) -> &'static str {
+        match (self.arrays == Arrays::Vec4, self.rgb && !kind.is_scalar()) {
+            (false, _) => "",
+            (true, false) => (self.language.component)(0),
+            (true, true) => ".xyz",
+        }
+    }
+
+    /// Returns component `index`, in flat order, of a parameter or a result whose numbers are of a kind.
+    pub fn component(self, name: &str, shape: Shape, kind: Kind, index: usize) -> String {
         let name = self.items(name, shape);
         let of = |size: usize| format!("{name}[{}]{}", index / size, (self.language.component)(index % size));
         match shape {
@@ -124,7 +138,7 @@ impl Dialect {
             Shape::Vec3 | Shape::Vec4 | Shape::Pair => format!("{name}{}", (self.language.component)(index)),
             Shape::Mat3 | Shape::Vectors(_) => of(3),
             Shape::Pairs(_) => of(2),
-            Shape::Array(_) => format!("{name}[{index}]"),
+            Shape::Array(_) => format!("{name}[{index}]{}", self.within(kind)),
         }
     }
 
@@ -142,16 +156,28 @@ impl Dialect {
             (None, Shape::Mat3) => (3, self.language.columns.then(column)),
             (None, _) => (1, None),
         };
+        if self.arrays == Arrays::Vec4 && shape.is_array() {
+            return numbers.chunks(size).map(|group| self.padded(kind, group)).collect();
+        }
         let (open, close) = brackets.unwrap_or_default();
         numbers.chunks(size).map(|group| format!("{open}{}{close}", group.join(", "))).collect()
     }
 
-    /// Returns a value of its own type, laid out; nothing for a single number.
+    /// Returns numbers of a kind as a vector of four, with zeros behind them.
+    pub fn padded(self, kind: Kind, numbers: &[String]) -> String {
+        let channels = if self.rgb && !kind.is_scalar() { 3 } else { 1 };
+        let (open, close) = (self.language.brackets)(&(self.language.types.vector)(&self.numbers().scalar, 4));
+        let zeros = ", 0.0".repeat(4 - channels * numbers.len());
+        format!("{open}{}{zeros}{close}", numbers.join(", "))
+    }
+
+    /// Returns a value as it is passed, but for a struct around it, laid out; nothing for a single number.
     pub fn laid(self, shape: Shape, kind: Kind, numbers: &[String]) -> Option<Laid> {
         if shape == Shape::Scalar {
             return None;
         }
-        let (open, close) = (self.language.brackets)(&self.type_of(shape, kind).text);
+        let of = if self.arrays == Arrays::Vec4 { self.passed(shape, kind) } else { self.type_of(shape, kind) };
+        let (open, close) = (self.language.brackets)(&of.text);
         let mut lines = self.grouped(shape, kind, numbers);
         let last = lines.len() - 1;
         for (i, line) in lines.iter_mut().enumerate() {
@@ -186,9 +212,4 @@ impl Dialect {
     pub fn tiny(self) -> &'static str {
         self.float().tiny
     }
-}
-
-/// Whether a value of this shape is an array, which not every language can return.
-fn is_array(shape: Shape) -> bool {
-    matches!(shape, Shape::Pairs(_) | Shape::Array(_) | Shape::Vectors(_))
 }

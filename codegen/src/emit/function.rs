@@ -97,7 +97,7 @@ impl Printer<'_> {
         let (dialect, statements) = (self.dialect, self.dialect.language.statements);
         let (shape, kind) = (listing.result, listing.result_kind);
         let passed = dialect.passed(shape, kind);
-        let (is_written, is_struct) = (dialect.is_written(shape), passed != dialect.type_of(shape, kind));
+        let (is_written, is_struct) = (dialect.is_written(shape), passed.is_struct());
         if is_written || is_struct {
             let items = dialect.items(RESULT, shape);
             let stored = dialect.grouped(shape, kind, numbers).into_iter().enumerate();
@@ -148,7 +148,7 @@ impl Function {
         let (code, language) = (&self.built.code, dialect.language);
         let (shape, kind) = code.result();
         let mut params: Vec<String> = code.params().iter().map(|param| dialect.parameter(param)).collect();
-        let mut result = dialect.passed(shape, kind).text;
+        let mut result = (language.result)(&dialect.passed(shape, kind));
         if dialect.is_written(shape) {
             let output = if let Code::Loop(kernel) = code { kernel.output } else { RESULT };
             params.push(dialect.output(output, shape, kind));

@@ -117,8 +117,10 @@ impl Printer<'_> {
                 self.line(&(self.dialect.language.statements.variable)(&of, name));
             }
             Stmt::Store(name, index, value) => {
-                let array = self.array(name);
-                self.line(&format!("{array}[{}] = {};", self.int(index).text, self.num(value).text));
+                let (array, value) = (self.array(name), self.num(value));
+                let is_padded = *name == self.kernel.output && !self.dialect.within(value.kind).is_empty();
+                let value = if is_padded { self.dialect.padded(value.kind, &[value.text]) } else { value.text };
+                self.line(&format!("{array}[{}] = {value};", self.int(index).text));
             }
             Stmt::Stage(..) => {}
             Stmt::For { name, from, to, step, body } => {
@@ -174,8 +176,12 @@ impl Printer<'_> {
         }
         let param = self.kernel.params.iter().find(|param| param.name == name);
         match (param, index) {
-            (Some(param), &Int::Literal(index)) => self.dialect.component(name, param.shape, index),
-            _ => format!("{}{place}", self.array(name)),
+            (Some(param), &Int::Literal(index)) => self.dialect.component(name, param.shape, param.kind, index),
+            _ => {
+                let is_passed = param.is_some() || name == self.kernel.output;
+                let within = if is_passed { self.dialect.within(self.kinds[name]) } else { "" };
+                format!("{}{place}{within}", self.array(name))
+            }
         }
     }
 

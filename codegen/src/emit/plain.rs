@@ -3,7 +3,7 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::docs;
 use crate::emit::language::record::{Language, Numbers};
-use crate::emit::language::{Target, shader};
+use crate::emit::language::{Arrays, Target, shader};
 use crate::emit::module::{Constants, Limit, Module};
 use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
@@ -37,10 +37,10 @@ pub fn render(template: &str, context: &Context) -> String {
 pub fn constants(module: &Module, target: Target) -> Vec<String> {
     // Numbers for kernels of f16 alone are f16 themselves.
     let half = !module.functions.is_empty() && module.functions.iter().all(|function| function.spec.half);
-    module.constants.iter().map(|constants| constant(constants, target, half)).collect()
+    module.constants.iter().map(|constants| constant(constants, target, half, module.arrays)).collect()
 }
 
-fn constant(constants: &Constants, language: &'static Language, half: bool) -> String {
+fn constant(constants: &Constants, language: &'static Language, half: bool, arrays: Option<Arrays>) -> String {
     let doc = docs::wrap(&docs::ascii(&constants.doc), 0).join(&format!("\n{} ", language.doc));
     let numbers = match &language.generic {
         Some(generic) => {
@@ -49,12 +49,18 @@ fn constant(constants: &Constants, language: &'static Language, half: bool) -> S
         }
         None => Dialect { half, ..Dialect::new(language) }.numbers(),
     };
-    let of = language.type_of(&numbers, Shape::Vectors(constants.values.len()), Kind::Scalar);
+    let shape = Shape::Vectors(constants.values.len());
+    let padded = arrays.filter(|arrays| *arrays == Arrays::Vec4 && language.arrays.contains(arrays));
+    let (of, zeros) = match padded {
+        Some(arrays) => (Dialect { half, arrays, ..Dialect::new(language) }.passed(shape, Kind::Scalar), ", 0.0"),
+        None => (language.type_of(&numbers, shape, Kind::Scalar), ""),
+    };
     let (open, close) = (language.constant)(&constants.name.to_uppercase(), &of);
     let (row_open, row_close) = (language.brackets)(&of.item);
     let number = |x: &f64| shader::literal_of(*x as f32);
-    let row =
-        |v: &[f64; 3]| format!("    {row_open}{}{row_close}", v.iter().map(number).collect::<Vec<_>>().join(", "));
+    let row = |v: &[f64; 3]| {
+        format!("    {row_open}{}{zeros}{row_close}", v.iter().map(number).collect::<Vec<_>>().join(", "))
+    };
     let rows: Vec<String> = constants.values.iter().map(row).collect();
     let comma = if language.trailing_comma { "," } else { "" };
     format!("{} {doc}\n{open}\n{}{comma}\n{close}", language.doc, rows.join(",\n"))

@@ -28,6 +28,11 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// Returns whether a value is an array, which not every language can return.
+    pub fn is_array(self) -> bool {
+        matches!(self, Self::Pairs(_) | Self::Array(_) | Self::Vectors(_))
+    }
+
     /// How many numbers it holds.
     pub fn len(self) -> usize {
         match self {

@@ -34,7 +34,7 @@ pub enum Mode {
     Toys,
 }
 
-/// The kernels that are run with their arrays in structs and by reference.
+/// The kernels that are run with their arrays in each way that a language does not do by itself.
 pub const ARRAYS: [&str; 13] = [
     "basis:4",
     "eval:4",

@@ -82,7 +82,7 @@ impl Call {
             let passed = dialect.passed(param.shape, param.kind);
             filled += &format!("{}\n    ", (dialect.language.statements.variable)(&passed, &name));
             for (place, number) in numbers.iter().enumerate() {
-                filled += &format!("{} = {number};\n    ", dialect.component(&name, param.shape, place));
+                filled += &format!("{} = {number};\n    ", dialect.component(&name, param.shape, param.kind, place));
             }
             name
         };
@@ -91,9 +91,9 @@ impl Call {
         let channels = channels(function, kind);
         let number = |place: usize| match (place / channels < shape.len(), channels) {
             (false, _) => "0.0".to_owned(),
-            (true, 1) => dialect.component("result", shape, place),
+            (true, 1) => dialect.component("result", shape, kind, place),
             (true, _) => {
-                format!("{}{}", dialect.component("result", shape, place / channels), letter(place % channels))
+                format!("{}{}", dialect.component("result", shape, kind, place / channels), letter(place % channels))
             }
         };
         let vector = |i: usize| format!("vec4({})", [0, 1, 2, 3].map(|j| number(VECTOR * i + j)).join(", "));
@@ -183,7 +183,7 @@ pub fn fragment(function: &Function, dialect: Dialect, version: &str, text: &str
     let params = function.built.code.params();
     let uniforms: String = params.iter().map(|param| format!("uniform {};\n", dialect.parameter(param))).collect();
     let arguments: Vec<String> = params.iter().map(|param| param.name.to_owned()).collect();
-    let last = dialect.component("result", shape, shape.len() - 1);
+    let last = dialect.component("result", shape, kind, shape.len() - 1);
     let precision = if version.ends_with("es") { "precision highp float;\n" } else { "" };
     format!(
         "#version {version}\n{precision}{text}\n{uniforms}out vec4 colour;\n\

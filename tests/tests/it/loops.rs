@@ -273,7 +273,8 @@ fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
     let result = dialect.type_of(kernel.result, kernel.result_kind).text;
     let head = match dialect.language.name {
         "wgsl" => format!("fn {name}({params}) -> {result} {{"),
-        "glsl" => format!("{result} {name}({params}) {{"),
+        // What the template begins a file with, where it is no GLSL ES.
+        "glsl" => format!("#define ZONAL_HIGHP\n{result} {name}({params}) {{"),
         _ => format!("pub fn {name}<T: Real, V: Signal<T>>({params}) -> {result} {{"),
     };
     let lines: Vec<String> = body.lines.iter().map(|line| format!("    {line}")).collect();
@@ -281,7 +282,8 @@ fn text(kernel: &LoopKernel, dialect: Dialect, name: &str) -> String {
         true => body.result,
         false => format!("return {};", body.result),
     };
-    format!("{}\n{head}\n{}\n    {tail}\n}}\n", body.tables.join("\n"), lines.join("\n"))
+    let (define, head) = head.rsplit_once('\n').unwrap_or(("", &head));
+    format!("{define}\n{}\n{head}\n{}\n    {tail}\n}}\n", body.tables.join("\n"), lines.join("\n"))
 }
 
 fn argument(shape: Shape, kind: Kind, channels: &[Vec<f32>]) -> Value {

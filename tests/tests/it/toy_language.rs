@@ -48,6 +48,7 @@ const C: Language = Language {
             None => format!("{constant}{} {name}", of.text),
         }
     },
+    result: |of| of.text.clone(),
     nothing: "void",
     component: shader::component,
     brackets: |of| (format!("({of}){{"), "}"),

@@ -1,4 +1,5 @@
-//! GLSL that is the same text in 4.50, 3.30 and ES 3.00, without a version of its own.
+//! GLSL that is the same text in 4.50, 3.30 and ES 3.00, without a version of its own. Where it is GLSL ES its numbers are
+//! highp, whatever the shader around it says: the macro in signatures, a statement in bodies, both in the template.
 
 use crate::emit::language::expression::Text;
 #[cfg(not(feature = "check"))]
@@ -18,12 +19,13 @@ pub static GLSL: Language = Language {
         matrix: |_| "mat3".to_owned(),
         array: |of, n| format!("{of}[{n}]"),
     },
-    arrays: &[Arrays::Value, Arrays::Struct, Arrays::Reference],
+    arrays: &[Arrays::Value, Arrays::Struct, Arrays::Reference, Arrays::Vec4],
     structure,
     parameter: |name, of, way| match way {
-        Way::In => format!("{} {name}", of.text),
-        Way::Out => format!("out {} {name}", of.text),
+        Way::In => format!("{} {name}", precise(of)),
+        Way::Out => format!("out {} {name}", precise(of)),
     },
+    result: precise,
     nothing: "void",
     component: shader::component,
     brackets: shader::constructor,
@@ -56,6 +58,9 @@ pub static GLSL: Language = Language {
     renames_digits: true,
     check,
 };
+
+/// The macro that is `highp` in GLSL ES and nothing elsewhere: naga takes no such word before a parameter.
+const HIGHP: &str = "ZONAL_HIGHP";
 
 /// Keywords and reserved words whose names end in a letter, but for the opaque types, from the specifications of GLSL
 /// 4.60 and GLSL ES 3.00, sections 3.6 to 3.8.
@@ -112,14 +117,19 @@ fn select(x: &[Text], of: &str) -> String {
     format!("mix({}, {}, {by})", x[3].text, x[2].text)
 }
 
+/// A type with its precision, which a struct may not have.
+fn precise(of: &Type) -> String {
+    if of.is_struct() { of.text.clone() } else { format!("{HIGHP} {}", of.text) }
+}
+
 fn table(name: &str, of: &Type) -> (String, &'static str) {
-    (format!("const {} {name} = {}(", of.text, of.text), ");")
+    (format!("const {} {name} = {}(", precise(of), of.text), ");")
 }
 
 fn structure(name: &str, of: &Type) -> String {
     let (guard, Type { item, length, .. }) = (name.to_uppercase(), of);
     let length = length.unwrap_or(1);
-    format!("#ifndef {guard}\n#define {guard}\nstruct {name} {{ {item} {ITEMS}[{length}]; }};\n#endif")
+    format!("#ifndef {guard}\n#define {guard}\nstruct {name} {{ {HIGHP} {item} {ITEMS}[{length}]; }};\n#endif")
 }
 
 /// A drop-in carries neither a version nor an entry point: both are added here.

@@ -29,6 +29,8 @@ pub struct Language {
     pub structure: fn(name: &str, of: &Type) -> String,
     /// A parameter in a signature.
     pub parameter: fn(name: &str, of: &Type, way: Way) -> String,
+    /// The type of a result in a signature.
+    pub result: fn(&Type) -> String,
     /// The type of a function that returns nothing.
     pub nothing: &'static str,
     /// A component of a vector, by its place.
@@ -153,6 +155,13 @@ pub struct Type {
     pub text: String,
 }
 
+impl Type {
+    /// Returns whether it is a struct that holds an array.
+    pub fn is_struct(&self) -> bool {
+        self.length.is_none() && self.shape.is_array()
+    }
+}
+
 /// How arrays are passed to a function and how its result comes back if it is one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrays {
@@ -163,12 +172,15 @@ pub enum Arrays {
     Struct,
     /// By reference: the result is what is written to a last parameter.
     Reference,
+    /// As a value whose items are vectors of four, an item at the head of each and zeros behind it: as uniform buffers hold
+    /// them.
+    Vec4,
 }
 
 impl Arrays {
     /// All of them, each with its name.
-    pub const ALL: [(Self, &'static str); 3] =
-        [(Self::Value, "value"), (Self::Struct, "struct"), (Self::Reference, "reference")];
+    pub const ALL: [(Self, &'static str); 4] =
+        [(Self::Value, "value"), (Self::Struct, "struct"), (Self::Reference, "reference"), (Self::Vec4, "vec4")];
 
     /// Returns its name.
     pub fn name(self) -> &'static str {

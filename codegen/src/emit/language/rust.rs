@@ -21,6 +21,7 @@ pub static RUST: Language = Language {
     arrays: &[Arrays::Value],
     structure: |name, of| format!("pub struct {name} {{ pub at: {} }}", of.text),
     parameter,
+    result: |of| of.text.clone(),
     nothing: "()",
     component: |place| ["[0]", "[1]", "[2]", "[3]"][place],
     brackets: |_| ("[".to_owned(), "]"),

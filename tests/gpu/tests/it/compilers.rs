@@ -68,8 +68,8 @@ fn fragment(function: &Function, version: &str, arrays: Option<Arrays>) -> Vec<u
 }
 
 #[test]
-fn glslang_accepts_arrays_in_structs_and_by_reference() {
-    for arrays in [Arrays::Struct, Arrays::Reference] {
+fn glslang_accepts_arrays_passed_in_other_ways() {
+    for arrays in [Arrays::Struct, Arrays::Reference, Arrays::Vec4] {
         // The version that allows least.
         let write = |function: &Function| fragment(function, VERSIONS[0], Some(arrays));
         all_compile(arrays.name(), "frag", write, glslang);
@@ -87,6 +87,77 @@ fn glslang_refuses_one_bad_file_among_good_ones() {
     assert_eq!(glslang(&files), Ok(()));
     std::fs::write(&files[1], text.replace("1.0", "undeclared")).expect("the target folder can be written");
     assert!(glslang(&files).is_err());
+}
+
+/// Whether glslang gives anything in a text relaxed precision where the shader around it asks for mediump.
+fn is_relaxed(name: &str, text: &str) -> bool {
+    // Of SPIR-V: how many words stand before the first instruction, two instructions, one decoration.
+    const HEADER: usize = 5;
+    const DECORATE: [u32; 2] = [71, 72];
+    const RELAXED_PRECISION: u32 = 0;
+    let folder = folder(&format!("mediump {name}"));
+    let [source, target] = ["kernels.frag", "kernels.spv"].map(|file| folder.join(file));
+    let whole =
+        format!("#version 310 es\nprecision mediump float;\nprecision mediump int;\n{text}\nvoid main() {{}}\n");
+    std::fs::write(&source, whole).expect("the target folder can be written");
+    let arguments = ["-G", "--keep-uncalled", "-o", target.to_str().expect("the target folder has a name of letters")];
+    let compiled = compile("glslangValidator", "glslang-tools", &arguments, &[source]);
+    compiled.unwrap_or_else(|refusal| panic!("{name}: {refusal}"));
+    let bytes = std::fs::read(&target).expect("glslang has written it");
+    let words: Vec<u32> =
+        bytes.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().expect("four"))).collect();
+    let mut at = HEADER;
+    let mut is_relaxed = false;
+    while let Some(&first) = words.get(at) {
+        let (length, instruction) = ((first >> 16) as usize, first & 0xffff);
+        let decoration = DECORATE.iter().position(|known| *known == instruction);
+        is_relaxed |= decoration.is_some_and(|member| words[at + 2 + member] == RELAXED_PRECISION);
+        at += length;
+    }
+    is_relaxed
+}
+
+#[test]
+fn no_kernel_computes_in_mediump_in_a_shader_that_does() {
+    let files = group_files(&GLSL, ORDERS);
+    assert!(files.len() > 40, "{}", files.len());
+    let relaxed: Vec<&str> = files
+        .par_iter()
+        .filter(|(name, text)| is_relaxed(&name.replace('/', " "), text))
+        .map(|(name, _)| &**name)
+        .collect();
+    assert!(relaxed.is_empty(), "{relaxed:?}");
+    // A form with arrays in structs and a loop, which no file of the catalogue has.
+    for (spec, arrays) in [("rotate:3:rgb", Arrays::Struct), ("rotate:3:loop", Arrays::Vec4)] {
+        let function = &zonal_codegen::generate::build(&[spec.parse().expect("a spec")])[0];
+        let text = wrap::file(function, wrap::dialect(function, &GLSL, Some(arrays)));
+        assert!(!is_relaxed(&function.shader_name(), &text), "{spec}");
+        // What the test would see if the words that prevent it were missing.
+        let without = text.replace("#define ZONAL_HIGHP highp", "#define ZONAL_HIGHP");
+        assert!(is_relaxed("signature", &without), "{spec}");
+        assert!(is_relaxed("body", &text.replace("precision highp", "precision mediump")), "{spec}");
+    }
+}
+
+#[test]
+fn a_uniform_buffer_holds_what_vec4_takes() {
+    for spec in ["eval:3:rgb", "eval:3", "rotate:2:angles", "rotate:3:loop"] {
+        let function = &zonal_codegen::generate::build(&[spec.parse().expect("a spec")])[0];
+        let accepts = |arrays: Arrays| {
+            let dialect = wrap::dialect(function, &WGSL, Some(arrays));
+            let of = function.built.code.params().last().expect("the coefficients");
+            let text = format!(
+                "{}\n@group(0) @binding(0) var<uniform> probe: {};\n",
+                wrap::file(function, dialect),
+                dialect.passed(of.shape, of.kind).text
+            );
+            let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+            Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module).is_ok()
+        };
+        assert!(accepts(Arrays::Vec4), "{spec}");
+        // Only vectors of three have a stride of sixteen bytes by themselves.
+        assert_eq!(accepts(Arrays::Value), spec.ends_with("rgb"), "{spec}");
+    }
 }
 
 /// The SPIR-V that naga makes of a compute shader around a function.
@@ -147,8 +218,11 @@ fn glslang_accepts_all_group_files_together_and_each_of_them_twice() {
 #[test]
 fn glslang_refuses_a_group_file_twice_without_its_guard() {
     let (folder, files) = (folder("glsl twice"), group_files(&GLSL, 2..=2));
-    let bare =
-        |text: &str| text.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect();
+    let bare = |text: &str| -> String {
+        let inside = text.trim_end().strip_suffix("#endif").expect("the guard ends the file");
+        let is_guard = |line: &&str| line.starts_with("#ifndef ZONAL_SH") || line.starts_with("#define ZONAL_SH");
+        inside.lines().filter(|line| !is_guard(line)).map(|line| format!("{line}\n")).collect()
+    };
     let texts: Vec<String> = files.iter().map(|(_, text)| bare(text)).collect();
     let path = folder.join("twice.frag");
     let check = |text: String| {
