@@ -3,6 +3,7 @@
 
 mod commands;
 mod hand_over;
+mod init;
 mod search;
 mod vectors;
 
@@ -10,7 +11,7 @@ use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use zonal_cli::terminal::{Failure, ended};
+use zonal_cli::terminal::{Failure, ended, out};
 use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::text::family_names;
@@ -39,6 +40,20 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Writes a scene to begin with: all that it may hold, with what it means.
+    Init {
+        /// The file to write.
+        #[arg(default_value = "scene.toml")]
+        file: PathBuf,
+        /// An environment map that it names.
+        #[arg(long)]
+        map: Option<PathBuf>,
+        /// Replaces a file that is there.
+        #[arg(long)]
+        force: bool,
+    },
+    /// Prints the format of scenes as JSON schema, by which an editor completes and checks them.
+    Schema,
     /// Shows what a scene would get, and why.
     Plan {
         /// The scene, a TOML file; without one, the glossy scene that zonal carries with it.
@@ -152,6 +167,8 @@ fn spec_of(text: &str) -> Result<Spec, Failure> {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Generate { scene, out, force } => commands::generate(scene.as_deref(), out, Replace::forced(force)),
+        Command::Init { file, map, force } => init::run(&file, map.as_deref(), Replace::forced(force)),
+        Command::Schema => out(zonal_templates::SCENE_SCHEMA),
         Command::Plan { scene, json, plot: None, .. } => commands::plan(scene.as_deref(), json),
         Command::Plan { scene, json, plot: Some(plot), force } => hand_over::plot(scene, json, plot, force),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),

@@ -9,6 +9,11 @@ pub const RUST: &str = include_str!("../rust.tera");
 /// What the kernels in Rust are generic over.
 pub const REAL: &str = include_str!("../real.rs.tera");
 
+/// The scene that `zonal init` writes.
+pub const SCENE: &str = include_str!("../scene.toml.tera");
+/// The format of scenes as JSON schema, which `zonal schema` prints.
+pub const SCENE_SCHEMA: &str = include_str!("../scene.schema.json");
+
 macro_rules! texts {
     ($folder:literal: $($name:literal = $file:literal),* $(,)?) => {
         &[$(($name, include_str!(concat!("../", $folder, "/", $file)))),*]

@@ -118,6 +118,7 @@ pub enum Proof {
 
 /// What the planner is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Job {
     /// The shortest rotation from z to a normal.

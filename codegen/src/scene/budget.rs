@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which numbers a kernel works in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// f32.
@@ -17,6 +18,7 @@ pub enum Precision {
 
 /// What an error is the error of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Norm {
     /// The worst signal of the worst band.

@@ -9,7 +9,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// The most signals that a rotation may turn: beyond it, only what is done for each of them counts.
-const MAX_SIGNALS: usize = 1_000_000;
+pub(super) const MAX_SIGNALS: usize = 1_000_000;
 
 /// A value and where it was written.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,26 @@ pub struct Located<T> {
     pub place: Place,
 }
 
+/// A value as serde finds it, with its place in the text.
+#[derive(Deserialize)]
+#[serde(transparent)]
+pub(super) struct Placed<T>(Spanned<T>);
+
+#[cfg(feature = "schema")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for Placed<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        T::json_schema(generator)
+    }
+}
+
 /// An order in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
@@ -27,6 +47,23 @@ pub enum Order {
     Number(usize),
     /// As many as the environment needs.
     Environment,
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Order {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Order".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "anyOf": [{ "type": "integer", "minimum": MIN_ORDER, "maximum": MAX_ORDER }, { "const": "environment" }]
+        })
+    }
 }
 
 impl<'de> Deserialize<'de> for Order {
@@ -63,17 +100,17 @@ impl<'de> Deserialize<'de> for Order {
 pub(super) struct Locator(pub(super) Arc<Source>);
 
 impl Locator {
-    pub(super) fn at<T>(&self, spanned: Spanned<T>) -> Located<T> {
-        let place = Place { source: Arc::clone(&self.0), span: spanned.span() };
-        Located { value: spanned.into_inner(), place }
+    pub(super) fn at<T>(&self, spanned: Placed<T>) -> Located<T> {
+        let place = Place { source: Arc::clone(&self.0), span: spanned.0.span() };
+        Located { value: spanned.0.into_inner(), place }
     }
 
     /// A value that may be left out, which then stands at another's place.
-    pub(super) fn or_default<T: Default, U>(&self, value: Option<Spanned<T>>, place: &Spanned<U>) -> Located<T> {
+    pub(super) fn or_default<T: Default, U>(&self, value: Option<Placed<T>>, place: &Placed<U>) -> Located<T> {
         match value {
             Some(value) => self.at(value),
             None => {
-                let place = Place { source: Arc::clone(&self.0), span: place.span() };
+                let place = Place { source: Arc::clone(&self.0), span: place.0.span() };
                 Located { value: T::default(), place }
             }
         }
@@ -82,7 +119,7 @@ impl Locator {
     /// A number within bounds, of which the lower may be excluded.
     pub(super) fn number(
         &self,
-        spanned: Spanned<f64>,
+        spanned: Placed<f64>,
         what: &str,
         least: f64,
         most: f64,
@@ -101,7 +138,7 @@ impl Locator {
         }
     }
 
-    pub(super) fn signals(&self, spanned: Spanned<i64>) -> Result<usize, Diagnostic> {
+    pub(super) fn signals(&self, spanned: Placed<i64>) -> Result<usize, Diagnostic> {
         let located = self.at(spanned);
         let count = usize::try_from(located.value).ok().filter(|count| (1..=MAX_SIGNALS).contains(count));
         count.ok_or_else(|| {
@@ -110,7 +147,7 @@ impl Locator {
         })
     }
 
-    pub(super) fn angle(&self, spanned: Spanned<f64>) -> Result<Located<f64>, Diagnostic> {
+    pub(super) fn angle(&self, spanned: Placed<f64>) -> Result<Located<f64>, Diagnostic> {
         self.number(spanned, "an angle in degrees of", 0.0, 180.0)
     }
 }

@@ -9,66 +9,121 @@ use crate::math::convention::{Convention, ZONAL};
 use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use crate::scene::frame;
-use crate::scene::located::{Located, Locator, Order};
+#[cfg(feature = "schema")]
+use crate::scene::located::MAX_SIGNALS;
+use crate::scene::located::{Located, Locator, Order, Placed};
 use crate::scene::picture::{self, BrdfTable, Kind, PictureTable};
 use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IntoDeserializer};
-use serde_spanned::Spanned;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The manifest as TOML holds it.
+/// A scene: what a renderer needs, from which zonal chooses, generates and writes kernels.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Manifest {
-    name: Spanned<String>,
-    targets: Option<Spanned<Vec<Spanned<String>>>>,
-    arrays: Option<Spanned<String>>,
-    output: Option<Spanned<String>>,
+    /// What the files that are written are called, without their extension: letters, digits, `_` and `-`.
+    name: Placed<String>,
+    /// The languages to print; all of them if it is left out.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<super::words::Language>>"))]
+    targets: Option<Placed<Vec<Placed<String>>>>,
+    /// How functions take and return arrays; if it is left out, as a value, which every language does. `vec4` puts each
+    /// item into a vector of four, as uniform buffers hold them.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::Passed>"))]
+    arrays: Option<Placed<String>>,
+    /// The folder to write to, relative to the folder that zonal runs in, which it may not leave; `zonal-out/` and the name
+    /// if it is left out.
+    output: Option<Placed<String>>,
+    /// The light that the scene stands in: its coefficients are written as constants, and its order is chosen.
     environment: Option<EnvironmentTable>,
+    /// A kernel by its name.
     #[serde(default)]
     kernel: Vec<KernelTable>,
+    /// A rotation by its error: zonal chooses the cheapest method that keeps it.
     #[serde(default)]
     rotation: Vec<RotationTable>,
+    /// What the surface reflects. The order of the environment is then chosen by the light that is reflected.
     brdf: Option<BrdfTable>,
+    /// What a picture of the scene shows, which `zonal render` draws.
     picture: Option<PictureTable>,
 }
 
+/// The light that a scene stands in.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct EnvironmentTable {
-    map: Spanned<String>,
+    /// The file of the environment map, relative to the scene: latitude and longitude, Radiance HDR or OpenEXR.
+    map: Placed<String>,
+    /// What the kernels need of it.
     signal: Light,
-    budget: Spanned<f64>,
-    max_order: Option<Spanned<Order>>,
-    name: Option<Spanned<String>>,
-    axes: Option<Spanned<String>>,
-    convention: Option<Spanned<String>>,
+    /// The relative error that leaving out bands may cost, in the root mean square: a share of the whole, as in 0.05.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0)))]
+    budget: Placed<f64>,
+    /// The most bands that the scene can afford; 10 if it is left out, or as many as the convention has.
+    max_order: Option<Placed<Order>>,
+    /// What the constants are called; the scene's name and `_environment` if it is left out.
+    name: Option<Placed<String>>,
+    /// Where the directions of the coefficients lie: the name of a convention of docs/ENGINES.md, whose axes are taken, or the
+    /// axes to the centre of the map, to the left of it and up, as in `x,-z,y`. If it is left out, those of the convention.
+    axes: Option<Placed<String>>,
+    /// In whose convention the coefficients are held: a name of docs/ENGINES.md; zonal's own if it is left out.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::ConventionName>"))]
+    convention: Option<Placed<String>>,
 }
 
+/// A kernel by its name.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct KernelTable {
-    spec: Spanned<String>,
-    name: Option<Spanned<String>>,
-    max_angle: Option<Spanned<f64>>,
+    /// What to print, as in `rotate:5:rgb`: `zonal list` knows them all. Where the order would stand it may say
+    /// `environment`: as many bands as the environment needs.
+    spec: Placed<String>,
+    /// What the function is called; its own name if it is left out.
+    name: Option<Placed<String>>,
+    /// The largest angle in degrees that it must take: a kernel for smaller angles is refused.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 180.0)))]
+    max_angle: Option<Placed<f64>>,
 }
 
+/// A rotation by its error.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct RotationTable {
+    /// Which rotation.
     kind: Job,
-    order: Spanned<Order>,
-    max_angle: Spanned<f64>,
-    max_error: Spanned<f64>,
-    norm: Option<Spanned<Norm>>,
-    precision: Option<Spanned<Precision>>,
+    /// The bands of the signal that is turned.
+    order: Placed<Order>,
+    /// The largest angle in degrees: of a tilt or about y.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0.0, "maximum" = 180.0)))]
+    max_angle: Placed<f64>,
+    /// The largest relative error at that angle, as in 0.01.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0.0)))]
+    max_error: Placed<f64>,
+    /// What it is the error of; `max` if it is left out.
+    norm: Option<Placed<Norm>>,
+    /// Which numbers the kernel may work in; `f32` if it is left out.
+    precision: Option<Placed<Precision>>,
+    /// Whether the signal has three channels.
     #[serde(default)]
     rgb: bool,
-    signals: Option<Spanned<i64>>,
-    name: Option<Spanned<String>>,
+    /// How many signals each rotation turns, which shares what is done once for all of them; 1 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = MAX_SIGNALS)))]
+    signals: Option<Placed<i64>>,
+    /// What the function is called; its own name if it is left out.
+    name: Option<Placed<String>>,
+}
+
+/// Returns the format of scenes as JSON schema, in draft 2020-12. It is for editors, which complete and check a scene by
+/// it, and for the page that documents it; what it cannot say, reading a scene checks.
+#[cfg(feature = "schema")]
+pub fn schema() -> schemars::Schema {
+    schemars::schema_for!(Manifest)
 }
 
 /// The words that a type knows, as serde lists them.
@@ -219,7 +274,7 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
     Ok(scene)
 }
 
-fn targets(locate: &Locator, list: Spanned<Vec<Spanned<String>>>) -> Result<Vec<Target>, Diagnostic> {
+fn targets(locate: &Locator, list: Placed<Vec<Placed<String>>>) -> Result<Vec<Target>, Diagnostic> {
     let list = locate.at(list);
     if list.value.is_empty() {
         return Err(Diagnostic::at(&list.place, "no target is named", "name wgsl, glsl or rust, or leave the key out"));
@@ -261,8 +316,8 @@ fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnost
 /// The convention that an environment names, with the axes that it names; zonal's stands at the place of the scene.
 fn convention(
     locate: &Locator,
-    name: Option<Spanned<String>>,
-    axes: Option<Spanned<String>>,
+    name: Option<Placed<String>>,
+    axes: Option<Placed<String>>,
     scene: &Place,
 ) -> Result<Located<Convention>, Diagnostic> {
     let (name, axes) = (name.map(|name| locate.at(name)), axes.map(|axes| locate.at(axes)));

@@ -7,10 +7,11 @@ use crate::families::text::{hint, usual};
 use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
 use crate::reflectance::brdf::Brdf;
+#[cfg(feature = "schema")]
+use crate::reflectance::brdf::{EXPONENTS, ROUGHNESSES};
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::located::{Located, Locator, Order};
+use crate::scene::located::{Located, Locator, Order, Placed};
 use serde::{Deserialize, Serialize};
-use serde_spanned::Spanned;
 use std::fmt;
 use std::str::FromStr;
 
@@ -60,6 +61,7 @@ impl Default for Camera {
 
 /// How the coefficients of the reflectance are turned from the frame of the normal map's normal into that of the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
     /// `rotate`, by the quaternion of the shortest rotation.
@@ -123,43 +125,87 @@ impl FromStr for Method {
 }
 
 #[derive(Clone, Copy, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
+    /// Equal in all directions.
     Lambert,
+    /// A cosine lobe around the mirrored view.
     Phong,
+    /// A Gaussian lobe of the slopes of the half vector.
     Ward,
 }
 
+/// What a surface reflects.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct BrdfTable {
-    kind: Spanned<Kind>,
-    exponent: Option<Spanned<f64>>,
-    alpha: Option<Spanned<Roughness>>,
+    /// Which model.
+    kind: Placed<Kind>,
+    /// The exponent of the cosine, which `phong` needs.
+    #[cfg_attr(feature = "schema", schemars(range(min = EXPONENTS[0], max = EXPONENTS[1])))]
+    exponent: Option<Placed<f64>>,
+    /// The roughness, which `ward` needs: one number, or one along the tangent and one across it.
+    alpha: Option<Placed<Roughness>>,
 }
 
 /// One number, or one along x and one along y.
 #[derive(Clone, Copy, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "invalid type: expected a number or two, as in 0.2 or [0.2, 0.6]")]
 enum Roughness {
-    Same(f64),
-    Both([f64; 2]),
+    Same(#[cfg_attr(feature = "schema", schemars(range(min = ROUGHNESSES[0], max = ROUGHNESSES[1])))] f64),
+    Both(#[cfg_attr(feature = "schema", schemars(inner(range(min = ROUGHNESSES[0], max = ROUGHNESSES[1]))))] [f64; 2]),
 }
 
+/// The least and the most azimuth in degrees.
+const AZIMUTHS: [f64; 2] = [-360.0, 360.0];
+/// The least and the most elevation in degrees.
+const ELEVATIONS: [f64; 2] = [-89.0, 89.0];
+/// The least and the most distance in radii of the object.
+const DISTANCES: [f64; 2] = [1.2, 100.0];
+/// The least and the most field of view in degrees.
+const FIELDS: [f64; 2] = [1.0, 120.0];
+/// What the slopes of a normal map may be multiplied with.
+const STRENGTHS: [f64; 2] = [0.0, 10.0];
+/// The least and the most exposure in stops.
+const EXPOSURES: [f64; 2] = [-20.0, 20.0];
+
+/// What a picture shows.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct PictureTable {
-    mesh: Spanned<String>,
-    normals: Option<Spanned<String>>,
-    strength: Option<Spanned<f64>>,
-    size: Option<Spanned<[u64; 2]>>,
+    /// `sphere`, `plane` or the file of a mesh, .obj, relative to the scene.
+    mesh: Placed<String>,
+    /// The file of a normal map, relative to the scene; a smooth surface if it is left out.
+    normals: Option<Placed<String>>,
+    /// What the slopes of the normal map are multiplied with; 1 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = STRENGTHS[0], max = STRENGTHS[1])))]
+    strength: Option<Placed<f64>>,
+    /// The width and the height in pixels, up to 4096 each; 960 and 540 if it is left out.
+    size: Option<Placed<[u64; 2]>>,
+    /// How coefficients get from a normal's frame to the surface's; if it is left out, as the scene's first rotation of the
+    /// kind `tilt` was planned, exactly if there is none.
     method: Option<Method>,
-    order: Option<Spanned<Order>>,
-    azimuth: Option<Spanned<f64>>,
-    elevation: Option<Spanned<f64>>,
-    distance: Option<Spanned<f64>>,
-    field: Option<Spanned<f64>>,
-    exposure: Option<Spanned<f64>>,
+    /// The bands; as many as the environment's if it is left out.
+    order: Option<Placed<Order>>,
+    /// Where the camera stands, in degrees from +x towards +y; 0 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = AZIMUTHS[0], max = AZIMUTHS[1])))]
+    azimuth: Option<Placed<f64>>,
+    /// Where it stands, in degrees above the horizon; 15 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = ELEVATIONS[0], max = ELEVATIONS[1])))]
+    elevation: Option<Placed<f64>>,
+    /// How far it stands from the origin, in radii of the object; 4 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = DISTANCES[0], max = DISTANCES[1])))]
+    distance: Option<Placed<f64>>,
+    /// Its vertical field of view in degrees; 30 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = FIELDS[0], max = FIELDS[1])))]
+    field: Option<Placed<f64>>,
+    /// How many stops brighter the picture is than by itself; 0 if it is left out.
+    #[cfg_attr(feature = "schema", schemars(range(min = EXPOSURES[0], max = EXPOSURES[1])))]
+    exposure: Option<Placed<f64>>,
 }
 
 pub(super) fn brdf(locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnostic> {
@@ -188,7 +234,7 @@ pub(super) fn brdf(locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnosti
 }
 
 pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, Diagnostic> {
-    let number = |value: Option<Spanned<f64>>, what: &str, [least, most]: [f64; 2], default: f64| {
+    let number = |value: Option<Placed<f64>>, what: &str, [least, most]: [f64; 2], default: f64| {
         let Some(value) = value else { return Ok(default) };
         let value = locate.at(value);
         match (least..=most).contains(&value.value) {
@@ -202,10 +248,10 @@ pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, 
     };
     let default = Camera::default();
     let camera = Camera {
-        azimuth: number(table.azimuth, "an azimuth in degrees", [-360.0, 360.0], default.azimuth)?,
-        elevation: number(table.elevation, "an elevation in degrees", [-89.0, 89.0], default.elevation)?,
-        distance: number(table.distance, "a distance in radii of the object", [1.2, 100.0], default.distance)?,
-        field: number(table.field, "a field of view in degrees", [1.0, 120.0], default.field)?,
+        azimuth: number(table.azimuth, "an azimuth in degrees", AZIMUTHS, default.azimuth)?,
+        elevation: number(table.elevation, "an elevation in degrees", ELEVATIONS, default.elevation)?,
+        distance: number(table.distance, "a distance in radii of the object", DISTANCES, default.distance)?,
+        field: number(table.field, "a field of view in degrees", FIELDS, default.field)?,
     };
     let size = match table.size.map(|size| locate.at(size)) {
         None => [960, 540],
@@ -221,11 +267,11 @@ pub(super) fn picture(locate: &Locator, table: PictureTable) -> Result<Picture, 
     Ok(Picture {
         mesh: locate.at(table.mesh),
         normals: table.normals.map(|normals| locate.at(normals)),
-        strength: number(table.strength, "a strength", [0.0, 10.0], 1.0)?,
+        strength: number(table.strength, "a strength", STRENGTHS, 1.0)?,
         size,
         method: table.method,
         order: table.order.map(|order| locate.at(order)),
         camera,
-        exposure: number(table.exposure, "an exposure in stops", [-20.0, 20.0], 0.0)?,
+        exposure: number(table.exposure, "an exposure in stops", EXPOSURES, 0.0)?,
     })
 }

@@ -15,6 +15,7 @@ use std::path::PathBuf;
 
 /// What a scene's environment is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Light {
     /// The light from a direction.

@@ -29,6 +29,7 @@ mod readme;
 mod requirements;
 mod runtime;
 mod safety;
+mod scene_format;
 mod scenes;
 mod search;
 mod shader_evaluator;
