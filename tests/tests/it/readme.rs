@@ -1,6 +1,7 @@
 //! The README's figures come from the kernels and its quoted output from the command: this test compares them, and
 //! writes them with `UPDATE=1 cargo test -p zonal-tests readme`.
 
+use serde_json::Value;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate::build;
 use zonal_tests::command::command;
@@ -30,6 +31,60 @@ fn costs() -> String {
         table += &format!("| {name} | {} |\n", totals.join(" | "));
     }
     table
+}
+
+/// What an approximation saves, in words, from the plans that `cargo measure` made.
+fn answer() -> String {
+    let path = repository("docs/measure/measure.json");
+    let text = std::fs::read_to_string(&path).expect("there are measurements");
+    let measured: Value = serde_json::from_str(&text).expect("they are JSON");
+    let operations = |turn: &str, order: usize, degrees: f64, budget: f64| {
+        let plans = measured["plans"].as_array().expect("plans").iter();
+        let mut found = plans.filter(|plan| {
+            plan["turn"] == turn && plan["order"] == order && plan["degrees"] == degrees && plan["budget"] == budget
+        });
+        let plan = found.next().unwrap_or_else(|| panic!("no plan of {turn} {order} {degrees} {budget}"));
+        plan["choice"]["operations"].as_u64().expect("a count")
+    };
+    // The plan of the smallest budget at the largest angle is exact, from a quaternion.
+    let exact = |order: usize| operations("quaternion", order, 45.0, 1e-4);
+    let saved = |turn: &str, order: usize, degrees: f64, budget: f64| {
+        100 - (100 * operations(turn, order, degrees, budget) + exact(order) / 2) / exact(order)
+    };
+    let none = |turn: &str, degrees: f64, budget: f64| {
+        (3..=10).rev().take_while(|&order| saved(turn, order, degrees, budget) == 0).last()
+    };
+    let exactly = match none("quaternion", 15.0, 0.01) {
+        Some(3) => "at no order from 3 to 10 is anything cheaper that keeps 1 % at 15 degrees".to_owned(),
+        Some(order) => format!("from order {order} on nothing is cheaper that keeps 1 % at 15 degrees"),
+        None => format!("what keeps 1 % at 15 degrees saves {} % at order 10", saved("quaternion", 10, 15.0, 0.01)),
+    };
+    let beyond = match none("tilt", 15.0, 0.01) {
+        Some(order) => format!("; from order {order} on nothing keeps that and is cheaper"),
+        None => String::new(),
+    };
+    let text = format!(
+        "Rotate exactly: {exactly}, and within 5 degrees the cheapest saves {} % of the operations at order 5, {} % at order \
+         10. Where z goes to a normal, `tilt` pays, since it needs nothing but the normal: for 1 % within 5 degrees it saves \
+         {} % at order 5 and {} % at order 10, within 15 degrees {} % at order 5{beyond}. Say the angle and the error, in a \
+         scene's `[[rotation]]`, and zonal takes the cheapest kernel that keeps it, a method for each band; \
+         [docs/measure/fronts.md](docs/measure/fronts.md) has all of them.\n",
+        saved("quaternion", 5, 5.0, 0.01),
+        saved("quaternion", 10, 5.0, 0.01),
+        saved("tilt", 5, 5.0, 0.01),
+        saved("tilt", 10, 5.0, 0.01),
+        saved("tilt", 5, 15.0, 0.01),
+    );
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.last_mut().expect("starts with one");
+        match last.len() + word.len() < 120 {
+            true if last.is_empty() => last.push_str(word),
+            true => *last += &format!(" {word}"),
+            false => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n"
 }
 
 /// What the first command prints, but for the time it took and what was there before.
@@ -90,5 +145,5 @@ pub fn hold(page: &str, filter: &str, blocks: &[(&str, String)]) {
 
 #[test]
 fn the_readme_is_what_the_kernels_and_the_command_say() {
-    hold("README.md", "readme", &[("generate", generated()), ("costs", costs())]);
+    hold("README.md", "readme", &[("generate", generated()), ("answer", answer()), ("costs", costs())]);
 }
