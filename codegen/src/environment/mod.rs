@@ -17,14 +17,20 @@
 //! docs/MATH.md#projection-of-maps has the integrals.
 
 pub mod error;
+pub mod lamps;
 pub mod map;
 mod openexr;
 pub mod project;
 mod radiance;
+pub mod ringing;
+pub mod spectrum;
 #[cfg(test)]
 mod tests;
 mod waves;
 
 pub use error::{MAX_BYTES, MAX_WIDTH, MapError};
 pub use map::Map;
-pub use project::{Projection, cosine_lobe};
+pub use lamps::Lamps;
+pub use project::{Projection, Survey};
+pub use ringing::Negative;
+pub use spectrum::{Parts, Spectrum, Weights, cosine_lobe};
