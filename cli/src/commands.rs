@@ -1,6 +1,6 @@
 //! What the commands print. All of it comes from the library; here it is only laid out.
 
-use super::spec_of;
+use super::{spec_of, told};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -16,20 +16,9 @@ use zonal_codegen::files::{self, Difference, Replace};
 use zonal_codegen::generate::{self, Row};
 use zonal_codegen::math::convention::ZONAL;
 use zonal_codegen::math::index;
-use zonal_codegen::plan::Chosen;
-use zonal_codegen::plan::text::{short, table};
+use zonal_codegen::plan::text::table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Light, frame};
-
-fn errors(chosen: &Chosen) -> String {
-    let rounding = chosen.row.accuracy.rounding_f32;
-    match (chosen.method_error, chosen.max_angle) {
-        (Some(error), Some(angle)) if error > 1e-12 => {
-            format!("error {} at {angle} degrees, f32 rounding {}", short(error), short(rounding))
-        }
-        _ => format!("f32 rounding {}", short(rounding)),
-    }
-}
 
 pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
@@ -41,25 +30,8 @@ pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) 
     drop(bar);
 
     let targets: Vec<&str> = plan.targets.iter().map(|target| target.name).collect();
-    let mut text = format!("{}: for {}\n", plan.scene, targets.join(", "));
-    if let Some(environment) = &plan.environment {
-        text += &format!("\n  {}: {}\n", environment.name, environment.summary());
-    }
-    for chosen in &plan.kernels {
-        let (row, cost) = (&chosen.row, chosen.row.cost);
-        let special = match cost.special {
-            0 => String::new(),
-            special => format!(" and {special} special"),
-        };
-        text += &format!(
-            "\n  {} as `{}`: {} operations{special}, {}\n      {}\n",
-            row.spec,
-            row.name,
-            cost.total,
-            errors(chosen),
-            chosen.reason
-        );
-    }
+    let mut text = format!("{}: for {}\n\n", plan.scene, targets.join(", "));
+    text += &told::plan(&plan);
     text += "\n";
     for file in &files {
         text += &format!("  {} ({} bytes)\n", folder.join(&file.path).display(), file.text.len());

@@ -4,6 +4,7 @@
 mod commands;
 mod hand_over;
 mod search;
+mod told;
 mod vectors;
 
 use clap::{Parser, Subcommand};

@@ -6,7 +6,7 @@ use crate::families::text::hint;
 use crate::files;
 use crate::input;
 use crate::math::convention::{Convention, ZONAL};
-use crate::scene::budget::{Norm, Precision};
+use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use crate::scene::frame;
 use crate::scene::located::{Located, Locator, Order};
@@ -42,6 +42,8 @@ struct EnvironmentTable {
     map: Spanned<String>,
     signal: Light,
     budget: Spanned<f64>,
+    #[serde(default)]
+    relative_to: RelativeTo,
     max_order: Option<Spanned<Order>>,
     name: Option<Spanned<String>>,
     axes: Option<Spanned<String>>,
@@ -301,6 +303,7 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
         map: locate.at(table.map),
         signal: table.signal,
         budget: budget.value,
+        relative_to: table.relative_to,
         max_order,
         name: table.name.map_or_else(
             || Located { value: format!("{}_environment", scene.value), place: scene.place.clone() },

@@ -13,7 +13,10 @@
 //! map = "maps/city_256x128.hdr"       # beside the scene file
 //! signal = "radiance"                 # or "irradiance"
 //! max_order = 5                       # 10 if left out
-//! budget = 0.05                       # the relative rms error, against max_order, that leaving orders out may cost
+//! budget = 0.05                       # the relative rms error of what is seen that leaving bands out may cost: of what the
+//!                                     # [brdf] reflects, over all normals and views; of irradiance, over all normals; or of
+//!                                     # the light itself
+//! relative_to = "all_bands"           # if left out; or "max_order": to what is seen of the bands below max_order alone
 //! name = "city"                       # the constants are called CITY
 //! axes = "three_js"                   # optional: whose axes the coefficients are in; or three axes of yours, to the map's
 //!                                     # centre, to the left of it and up, as in "x,-z,y"; zonal's if left out: z is up,
@@ -67,6 +70,6 @@ pub mod picture;
 pub mod wanted;
 
 pub use crate::families::family::Job;
-pub use budget::{Norm, Precision};
+pub use budget::{Norm, Precision, RelativeTo};
 pub use located::{Located, Order};
 pub use wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};

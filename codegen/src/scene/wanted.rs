@@ -5,7 +5,7 @@ use crate::families::family::Job;
 use crate::input;
 use crate::math::convention::Convention;
 use crate::reflectance::brdf::Brdf;
-use crate::scene::budget::{Norm, Precision};
+use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Order};
 use crate::scene::picture::Picture;
@@ -30,8 +30,10 @@ pub struct Environment {
     pub map: Located<String>,
     /// What is wanted of it.
     pub signal: Light,
-    /// The relative rms error against `max_order` that leaving out orders below it may cost.
+    /// The relative rms error of what is seen that leaving bands out may cost.
     pub budget: f64,
+    /// What that error is relative to.
+    pub relative_to: RelativeTo,
     /// The most bands that the scene can afford.
     pub max_order: usize,
     /// What the constants are called.
