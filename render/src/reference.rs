@@ -20,7 +20,7 @@ impl Lights {
     pub fn of(map: &Map) -> Self {
         let light = |(i, texel): (usize, &[f64; 3])| {
             let (x, y) = (i % map.width, i / map.width);
-            (map.direction(x, y), texel.map(|v| v * map.solid_angle(y)))
+            (map.direction(x, y), texel.map(|v| v * map.solid_angle(x, y)))
         };
         Self(map.texels.iter().enumerate().map(light).collect())
     }
@@ -134,7 +134,7 @@ mod tests {
             let surface = surface(&mut random);
             let (axes, view) = surface.modulated();
             let light = axes.map(|axis| dot(axis, map.direction(40, 5)));
-            let expected = brdf.value(view, light) * map.solid_angle(5);
+            let expected = brdf.value(view, light) * map.solid_angle(40, 5);
             let [r, g, b] = lights.radiance(&brdf, &surface);
             assert!((r - expected).abs() <= 1e-12 * expected && (g - 2.0 * r).abs() <= 1e-12 * r && b == 0.0);
         }

@@ -91,7 +91,13 @@ impl Octaves {
     pub fn brightest(&self) -> Lamps {
         let all: f64 = self.0.iter().map(|octave| octave.energy).sum();
         let sphere: f64 = self.0.iter().map(|octave| octave.solid_angle).sum();
-        let mut lamps = Lamps { texels: 0, of: self.0.iter().map(|octave| octave.texels).sum(), area: 0.0, share: 0.0, spread: 0.0 };
+        let mut lamps = Lamps {
+            texels: 0,
+            of: self.0.iter().map(|octave| octave.texels).sum(),
+            area: 0.0,
+            share: 0.0,
+            spread: 0.0,
+        };
         let mut towards = [0.0; 3];
         for octave in self.used() {
             if lamps.share >= NEARLY_ALL {

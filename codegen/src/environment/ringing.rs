@@ -1,7 +1,8 @@
 //! Where a truncated series is negative though its light is not: it rings. The share of the directions and the least
 //! value, sampled.
 
-use super::project::{Projection, basis};
+use super::harmonics::basis;
+use super::project::Projection;
 use crate::threads;
 use serde::Serialize;
 use std::f64::consts::PI;

@@ -5,6 +5,7 @@
 //! with a weight of 1; irradiance by the normal; reflected light by the normal and the view, in the mean over all of them
 //! (docs/MATH.md#the-order-that-a-budget-asks-for).
 
+use super::harmonics::cosine_lobe;
 use std::f64::consts::PI;
 
 /// Energies by band: of a light, or of what is seen of it.
@@ -108,21 +109,4 @@ pub struct Parts {
     pub uniform: f64,
     /// The energy of the other part.
     pub others: f64,
-}
-
-/// The factor A_l by which band `l` of radiance gives the irradiance of a surface, the clamped cosine's integral over
-/// the hemisphere against the Legendre polynomial: π, 2π/3, π/4, 0, −π/24, 0, π/64, …. It is in steradians, and exactly
-/// 0 for every odd band above 1.
-///
-/// For even l it is 2π (−1)^(l/2−1) / ((l+2)(l−1)) · l! / (2^l (l/2)!²) (Ramamoorthi and Hanrahan 2001, equation 19).
-pub fn cosine_lobe(l: usize) -> f64 {
-    if l == 1 {
-        return 2.0 * PI / 3.0;
-    }
-    if l % 2 == 1 {
-        return 0.0;
-    }
-    let central: f64 = (1..=l / 2).map(|k| -((2 * k - 1) as f64) / (2 * k) as f64).product();
-    let l = l as f64;
-    -2.0 * PI * central / ((l + 2.0) * (l - 1.0))
 }

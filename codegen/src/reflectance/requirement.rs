@@ -140,7 +140,11 @@ impl Requirement {
                 share(kept, room, only(is_even)),
                 room,
             );
-        if requirement.takes("its light is made grey: one channel is stored instead of three", share(kept, room, grey), room) {
+        if requirement.takes(
+            "its light is made grey: one channel is stored instead of three",
+            share(kept, room, grey),
+            room,
+        ) {
             requirement.channels = 1;
         }
         if half && room.order <= MAX_HALF_ORDER && room.error < room.budget {
@@ -209,9 +213,8 @@ impl Requirement {
                     let want: f64 = turned.iter().zip(light).map(|(x, y)| x * y[c]).sum();
                     let narrow = |x: f64| Half::round(x);
                     let products = turned.iter().zip(light).filter(|(_, y)| y[c] != 0.0);
-                    let got = products
-                        .fold(Half::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum))
-                        .to_f64();
+                    let got =
+                        products.fold(Half::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum)).to_f64();
                     error += weight * (got - want) * (got - want);
                     size += weight * want * want;
                 }

@@ -3,7 +3,7 @@
 //! What is seen are the pixels of a sphere under the light: views weigh by the area that they see of the surface, which is
 //! the cosine of their angle to the normal.
 
-use crate::environment::project::basis;
+use crate::environment::harmonics::basis;
 use crate::environment::spectrum::Weights;
 use crate::math::index::band;
 use crate::math::quadrature::gauss_legendre;

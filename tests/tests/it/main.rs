@@ -19,6 +19,7 @@ mod half;
 mod house;
 mod laws;
 mod loops;
+mod maps;
 mod methods;
 mod operations;
 mod packages;
