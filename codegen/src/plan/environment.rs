@@ -2,7 +2,7 @@
 //! What is said of it in words is in [`light`](super::light).
 
 use super::order::{self, Found};
-use super::text::percent;
+use super::text::{capital, percent};
 use crate::emit::Constants;
 use crate::environment::{Lamps, Negative};
 // Names a family: evaluation is what an environment's coefficients are for.
@@ -173,7 +173,8 @@ impl EnvironmentPlan {
         self.errors[self.order - 1]
     }
 
-    pub(super) fn constants(&self) -> Constants {
+    /// What stands above the constants.
+    pub fn constants_doc(&self) -> String {
         let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
         let what = match self.signal {
             Light::Radiance => "radiance",
@@ -194,11 +195,11 @@ impl EnvironmentPlan {
             false => format!(", which does not keep the budget of {}", percent(self.budget)),
         };
         let error = format!("{} errs by {} against all bands{budget}.", capital(&self.seen()), percent(self.error()));
-        Constants {
-            name: self.name.clone(),
-            doc: format!("The {what} of `{}`: RGB coefficients of {which}. {error} {}", self.map, self.axes()),
-            values: self.values.clone(),
-        }
+        format!("The {what} of `{}`: RGB coefficients of {which}. {error} {}", self.map, self.axes())
+    }
+
+    pub(super) fn constants(&self) -> Constants {
+        Constants { name: self.name.clone(), doc: self.constants_doc(), values: self.values.clone() }
     }
 
     /// The axes and the convention of the values, in a sentence.
@@ -218,10 +219,4 @@ impl EnvironmentPlan {
             (Light::Radiance, None) => "the light itself, as a mirror shows it,".to_owned(),
         }
     }
-}
-
-/// A text with a capital first letter.
-pub(super) fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -1,7 +1,8 @@
 //! What a plan says of its environment, to a person who lights scenes: which order, what it errs by and why, where it is
 //! negative, what else could go.
 
-use super::environment::{EnvironmentPlan, capital};
+use super::environment::EnvironmentPlan;
+use super::text::capital;
 use super::text::{percent, row, table};
 use crate::environment::{Lamps, Negative};
 use crate::families::family::MAX_ORDER;

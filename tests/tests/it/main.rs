@@ -22,6 +22,7 @@ mod loops;
 mod maps;
 mod methods;
 mod operations;
+mod orders;
 mod packages;
 mod plans;
 mod proofs;
