@@ -2,11 +2,15 @@
 //! drawing a picture, as a page and as plots.
 
 mod http;
+mod lighting;
+mod own;
 mod page;
 mod plot;
 mod serve;
+mod upload;
 
 use clap::{Parser, Subcommand};
+use own::Own;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use zonal_cli::terminal::ended;
@@ -24,9 +28,18 @@ struct Arguments {
 enum Command {
     /// Writes a page that shows the kernels at work, and serves it to this machine.
     ///
-    /// A normal-mapped object under an environment map, in WebGL2 or WebGPU: the chosen way to turn coefficients beside
-    /// the exact one and their difference, with costs, errors and times.
+    /// A normal-mapped object under an environment map, in WebGL2 or WebGPU: the chosen order and way to turn coefficients
+    /// beside the exact way of that order and all bands, which are summed by brute force, with costs, errors and times. A
+    /// map may also be dropped on the page while it is served.
     Explore {
+        /// Maps, a scene, or both. A map is .hdr, .exr or .png, as latitude and longitude or as a cubemap in a strip or a
+        /// cross; six faces are named by the folder that holds them or by a pattern, as in `sky/day_*.png`. A scene is a
+        /// TOML file; its map, mesh, normal map, reflectance and camera are shown first.
+        #[arg(value_name = "MAP|SCENE")]
+        inputs: Vec<PathBuf>,
+        /// A mesh of one's own, a Wavefront OBJ file, y up.
+        #[arg(long, value_name = "FILE.obj")]
+        mesh: Option<PathBuf>,
         /// The folder to write to, instead of `zonal-out/explorer`.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
@@ -58,7 +71,8 @@ enum Command {
 
 fn main() -> ExitCode {
     ended(match Arguments::parse().command {
-        Command::Explore { out, port, no_serve, force } => serve::explore(out, port, !no_serve, Replace::forced(force)),
+        Command::Explore { inputs, mesh, out, port, no_serve, force } => Own::read(&inputs, mesh.as_deref())
+            .and_then(|own| serve::explore(&own, out, port, !no_serve, Replace::forced(force))),
         Command::Plan { scene, json, plot, force } => plot::plan(scene.as_deref(), json, &plot, Replace::forced(force)),
     })
 }

@@ -96,7 +96,8 @@ pub(super) fn find(path: &Path) -> Result<[PathBuf; 6], MapError> {
     let sets = NAMES.iter().map(|words| words.map(of));
     let complete = sets.clone().find(|set| set.iter().all(|path| path.is_file()));
     complete.ok_or_else(|| {
-        let most = sets.max_by_key(|set| set.iter().filter(|path| path.is_file()).count());
+        // Of equals the first list.
+        let most = sets.rev().max_by_key(|set| set.iter().filter(|path| path.is_file()).count());
         let missing = most.iter().flatten().find(|path| !path.is_file());
         let missing = missing.map(|path| path.display().to_string()).unwrap_or_default();
         MapError::refused(&what, format!("names no six files: there is no {missing}"), HELP)

@@ -3,7 +3,7 @@
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
 use crate::input;
-use crate::math::convention::Convention;
+use crate::math::convention::{Axes, Convention};
 use crate::reflectance::brdf::Brdf;
 use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::Diagnostic;
@@ -125,6 +125,13 @@ impl Scene {
             picture: None,
             maps: Maps::Folder(PathBuf::new()),
         }
+    }
+
+    /// Returns the axes that the scene says of its environment, if they are not zonal's: those of the program in which its
+    /// coefficients are used, and in which its mesh is.
+    pub fn axes(&self) -> Option<Axes> {
+        let axes = self.environment.as_ref()?.convention.value.axes;
+        (axes != Axes::default()).then_some(axes)
     }
 
     /// Returns the bytes of a file that the scene names, beside the scene or in memory.

@@ -198,8 +198,8 @@ fn a_cube_is_integrated_exactly() {
         let sphere: f64 = (0..6 * side * side).map(|i| map.solid_angle(i % side, i / side)).sum();
         assert!((sphere - 4.0 * std::f64::consts::PI).abs() < 1e-11, "{side}");
     }
-    // Of one texel of a face, by a fine rule: 400 x 400 points of equal weight in the face's own coordinates.
-    let (side, order, fine) = (3, 8, 400);
+    // Of one texel of a face, by a fine rule: 200 x 200 points of equal weight in the face's own coordinates.
+    let (side, order, fine) = (3, 8, 200);
     for (face, x, y) in [(0, 0, 0), (1, 2, 1), (2, 1, 0), (3, 0, 2), (4, 2, 2), (5, 1, 1)] {
         let mut map = Map { width: side, height: 6 * side, texels: vec![[0.0; 3]; 6 * side * side] };
         map.texels[(face * side + y) * side + x] = [1.0; 3];
@@ -212,9 +212,9 @@ fn a_cube_is_integrated_exactly() {
             basis(order, cube_direction(face, s, t), &mut values);
             wanted.iter_mut().zip(&values).for_each(|(sum, value)| *sum += weight * value);
         }
-        // The midpoint rule errs by l (l + 1) step²/24.
+        // The midpoint rule errs by about l (l + 1) step²/24 of the texel's 0.5 sr: 1.3e-5.
         for (c, wanted) in found.coefficients.iter().zip(&wanted) {
-            assert!((c[0] - wanted).abs() < 2e-6, "face {face}: {} {wanted}", c[0]);
+            assert!((c[0] - wanted).abs() < 2e-5, "face {face}: {} {wanted}", c[0]);
         }
     }
 }
