@@ -72,6 +72,19 @@ pub struct Curve {
     pub shares: Vec<f64>,
 }
 
+/// What is to be found about a map that is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// What coefficients are wanted of.
+    pub signal: Light,
+    /// How many bands.
+    pub order: usize,
+    /// How they are held.
+    pub convention: Convention,
+    /// A reflectance that is asked about.
+    pub brdf: Option<Brdf>,
+}
+
 /// What was found about a map.
 #[derive(Clone, Debug)]
 pub struct Projected {
@@ -105,9 +118,17 @@ impl Projected {
         let signal = if asked.irradiance { Light::Irradiance } else { Light::Radiance };
         frame::check(&convention, signal, order)?;
         let loaded = Loaded::read(&asked.map).map_err(Fault::from)?;
+        Ok(Self::of(loaded, &Question { signal, order, convention, brdf: asked.brdf }))
+    }
+
+    /// Projects a map that is read.
+    pub fn of(loaded: Loaded, &Question { signal, order, convention, brdf }: &Question) -> Self {
         let survey = loaded.map.survey(DEPTH.max(order));
         let irradiance = survey.projection.irradiance();
-        let projection = if asked.irradiance { &irradiance } else { &survey.projection };
+        let projection = match signal {
+            Light::Radiance => &survey.projection,
+            Light::Irradiance => &irradiance,
+        };
         let depth = projection.order;
         let light = survey.projection.spectrum();
         let curve = |what: String, key: &'static str, signal: Light, brdf: Option<&Brdf>| {
@@ -119,10 +140,10 @@ impl Projected {
             curve("the light itself (a mirror)".to_owned(), "light", Light::Radiance, None),
             curve("diffuse light".to_owned(), "diffuse", Light::Irradiance, None),
         ];
-        if let Some(brdf) = &asked.brdf {
+        if let Some(brdf) = &brdf {
             curves.push(curve(format!("what `{brdf}` reflects"), "reflected", Light::Radiance, Some(brdf)));
         }
-        Ok(Self {
+        Self {
             coefficients: convention.convert_to(&projection.coefficients[..order * order]),
             negative: projection.negative(order),
             loaded,
@@ -131,7 +152,7 @@ impl Projected {
             convention,
             curves,
             survey,
-        })
+        }
     }
 
     /// The curve of what the coefficients are of.

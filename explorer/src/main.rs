@@ -1,5 +1,5 @@
-//! The command `zonal-explorer`, to which `zonal explore` and `zonal plan --plot` hand over: what is seen of kernels without
-//! drawing a picture, as a page and as plots.
+//! The command `zonal-explorer`, to which `zonal explore`, `zonal plan --plot` and `zonal project --plot` hand over: what is
+//! seen of kernels and of light, as a page and as plots.
 
 mod http;
 mod lighting;
@@ -13,6 +13,7 @@ use clap::{Parser, Subcommand};
 use own::Own;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use zonal_cli::projected::Asked;
 use zonal_cli::terminal::ended;
 use zonal_codegen::files::Replace;
 
@@ -53,7 +54,7 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
-    /// Shows what a scene would get, and why, and plots each method's error over the angle.
+    /// Shows what a scene would get, and why, and plots its light and each method's error over the angle.
     Plan {
         /// The scene, a TOML file; without one, the glossy scene that zonal carries with it.
         scene: Option<PathBuf>,
@@ -67,6 +68,17 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Projects an environment map, says which order it takes and why, and plots it.
+    Project {
+        #[command(flatten)]
+        asked: Asked,
+        /// The plot.
+        #[arg(long, value_name = "FILE.svg")]
+        plot: PathBuf,
+        /// Replaces a plot that zonal did not write, too.
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 fn main() -> ExitCode {
@@ -74,5 +86,6 @@ fn main() -> ExitCode {
         Command::Explore { inputs, mesh, out, port, no_serve, force } => Own::read(&inputs, mesh.as_deref())
             .and_then(|own| serve::explore(&own, out, port, !no_serve, Replace::forced(force))),
         Command::Plan { scene, json, plot, force } => plot::plan(scene.as_deref(), json, &plot, Replace::forced(force)),
+        Command::Project { asked, plot, force } => plot::project(&asked, &plot, Replace::forced(force)),
     })
 }

@@ -7,4 +7,5 @@ pub mod mesh;
 pub mod method;
 pub mod normal_map;
 pub mod shade;
+pub mod tone;
 pub mod vector;
