@@ -1,35 +1,19 @@
 //! What the commands print. All of it comes from the library; here it is only laid out.
 
-use super::spec_of;
-use serde_json::json;
+use super::{spec_of, told};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use zonal_cli::projected::{Asked, Projected};
 use zonal_cli::scene;
 use zonal_cli::terminal::{Failure, out, out_json, progress};
 use zonal_codegen::builder;
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::language::{self, Arrays};
-use zonal_codegen::environment::{Map, Projection};
-use zonal_codegen::fault::Fault;
 use zonal_codegen::files::{self, Difference, Replace};
 use zonal_codegen::generate::{self, Row};
-use zonal_codegen::math::convention::ZONAL;
-use zonal_codegen::math::index;
-use zonal_codegen::plan::Chosen;
-use zonal_codegen::plan::text::{short, table};
+use zonal_codegen::plan::text::table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
-use zonal_codegen::scene::{Light, frame};
-
-fn errors(chosen: &Chosen) -> String {
-    let rounding = chosen.row.accuracy.rounding_f32;
-    match (chosen.method_error, chosen.max_angle) {
-        (Some(error), Some(angle)) if error > 1e-12 => {
-            format!("error {} at {angle} degrees, f32 rounding {}", short(error), short(rounding))
-        }
-        _ => format!("f32 rounding {}", short(rounding)),
-    }
-}
 
 pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
@@ -41,25 +25,8 @@ pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) 
     drop(bar);
 
     let targets: Vec<&str> = plan.targets.iter().map(|target| target.name).collect();
-    let mut text = format!("{}: for {}\n", plan.scene, targets.join(", "));
-    if let Some(environment) = &plan.environment {
-        text += &format!("\n  {}: {}\n", environment.name, environment.summary());
-    }
-    for chosen in &plan.kernels {
-        let (row, cost) = (&chosen.row, chosen.row.cost);
-        let special = match cost.special {
-            0 => String::new(),
-            special => format!(" and {special} special"),
-        };
-        text += &format!(
-            "\n  {} as `{}`: {} operations{special}, {}\n      {}\n",
-            row.spec,
-            row.name,
-            cost.total,
-            errors(chosen),
-            chosen.reason
-        );
-    }
+    let mut text = format!("{}: for {}\n\n", plan.scene, targets.join(", "));
+    text += &told::plan(&plan);
     text += "\n";
     for file in &files {
         text += &format!("  {} ({} bytes)\n", folder.join(&file.path).display(), file.text.len());
@@ -136,73 +103,8 @@ pub fn show(spec: &str, target: &str, arrays: Option<&str>) -> Result<(), Failur
     out(&file.text)
 }
 
-pub fn project(
-    path: &Path,
-    order: Option<usize>,
-    irradiance: bool,
-    (convention, axes): (Option<&str>, Option<&str>),
-    json: bool,
-) -> Result<(), Failure> {
-    let convention = frame::wanted(convention, axes)?;
-    let order = order.unwrap_or(convention.max_order.min(5));
-    frame::check(&convention, if irradiance { Light::Irradiance } else { Light::Radiance }, order)?;
-    let map = Map::read(path).map_err(Fault::from)?;
-    // What lies beyond an order is known better from a deeper projection.
-    let radiance = map.project(order.max(32));
-    let (deep, signal) = match irradiance {
-        true => (radiance.irradiance(), "irradiance"),
-        false => (radiance, "radiance"),
-    };
-    let (errors, bands) = (deep.errors(), deep.band_energy());
-    let Projection { coefficients, .. } = &deep;
-    let coefficients = convention.convert_to(&coefficients[..order * order]);
-    if json {
-        let bands: Vec<_> = (0..order)
-            .map(|l| json!({"band": l, "energy": bands[l], "share": bands[l] / deep.energy(), "error": errors[l]}))
-            .collect();
-        return out_json(&json!({
-            "map": path.display().to_string(),
-            "width": map.width,
-            "height": map.height,
-            "signal": signal,
-            "convention": convention.name,
-            "axes": {
-                "centre": convention.axes.centre().to_string(),
-                "right": convention.axes.right().to_string(),
-                "up": convention.axes.up().to_string(),
-            },
-            "order": order,
-            "energy": deep.energy(),
-            "bands": bands,
-            "coefficients": coefficients,
-        }));
-    }
-    let others = match convention == ZONAL {
-        true => "; for normals of three.js: `--axes three_js`, for its shader: `--convention three_js`",
-        false => "",
-    };
-    let row = |cells: &[&str]| cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
-    let mut lines = vec![row(&["band", "share of the energy in %", "error of the order that ends here in %"])];
-    for l in 0..order {
-        let share = 100.0 * bands[l] / deep.energy();
-        lines.push(row(&[&l.to_string(), &format!("{share:.4}"), &format!("{:.3}", 100.0 * errors[l])]));
-    }
-    let mut values = vec![row(&["l", "m", "R", "G", "B"])];
-    let mut places: Vec<(usize, isize)> = index::coefficients(order).collect();
-    places.sort_by_key(|&(l, m)| convention.place(l, m));
-    for ((l, m), values_there) in places.into_iter().zip(&coefficients) {
-        let [r, g, b] = values_there.map(|value| format!("{value:.6}"));
-        values.push(row(&[&l.to_string(), &m.to_string(), &r, &g, &b]));
-    }
-    out(&format!(
-        "{}: {} x {}, {signal}\nAxes: {}{others}.\n\n{}\n{}",
-        path.display(),
-        map.width,
-        map.height,
-        convention.sentence(),
-        table(&lines),
-        table(&values)
-    ))
+pub fn project(asked: &Asked) -> Result<(), Failure> {
+    Projected::new(asked)?.print(asked)
 }
 
 /// How many differences of a kind are told one by one.

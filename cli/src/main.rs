@@ -5,18 +5,19 @@ mod commands;
 mod hand_over;
 mod init;
 mod search;
+mod told;
 mod vectors;
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use zonal_cli::projected::Asked;
 use zonal_cli::terminal::{Failure, ended, out};
 use zonal_codegen::emit::language::{self, Arrays};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::text::family_names;
 use zonal_codegen::files::Replace;
-use zonal_codegen::math::convention;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
 /// Spherical-harmonics kernels as WGSL, GLSL and Rust, each with its cost and its error.
@@ -31,7 +32,7 @@ struct Arguments {
 enum Command {
     /// Chooses, generates, validates and writes the kernels of a scene.
     Generate {
-        /// The scene, a TOML file; without one, a glossy scene that zonal carries with it.
+        /// The scene, a TOML file; without one, that of a glossy surface, which zonal carries with it.
         scene: Option<PathBuf>,
         /// The folder to write to, instead of the one that the scene names.
         #[arg(long, value_name = "DIR")]
@@ -61,7 +62,8 @@ enum Command {
         /// Prints JSON.
         #[arg(long)]
         json: bool,
-        /// Writes a plot too: each method's error over the angle, with what the scene allows.
+        /// Writes a plot too: of the light its error over the order, its energy by band, the map and the spheres that it
+        /// lights; of each rotation every method's error over the angle.
         #[arg(long, value_name = "FILE.svg")]
         plot: Option<PathBuf>,
         /// Replaces a plot that zonal did not write, too.
@@ -91,26 +93,17 @@ enum Command {
         #[arg(long, value_parser = Arrays::ALL.map(|(_, name)| name))]
         arrays: Option<String>,
     },
-    /// Projects an environment map and says what each order leaves out.
+    /// Projects an environment map, and says which order it takes and why.
     Project {
-        /// The map, .hdr or .exr, twice as wide as high.
-        map: PathBuf,
-        /// How many bands; 5 if left out, or as many as the convention has.
-        #[arg(long, value_parser = clap::value_parser!(u64).range(1..=64))]
-        order: Option<u64>,
-        /// Irradiance instead of radiance.
-        #[arg(long)]
-        irradiance: bool,
-        /// The program that takes the coefficients: its axes, signs and factors. docs/ENGINES.md says what they are. Without
-        /// it, zonal's: z is up, the map's centre along +x, -y to its right, which no engine with y up has.
-        #[arg(long, value_name = "NAME", value_parser = convention::names())]
-        convention: Option<String>,
-        /// Other axes: a convention's, by its name, or those to the map's centre, to the left of it and up, as in x,-z,y.
-        #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
-        axes: Option<String>,
-        /// Prints JSON.
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        asked: Asked,
+        /// Writes a plot too: the error over the order, the energy by band, the map beside its reconstruction, and the
+        /// spheres that both light.
+        #[arg(long, value_name = "FILE.svg")]
+        plot: Option<PathBuf>,
+        /// Replaces a plot that zonal did not write, too.
+        #[arg(long, requires = "plot")]
+        force: bool,
     },
     /// Prints test vectors as JSON: inputs, and what a kernel gives in f32 and f64.
     ///
@@ -170,13 +163,11 @@ fn main() -> ExitCode {
         Command::Init { file, map, force } => init::run(&file, map.as_deref(), Replace::forced(force)),
         Command::Schema => out(zonal_templates::SCENE_SCHEMA),
         Command::Plan { scene, json, plot: None, .. } => commands::plan(scene.as_deref(), json),
-        Command::Plan { scene, json, plot: Some(plot), force } => hand_over::plot(scene, json, plot, force),
+        Command::Plan { plot: Some(_), .. } => hand_over::same(),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
         Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
-        Command::Project { map, order, irradiance, convention, axes, json } => {
-            let order = order.map(|order| order as usize);
-            commands::project(&map, order, irradiance, (convention.as_deref(), axes.as_deref()), json)
-        }
+        Command::Project { asked, plot: None, .. } => commands::project(&asked),
+        Command::Project { plot: Some(_), .. } => hand_over::same(),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Explore { arguments } => hand_over::explore(arguments),
         Command::Render { arguments } => hand_over::render(arguments),

@@ -21,6 +21,7 @@ use crate::emit::language::{self, Arrays, Target};
 use crate::files::{self, Difference, File, FileError, Replace};
 use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
+use crate::plan::environment::EnvironmentPlan;
 use crate::scene::diagnostic::{Diagnostic, Place};
 use crate::scene::{Located, Maps, Scene, Wanted};
 use std::fmt;
@@ -184,7 +185,7 @@ impl Builder {
     }
 
     /// From a build script: writes the files into `OUT_DIR`, and tells cargo to run the script again when it, the scene
-    /// or the map changes.
+    /// or the map changes. If no order that the scene affords keeps its budget, cargo shows a warning that says so.
     ///
     /// # Errors
     ///
@@ -199,7 +200,11 @@ impl Builder {
         if let (Some(environment), Maps::Folder(maps)) = (&scene.environment, &scene.maps) {
             println!("cargo::rerun-if-changed={}", maps.join(&environment.map.value).display());
         }
-        files::write(Path::new(&folder), &files_of(&Plan::new(&scene)?)?, self.replace)?;
+        let plan = Plan::new(&scene)?;
+        if let Some(warning) = plan.environment.as_ref().and_then(EnvironmentPlan::warning) {
+            println!("cargo::warning={}: {warning}", plan.scene);
+        }
+        files::write(Path::new(&folder), &files_of(&plan)?, self.replace)?;
         Ok(())
     }
 }

@@ -1,5 +1,8 @@
 //! The files of the explorer: its page, the shaders of every choice, and the data that they read, all from the library.
 
+use crate::lighting::{self, Lit, ORDER, floats};
+use crate::own::{self, Own};
+use crate::upload;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -9,7 +12,7 @@ use zonal_codegen::emit::Function;
 // Names a language: these are what browsers take.
 use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::emit::validate::validate;
-use zonal_codegen::environment::Map;
+use zonal_codegen::environment::Loaded;
 use zonal_codegen::families::Spec;
 use zonal_codegen::fault::Fault;
 use zonal_codegen::generate;
@@ -58,14 +61,8 @@ const METHODS: [(Method, &str, &str); 6] = [
 const RAMP: [&str; 9] =
     ["#000004", "#1f0c48", "#550f6d", "#88226a", "#ba3655", "#e35933", "#f98c0a", "#f9c932", "#fcffa4"];
 
-/// The order of the light and of the tables; lower ones are their first bands.
-const ORDER: usize = *ORDERS.end();
 /// Errors are given for every whole degree below this.
 const DEGREES: usize = 90;
-
-fn floats(values: impl IntoIterator<Item = f32>) -> Vec<u8> {
-    values.into_iter().flat_map(f32::to_le_bytes).collect()
-}
 
 /// The last part of a path without its extension.
 fn stem(path: &str) -> &str {
@@ -78,8 +75,20 @@ fn carried(path: &str) -> &'static [u8] {
     zonal_scenes::embedded(path).unwrap_or_default()
 }
 
-/// Every file of the page.
-pub fn assets(bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
+/// The reflectances of the page: its own, and those that were brought along.
+pub fn reflectances(own: &Own) -> Result<Vec<Brdf>, Fault> {
+    let mut all = BRDFS.iter().map(|(text, _)| text.parse()).collect::<Result<Vec<Brdf>, _>>()?;
+    for brdf in &own.brdfs {
+        if !all.contains(brdf) {
+            all.push(*brdf);
+        }
+    }
+    Ok(all)
+}
+
+/// Every file of the page. `takes_maps` says whether it is served by a program that reads maps that are dropped on it.
+pub fn assets(own: &Own, takes_maps: bool, bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
+    let reflectances = reflectances(own)?;
     let mut all: Vec<Asset> =
         zonal_templates::EXPLORER.iter().map(|&(path, text)| (path.to_owned(), text.as_bytes().to_vec())).collect();
     bar.set_message("measuring the kernels");
@@ -87,14 +96,14 @@ pub fn assets(bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
     bar.set_message("writing and validating the shaders");
     all.extend(shaders(&functions)?);
     bar.set_message("projecting the reflectances");
-    let (brdfs, tables) = brdfs()?;
+    let (brdfs, tables) = brdfs(&reflectances);
     all.extend(tables);
     bar.set_message("preparing objects and lights");
-    let (meshes, files) = meshes()?;
+    let (meshes, files) = meshes(own)?;
     all.extend(files);
-    let (normals, files) = normals()?;
+    let (normals, files) = normals(own)?;
     all.extend(files);
-    let (maps, files) = maps()?;
+    let (maps, files) = maps(own, &reflectances, bar)?;
     all.extend(files);
     all.push(("data/errors.bin".to_owned(), floats(errors())));
     let index = json!({
@@ -109,6 +118,10 @@ pub fn assets(bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
         "repeats": mesh::REPEATS,
         "leastZ": LEAST_Z,
         "ramp": RAMP,
+        "bands": lighting::BANDS,
+        "lightsARow": shade::LIGHTS_A_ROW,
+        "first": own.first,
+        "drop": takes_maps.then(|| json!({"path": upload::PATH, "most": upload::MAX_BODY})),
     });
     all.push(("data/index.json".to_owned(), index.to_string().into_bytes()));
     Ok(all)
@@ -146,7 +159,8 @@ fn shaders(functions: &[Function]) -> Result<Vec<Asset>, Failure> {
     });
     let all: Result<Vec<[Asset; 2]>, _> = shades.chain(checks).collect();
     let vertex = ("shaders/vertex.vert".to_owned(), shade::glsl_vertex().into_bytes());
-    Ok(all?.into_iter().flatten().chain([vertex]).collect())
+    let brute = both("all-bands".to_owned(), shade::brute(&WGSL), shade::brute(&GLSL))?;
+    Ok(all?.into_iter().flatten().chain(brute).chain([vertex]).collect())
 }
 
 /// What the page must know to run a kernel on numbers of its own.
@@ -165,7 +179,13 @@ fn methods(functions: &[Function]) -> Vec<Value> {
         let spec = method.spec(order)?;
         let function = functions.iter().find(|function| function.spec == spec)?;
         let cost = function.built.code.cost(1);
-        let row = json!({"spec": spec.to_string(), "name": spec.name(), "total": cost.total, "special": cost.special});
+        let row = json!({
+            "spec": spec.to_string(),
+            "name": spec.name(),
+            "total": cost.total,
+            "special": cost.special,
+            "limit": spec.max_degrees(),
+        });
         Some((order.to_string(), row))
     };
     METHODS
@@ -185,37 +205,64 @@ fn errors() -> Vec<f32> {
     all.chain(typical).flatten_iter().flatten_iter().map(|error| error as f32).collect()
 }
 
-fn brdfs() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
+/// What a reflectance is to the shader of brute force: its kind and its numbers.
+fn numbers_of(brdf: &Brdf) -> [f64; 3] {
+    match *brdf {
+        Brdf::Lambert => [0.0, 0.0, 0.0],
+        Brdf::Phong { exponent } => [1.0, exponent, 0.0],
+        Brdf::Ward { alpha: [x, y] } => [2.0, x, y],
+    }
+}
+
+fn brdfs(all: &[Brdf]) -> (Vec<Value>, Vec<Asset>) {
     let mut rows = Vec::new();
     let mut files = Vec::new();
-    for (text, label) in BRDFS {
-        let brdf: Brdf = text.parse().map_err(Fault::from)?;
-        let table = Table::new(&brdf, ORDER);
+    for brdf in all {
+        let text = brdf.to_string();
+        let label = BRDFS.iter().find(|(known, _)| *known == text).map_or(text.as_str(), |(_, label)| label);
+        let table = Table::new(brdf, ORDER);
+        let file = format!("data/brdf-{}.bin", text.replace([':', '.'], "-"));
         rows.push(json!({
             "id": text,
             "label": label,
             "isotropic": brdf.is_isotropic(),
+            "numbers": numbers_of(brdf),
+            "norms": lighting::norms(brdf),
             "elevations": table.elevations,
             "azimuths": table.azimuths,
-            "file": format!("data/brdf-{}.bin", text.replace([':', '.'], "-")),
+            "file": file,
         }));
-        files.push((format!("data/brdf-{}.bin", text.replace([':', '.'], "-")), floats(table.values)));
+        files.push((file, floats(table.values)));
     }
-    Ok((rows, files))
+    (rows, files)
 }
 
-fn meshes() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
-    let mut rows = Vec::new();
-    let mut files = Vec::new();
+/// The choices of a kind: those that were brought along, then the page's own, by what they are called.
+fn choices<T>(own: &[(String, T)], all: Vec<(String, String, T)>) -> Vec<(String, String, T)>
+where
+    T: Clone,
+{
+    let brought =
+        own.iter().enumerate().map(|(i, (label, made))| (format!("{}{}", own::ID, i + 1), label.clone(), made.clone()));
+    brought.chain(all).collect()
+}
+
+fn meshes(own: &Own) -> Result<(Vec<Value>, Vec<Asset>), Failure> {
+    let mut all = Vec::new();
     for (path, label) in MESHES {
         let mesh = match path {
             "sphere" => Mesh::sphere(),
             "plane" => Mesh::plane(),
             path => Mesh::from_obj(path, carried(path))?,
         };
-        let file = format!("data/mesh-{}.bin", stem(path));
+        all.push((stem(path).to_owned(), label.to_owned(), mesh));
+    }
+    let mut rows = Vec::new();
+    let mut files = Vec::new();
+    for (id, label, mesh) in choices(&own.meshes, all) {
+        let file = format!("data/mesh-{id}.bin");
         rows.push(json!({
-            "id": stem(path),
+            "id": id,
             "label": label,
             "vertices": mesh.positions.len(),
             "indices": mesh.indices.len(),
@@ -228,104 +275,44 @@ fn meshes() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
     Ok((rows, files))
 }
 
-fn normals() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
-    let mut rows = Vec::new();
-    let mut files = Vec::new();
+fn normals(own: &Own) -> Result<(Vec<Value>, Vec<Asset>), Failure> {
+    let mut all = Vec::new();
     for (path, label) in NORMALS {
         let map = match path {
             "flat" => NormalMap::flat(),
             path => NormalMap::from_bytes(path, carried(path))?,
         };
-        let file = format!("data/normals-{}.bin", stem(path));
-        let row = json!({
-            "id": stem(path), "label": label, "width": map.width, "height": map.height, "file": file,
-        });
-        rows.push(row);
+        all.push((stem(path).to_owned(), label.to_owned(), map));
+    }
+    let mut rows = Vec::new();
+    let mut files = Vec::new();
+    for (id, label, map) in choices(&own.normals, all) {
+        let file = format!("data/normals-{id}.bin");
+        rows.push(json!({"id": id, "label": label, "width": map.width, "height": map.height, "file": file}));
         files.push((file, map.levels().into_iter().flatten().flatten().collect()));
     }
     Ok((rows, files))
 }
 
-/// The environment maps: a small, smooth picture of each for the background, and all their coefficients.
-fn maps() -> Result<(Vec<Value>, Vec<Asset>), Failure> {
-    let paths: Vec<&str> = zonal_scenes::below("maps").collect();
-    let mut rows = Vec::new();
-    let mut files = Vec::new();
-    let mut lights = Vec::new();
-    for path in paths {
-        let map = Map::from_bytes(path, carried(path)).map_err(Fault::from)?;
-        lights.extend(map.project(ORDER).coefficients.into_iter().flatten().map(|value| value as f32));
+/// The environment maps.
+fn maps(own: &Own, brdfs: &[Brdf], bar: &ProgressBar) -> Result<(Vec<Value>, Vec<Asset>), Failure> {
+    let carried = zonal_scenes::below("maps").map(|path| {
         let id = stem(path).split('_').next().unwrap_or_default();
         let (first, rest) = id.split_at(1);
-        let small = blurred(&map);
-        let file = format!("data/map-{id}.bin");
-        rows.push(json!({
-            "id": id,
-            "label": first.to_uppercase() + rest,
-            "width": small.width,
-            "height": small.height,
-            "file": file,
-        }));
-        files.push((file, small.texels.iter().flat_map(|texel| shared_exponent(*texel).to_le_bytes()).collect()));
-    }
-    files.push(("data/lights.bin".to_owned(), floats(lights)));
-    Ok((rows, files))
-}
-
-/// The map at half its size under a small binomial filter.
-fn blurred(map: &Map) -> Map {
-    const WEIGHTS: [f64; 6] = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
-    let (width, height) = (map.width / 2, map.height / 2);
-    let texel = |x: usize, y: usize| {
-        let mut sum = [0.0; 3];
-        for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
-            let column = (2 * x + map.width + i - 2) % map.width;
-            let row = (2 * y + j).saturating_sub(2).min(map.height - 1);
-            let weight = WEIGHTS[i] * WEIGHTS[j] / 1024.0;
-            let texel = map.texels[row * map.width + column];
-            (0..3).for_each(|k| sum[k] += weight * texel[k]);
-        }
-        sum
-    };
-    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-    Map { width, height, texels }
-}
-
-/// A colour in the format RGB9E5 of the texture units: three mantissas of nine bits and one exponent (OpenGL ES 3.0,
-/// section 3.8.3).
-fn shared_exponent(texel: [f64; 3]) -> u32 {
-    const MOST: f64 = 65408.0;
-    let texel = texel.map(|value| value.clamp(0.0, MOST));
-    let most = texel.iter().copied().fold(0.0, f64::max);
-    let first = if most > 0.0 { (most.log2().floor() as i32).max(-16) + 1 } else { -15 };
-    let step = |exponent: i32| f64::from(exponent - 9).exp2();
-    // The largest may round up to 512.
-    let exponent = if (most / step(first)).round() > 511.0 { first + 1 } else { first };
-    let [r, g, b] = texel.map(|value| (value / step(exponent)).round() as u32);
-    r | g << 9 | b << 18 | ((exponent + 15) as u32) << 27
+        let loaded = Loaded::from_bytes(path, carried(path)).map_err(Fault::from)?;
+        Ok(Lit { id: id.to_owned(), label: first.to_uppercase() + rest, loaded })
+    });
+    let carried = carried.collect::<Result<Vec<Lit>, Fault>>()?;
+    let prepared = own.maps.iter().chain(&carried).map(|lit| {
+        bar.set_message(format!("preparing the light of {}", lit.label));
+        lighting::prepared(lit, brdfs)
+    });
+    Ok(prepared.unzip())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_shared_exponent_keeps_eight_bits_of_the_largest() {
-        let back = |bits: u32| {
-            let scale = f64::from((bits >> 27) as i32 - 15 - 9).exp2();
-            [0, 9, 18].map(|shift| f64::from(bits >> shift & 511) * scale)
-        };
-        for texel in
-            [[0.0; 3], [1.0, 0.5, 0.25], [511.9, 3.0, 0.1], [1e-6, 2e-6, 0.0], [7e4, 1.0, 0.0], [0.3, 0.9999, 0.2]]
-        {
-            let most = texel.iter().copied().fold(0.0, f64::max);
-            for (got, want) in back(shared_exponent(texel)).into_iter().zip(texel) {
-                // Half a step: of the smallest exponent, or of a largest mantissa from 255.5, rounded up, to 511.
-                let tolerance = (most / 255.5 / 2.0).max(1.0 / f64::from(1 << 25));
-                assert!((got - want.min(65408.0)).abs() <= tolerance, "{texel:?}: {got}");
-            }
-        }
-    }
 
     #[test]
     fn errors_of_a_band_do_not_depend_on_the_order() {

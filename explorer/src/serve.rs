@@ -1,7 +1,10 @@
 //! The command `explore`: writes the page and serves it to this machine alone.
 
-use crate::http::{self, Answer};
+use crate::http::{self, Answer, Site};
+use crate::own::Own;
 use crate::page::{self, Asset};
+use crate::upload::{self, Uploads};
+use std::borrow::Cow;
 use std::io;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
@@ -25,12 +28,12 @@ const TYPES: [(&str, &str); 7] = [
 ];
 
 /// Writes the page, and serves it if asked to.
-pub fn explore(folder: Option<PathBuf>, port: u16, serves: bool, replace: Replace) -> Result<(), Failure> {
+pub fn explore(own: &Own, folder: Option<PathBuf>, port: u16, serves: bool, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     // A port that is taken is known before anything is made.
     let listener = serves.then(|| listen(port)).transpose()?;
     let bar = progress("generating the explorer");
-    let assets = page::assets(&bar)?;
+    let assets = page::assets(own, serves, &bar)?;
     let folder = folder.unwrap_or_else(|| PathBuf::from(FOLDER));
     let list: Vec<(&str, &[u8])> = assets.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice())).collect();
     let changed = files::write_below(&folder, &list, replace)?;
@@ -43,7 +46,7 @@ pub fn explore(folder: Option<PathBuf>, port: u16, serves: bool, replace: Replac
         start.elapsed().as_secs_f64()
     ))?;
     match listener {
-        Some(listener) => serve(&listener, &assets),
+        Some(listener) => serve(&listener, Page { assets, uploads: Uploads::new(page::reflectances(own)?) }),
         None => out("Serve the folder with any web server; a page from a file cannot load its data.\n"),
     }
 }
@@ -55,27 +58,51 @@ fn listen(port: u16) -> Result<TcpListener, Diagnostic> {
     })
 }
 
-fn serve(listener: &TcpListener, assets: &[Asset]) -> Result<(), Failure> {
+fn serve(listener: &TcpListener, page: Page) -> Result<(), Failure> {
     let fault = |error: io::Error| Diagnostic::nowhere(format!("cannot serve: {error}"), "end other programs");
     let address = listener.local_addr().map_err(fault)?;
     out(&format!("http://{address}/ shows it; end with ctrl-c\n"))?;
-    http::serve(listener, |path| answer(path, assets)).map_err(fault)?;
+    http::serve(listener, &page).map_err(fault)?;
     Ok(())
 }
 
-/// Answers from memory: what is not part of the page does not exist.
-fn answer<'a>(path: &str, assets: &'a [Asset]) -> Answer<'a> {
-    let path = path.trim_start_matches('/');
-    // The page names its icon itself; a browser that shows a file of it alone asks for this one.
-    if path == "favicon.ico" {
-        return Answer { status: "204 No Content", headers: String::new(), body: &[] };
+/// The page as it is served: from memory, so that what is not part of it does not exist.
+struct Page {
+    assets: Vec<Asset>,
+    uploads: Uploads,
+}
+
+impl Site for Page {
+    fn get(&self, path: &str) -> Answer<'_> {
+        let path = path.trim_start_matches('/');
+        // The page names its icon itself; a browser that shows a file of it alone asks for this one.
+        if path == "favicon.ico" {
+            return Answer { status: "204 No Content", headers: String::new(), body: Cow::Borrowed(&[]) };
+        }
+        let path = if path.is_empty() { "index.html" } else { path };
+        let made = || self.uploads.get(path).map(Cow::Owned);
+        let known = self.assets.iter().find(|(known, _)| known == path).map(|(_, bytes)| Cow::Borrowed(&bytes[..]));
+        let Some(body) = known.or_else(made) else {
+            return Answer::line("404 Not Found", "not found\n");
+        };
+        let extension = Path::new(path).extension().and_then(|extension| extension.to_str()).unwrap_or("");
+        let known = TYPES.iter().find(|(name, _)| *name == extension);
+        let content = known.map_or("application/octet-stream", |(_, content)| content);
+        Answer { status: "200 OK", headers: format!("Content-Type: {content}\r\nCache-Control: no-cache\r\n"), body }
     }
-    let path = if path.is_empty() { "index.html" } else { path };
-    let Some((_, bytes)) = assets.iter().find(|(known, _)| known == path) else {
-        return Answer::line("404 Not Found", "not found\n");
-    };
-    let extension = Path::new(path).extension().and_then(|extension| extension.to_str()).unwrap_or("");
-    let known = TYPES.iter().find(|(name, _)| *name == extension);
-    let content = known.map_or("application/octet-stream", |(_, content)| content);
-    Answer { status: "200 OK", headers: format!("Content-Type: {content}\r\nCache-Control: no-cache\r\n"), body: bytes }
+
+    fn takes(&self, path: &str) -> Option<usize> {
+        (path.trim_start_matches('/') == upload::PATH).then_some(upload::MAX_BODY)
+    }
+
+    fn post(&self, _: &str, body: &[u8]) -> Answer<'_> {
+        match self.uploads.add(body) {
+            Ok(row) => Answer {
+                status: "200 OK",
+                headers: "Content-Type: application/json\r\nCache-Control: no-store\r\n".to_owned(),
+                body: row.to_string().into_bytes().into(),
+            },
+            Err(fault) => Answer::line("422 Unprocessable Content", format!("{fault}\n")),
+        }
+    }
 }

@@ -2,8 +2,10 @@
 //! with them is `zonal-render`, or a browser with the explorer's page.
 
 pub mod camera;
+pub mod lights;
 pub mod mesh;
 pub mod method;
 pub mod normal_map;
 pub mod shade;
+pub mod tone;
 pub mod vector;

@@ -104,6 +104,7 @@ impl Shading {
         let mut context = Context::new();
         context.insert("head", &self.head());
         context.insert("gbuffer", &false);
+        context.insert("brute", &false);
         context.insert("kernels", &kernels(functions, format!("picture{}", self.order), target)?);
         context.insert("isotropic", &self.isotropic);
         context.insert("method", self.method.name());
@@ -164,8 +165,31 @@ pub fn wgsl_gbuffer() -> String {
     let mut context = Context::new();
     context.insert("head", &["What is known of a normal-mapped surface before it is shaded."]);
     context.insert("gbuffer", &true);
+    context.insert("brute", &false);
     context.insert("least_z", &number(LEAST_Z));
     render("picture/shade.wgsl", &context)
+}
+
+/// How many lights a row of the texture of [`brute()`] holds, two texels each.
+pub const LIGHTS_A_ROW: usize = 64;
+
+/// A shader that adds up many lights times the reflectance, with no harmonics: brute force. It is bound as
+/// [`Shading::text`] says, but for binding 3, which holds what is reflected and which lights, and binding 4, the texture of
+/// the lights: RGBA32F, [`LIGHTS_A_ROW`] a row, the direction and then the radiance times the solid angle. Alpha is 1 and the
+/// angle in radians by which the normal map's normal leans.
+///
+/// The reflectances are those of [`Brdf::value`](zonal_codegen::reflectance::brdf::Brdf::value); the tests of the explorer
+/// hold the one to the other.
+pub fn brute(target: Target) -> String {
+    let mut context = Context::new();
+    context.insert("head", &["A normal-mapped surface under many lights, by brute force."]);
+    context.insert("gbuffer", &false);
+    context.insert("brute", &true);
+    context.insert("least_z", &number(LEAST_Z));
+    context.insert("pi", &number(PI));
+    context.insert("two_pi", &number(2.0 * PI));
+    context.insert("lights_a_row", &LIGHTS_A_ROW);
+    render(&format!("picture/shade.{target}"), &context)
 }
 
 /// A shader that runs a kernel on many inputs: fragment (x, y) writes numbers 4x to 4x + 3 of the result for the inputs in
@@ -212,6 +236,7 @@ mod tests {
                 validate(&WGSL, &format!("{shading:?}"), &text).unwrap_or_else(|error| panic!("{error}"));
             }
         }
+        validate(&WGSL, "brute", &brute(&WGSL)).unwrap_or_else(|error| panic!("{error}"));
         validate(&WGSL, "gbuffer", &wgsl_gbuffer()).unwrap_or_else(|error| panic!("{error}"));
     }
 

@@ -119,6 +119,8 @@ pub fn false_colour(share: f64) -> [u8; 3] {
 /// which is blurred as if out of focus.
 pub fn shown(frame: &Frame, samples: usize, exposure: f64, camera: &Camera, map: &Map) -> Canvas {
     let aspect = frame.size[0] as f64 / frame.size[1] as f64;
+    let unrolled = map.is_cube().then(|| map.unrolled(2 * map.width));
+    let map = unrolled.as_ref().unwrap_or(map);
     let sample = |x: usize, y: usize| {
         let radiance = frame.pixels[y * frame.size[0] + x].unwrap_or_else(|| {
             let place = |i: usize, side: usize| (2 * i + 1) as f64 / side as f64 - 1.0;

@@ -9,20 +9,16 @@ use crate::frame::{Frame, Surface};
 use rayon::prelude::*;
 use zonal_codegen::environment::{Map, Projection};
 use zonal_codegen::reflectance::brdf::Brdf;
-use zonal_picture::vector::dot;
+use zonal_picture::lights;
 
 /// A map as lights in fixed directions.
 #[derive(Clone, Debug)]
-pub struct Lights(Vec<([f64; 3], [f64; 3])>);
+pub struct Lights(lights::Lights);
 
 impl Lights {
     /// One light a texel.
     pub fn of(map: &Map) -> Self {
-        let light = |(i, texel): (usize, &[f64; 3])| {
-            let (x, y) = (i % map.width, i / map.width);
-            (map.direction(x, y), texel.map(|v| v * map.solid_angle(y)))
-        };
-        Self(map.texels.iter().enumerate().map(light).collect())
+        Self(lights::Lights::of(map))
     }
 
     /// What a map with so many rows holds of the first bands only, ringing and all.
@@ -37,16 +33,8 @@ impl Lights {
 
     /// The radiance that a point of a surface sends to the eye.
     pub fn radiance(&self, brdf: &Brdf, surface: &Surface) -> [f64; 3] {
-        let ([x, y, z], view) = surface.modulated();
-        let mut sum = [0.0; 3];
-        for &(direction, light) in &self.0 {
-            let up = dot(direction, z);
-            if up > 0.0 {
-                let value = brdf.value(view, [dot(direction, x), dot(direction, y), up]);
-                (0..3).for_each(|channel| sum[channel] += value * light[channel]);
-            }
-        }
-        sum
+        let (axes, view) = surface.modulated();
+        self.0.radiance(brdf, axes, view)
     }
 
     /// The radiance of every `step`-th of the points that there are, the first among them; `tick` is called after each.
@@ -100,6 +88,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
     use zonal_codegen::promise::samples::Random;
+    use zonal_picture::vector::dot;
 
     fn surface(random: &mut Random) -> Surface {
         let [x, y, z] = random.unit::<3>();
@@ -134,7 +123,7 @@ mod tests {
             let surface = surface(&mut random);
             let (axes, view) = surface.modulated();
             let light = axes.map(|axis| dot(axis, map.direction(40, 5)));
-            let expected = brdf.value(view, light) * map.solid_angle(5);
+            let expected = brdf.value(view, light) * map.solid_angle(40, 5);
             let [r, g, b] = lights.radiance(&brdf, &surface);
             assert!((r - expected).abs() <= 1e-12 * expected && (g - 2.0 * r).abs() <= 1e-12 * r && b == 0.0);
         }

@@ -9,7 +9,7 @@ use zonal_codegen::fault::Fault;
 use zonal_codegen::plan::Plan;
 use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
-use zonal_codegen::scene::{Job, Light, Located, Order, Scene};
+use zonal_codegen::scene::{Job, Light, Located, Maps, Order, Scene};
 use zonal_picture::camera::Camera;
 use zonal_picture::mesh::{self, Mesh};
 use zonal_picture::method::Method;
@@ -77,7 +77,10 @@ impl Subject {
         let mesh = match picture.mesh.value.as_str() {
             "sphere" => Mesh::sphere(),
             "plane" => Mesh::plane(),
-            name => located(&picture.mesh, Mesh::from_obj(name, &scene.bytes(&picture.mesh, mesh::MAX_BYTES)?))?,
+            name => {
+                let bytes = scene.bytes(&picture.mesh, mesh::MAX_BYTES)?;
+                located(&picture.mesh, Mesh::in_axes(name, &bytes, scene.axes()))?
+            }
         };
         let normals = match &picture.normals {
             None => NormalMap::flat(),
@@ -87,7 +90,12 @@ impl Subject {
         };
         let map = located(
             &environment.map,
-            Map::from_bytes(&environment.map.value, &scene.bytes(&environment.map, environment::MAX_BYTES)?),
+            match &scene.maps {
+                Maps::Folder(folder) => Map::read(&folder.join(&environment.map.value)),
+                Maps::Embedded(_) => {
+                    Map::from_bytes(&environment.map.value, &scene.bytes(&environment.map, environment::MAX_BYTES)?)
+                }
+            },
         )?;
         let number = match picture.order.as_ref().map(|order| order.value) {
             Some(Order::Number(number)) => Some(number),

@@ -1,21 +1,27 @@
 // The page: its controls, what they mean for the pictures, and the figures that it shows.
 
-import { bandNorms, camera, duration, lean, levelOf, lightOf, measure, percent, predict } from "./figures.js";
+import { drawBands, drawMaps, drawOrders } from "./charts.js";
+import {
+  bandNorms, brightness, camera, duration, lean, leaning, leftOut, levelOf, lightOf, measure, percent, predict,
+} from "./figures.js";
+import { listenForMaps } from "./own.js";
 import * as webgl2 from "./webgl.js";
 import * as webgpu from "./webgpu.js";
 
 const APIS = { webgpu, webgl2 };
 const NAMES = { webgpu: "WebGPU", webgl2: "WebGL2" };
 const $ = (id) => document.getElementById(id);
-const panels = ["chosen", "exact", "difference"].map($);
+const panels = ["chosen", "exact", "every", "difference"].map($);
 const contexts = panels.map((panel) => panel.getContext("2d"));
 
 /** Where the first view is from. */
-const VIEW = { azimuth: -60, elevation: 20, distance: 3.7 };
+const VIEW = { azimuth: -60, elevation: 20, distance: 3.7, field: 32 };
 const FIRST = {
   method: "tilt", order: 5, mesh: "teapot", brdf: "ward:0.4", normals: "0015", strength: 0.35, light: "interior", exposure: 0,
-  api: "webgpu", resolution: 0, rotate: 0, ...VIEW,
+  api: "webgpu", resolution: 0, rotate: 0, against: "all", domain: 0, ...VIEW,
 };
+/** The pictures that the difference may be from, as the shaders number them. */
+const AGAINST = { all: 0, exact: 1 };
 /** Pictures that take less than this, in milliseconds, are drawn finer by themselves. */
 const FAST = 3;
 /** Pictures that take longer are drawn coarser while they move. */
@@ -43,7 +49,7 @@ const once = (key, make) => {
 const shader = (name) => once(name, () => load(`shaders/${name}`, "text"));
 const bytes = (path) => once(path, () => load(path, "arrayBuffer"));
 
-let index, lights, errors;
+let index, errors;
 let backend = null;
 /** What is on the screen: choices with their data and programs; nothing until the first is ready. */
 let shown = null;
@@ -60,9 +66,11 @@ let figures = null;
 let waiting = [];
 /** What was measured of each method since anything else was changed. */
 let measured = new Map();
+/** What each order was seen to leave out since anything else was changed, but for the method. */
+let left = new Map();
 /** When a picture that moves was last measured. */
 let glanced = 0;
-let milliseconds = { chosen: 0, exact: 0 };
+let milliseconds = { chosen: 0, exact: 0, all: 0 };
 let fast = false;
 
 const row = (list, id) => index[list].find((entry) => entry.id === id);
@@ -86,8 +94,16 @@ async function normalsOf({ file, width, height }) {
   return { width, height, levels };
 }
 
-async function environmentOf({ file, width, height }) {
-  return { width, height, texels: new Uint32Array(await bytes(file)) };
+/** A map's coefficients, its lights as a texture, and its small picture. */
+async function lightDataOf({ file, width, height, rows }) {
+  const buffer = await bytes(file);
+  const coefficients = new Float32Array(buffer, 0, 3 * bands() ** 2);
+  const [start, count] = [coefficients.byteLength, (rows[0] + rows[1]) * index.lightsARow];
+  return {
+    coefficients,
+    lights: { width: 2 * index.lightsARow, height: rows[0] + rows[1], texels: new Float32Array(buffer, start, 8 * count) },
+    environment: { width, height, texels: new Uint32Array(buffer, start + 32 * count) },
+  };
 }
 
 /** The first bands of a table, as the shaders of an order expect them. */
@@ -100,12 +116,6 @@ async function viewsOf({ file, elevations, azimuths }, order) {
     texels.set(all.subarray(i * whole, i * whole + stride), i * stride);
   }
   return { width: (azimuths * stride) / 4, height: elevations, texels };
-}
-
-function lightCoefficients(id) {
-  const size = 3 * bands() ** 2;
-  const at = index.maps.findIndex((map) => map.id === id);
-  return lights.subarray(at * size, (at + 1) * size);
 }
 
 /** The light of an order as shaders take it: four numbers a coefficient. */
@@ -127,27 +137,32 @@ async function apply() {
     const [mesh, normals, environment, brdf] = ["mesh", "normals", "light", "brdf"].map((key) =>
       row({ mesh: "meshes", normals: "normals", light: "maps", brdf: "brdfs" }[key], wanted[key]));
     const target = backend;
-    const [meshData, normalData, environmentData, views, exact, chosen, table] = await Promise.all([
-      meshOf(mesh), normalsOf(normals), environmentOf(environment), viewsOf(brdf, order),
+    const [meshData, normalData, { coefficients, ...lightData }, views, exact, chosen, all, table] = await Promise.all([
+      meshOf(mesh), normalsOf(normals), lightDataOf(environment), viewsOf(brdf, order),
       target.program(programName("exact", order, wanted.brdf)), target.program(programName(method, order, wanted.brdf)),
-      bytes(brdf.file),
+      target.program("all-bands"), bytes(brdf.file),
     ]);
     if (mine !== generation) return;
     const is = (...keys) => shown?.target === target && keys.every((key) => shown.choices[key] === wanted[key]);
     if (!is("mesh")) target.setMesh(meshData);
     if (!is("normals")) target.setNormals(normalData);
-    if (!is("light")) target.setEnvironment(environmentData);
+    if (!is("light")) {
+      target.setEnvironment(lightData.environment);
+      target.setLights(lightData.lights);
+    }
     if (!is("brdf", "order")) target.setViews(views);
-    const coefficients = lightCoefficients(wanted.light);
     if (!is("light", "order")) target.setLight(padded(coefficients, order));
     if (!is("mesh", "normals", "light", "brdf", "order", "strength")) measured = new Map();
+    if (!is("mesh", "normals", "light", "brdf", "strength")) left = new Map();
     shown = {
-      target, choices: wanted, programs: { chosen, exact }, light: lightOf(coefficients, bands()),
+      target, choices: wanted, programs: { chosen, exact, all }, coefficients, environment: lightData.environment,
+      looks: [wanted.mesh, wanted.normals, wanted.light, wanted.brdf], light: lightOf(coefficients, bands()),
       reflectance: once(`norms ${brdf.id}`, () => bandNorms(new Float32Array(table), 4 * Math.ceil(bands() ** 2 / 4), bands())),
       normals: normalData, leans: null, generation: mine,
     };
     shown.unit = shown.light.mean;
     lookAtLeans();
+    lookAtLight();
     describe();
     document.body.dataset.state = "busy";
     touch();
@@ -165,13 +180,30 @@ function size() {
   const coarse = moving && milliseconds.chosen + milliseconds.exact > SLOW ? 0.5 : 1;
   const scale = (state.resolution || (fast ? 2 : 1)) * coarse;
   const side = Math.max(16, Math.round(panels[0].clientWidth * Math.min(devicePixelRatio, 2) * Math.min(scale, 1)));
-  return { width: Math.min(side, 1200), height: Math.min(side, 1200), samples: scale > 1 ? 2 : 1 };
+  return { width: Math.min(side, 1000), height: Math.min(side, 1000), samples: scale > 1 ? 2 : 1 };
+}
+
+/** The lean in radians beyond which the chosen method is not meant to be used; nothing is below 0. */
+function limit() {
+  const degrees = row("methods", shown.choices.method).kernels[shown.choices.order]?.limit ?? null;
+  return degrees === null ? -1 : (degrees * Math.PI) / 180;
+}
+
+/** What all bands are summed from, fewer lights while a picture moves that is slow to sum; the key tells what is drawn. */
+function allBands(view) {
+  const { light, brdf } = shown.choices;
+  const map = row("maps", light);
+  const few = moving && milliseconds.all > SLOW;
+  const range = few ? [0, map.lights[0]] : [map.rows[0] * index.lightsARow, map.lights[1]];
+  return { brdf: row("brdfs", brdf).numbers, range, key: JSON.stringify([shown.looks, state.strength, view, range]) };
 }
 
 function frame() {
   const { light, programs } = shown;
+  const view = camera(state);
   return {
-    ...size(), programs, camera: camera(state), strength: Number(state.strength), unit: shown.unit,
+    ...size(), programs, camera: view, strength: Number(state.strength), unit: shown.unit,
+    all: allBands([...view.clip]), against: AGAINST[state.against], limit: state.domain ? limit() : -1,
     exposure: (0.95 * 2 ** Number(state.exposure)) / light.mean, ramp: index.ramp.map(colour),
   };
 }
@@ -230,9 +262,19 @@ function tick(now) {
 /** Draws and measures the errors of a picture that moves; its time only once it rests. */
 async function glance() {
   const now = await draw();
-  const result = measure(...(await backend.read()));
+  const result = judged(await backend.read());
   glanced = performance.now();
   if (shown?.generation === generation) report(result, now);
+}
+
+/** What the pictures say: what the method adds, what the order leaves out, and both, in shares of the mean radiance. */
+function judged([chosen, exact, all]) {
+  const { unit, pixels } = brightness(all);
+  const most = limit();
+  return {
+    ...measure(chosen, exact, unit), left: measure(exact, all, unit), whole: measure(chosen, all, unit), unit, pixels,
+    beyond: most < 0 ? 0 : leaning(all, most),
+  };
 }
 
 /** How long a picture takes, in milliseconds: repeated until the clock can tell. */
@@ -246,19 +288,25 @@ async function timed(which, now) {
   }
 }
 
+/** The picture of all bands that was timed last. */
+let summed = null;
+
 /** Measures the picture that rests on the screen. */
 async function settle() {
   const mine = settling;
   moving = dragging;
+  const start = performance.now();
   const now = await draw();
-  const [chosen, exact] = await backend.read();
-  const result = measure(chosen, exact);
+  const pictures = await backend.read();
+  if (now.all.key !== summed) milliseconds.all = performance.now() - start;
+  summed = now.all.key;
+  const result = judged(pictures);
   if (Math.abs(result.unit / now.unit - 1) > 0.01) {
     // The scale of the false colours is only known now.
     shown.unit = result.unit || now.unit;
     await draw();
   }
-  milliseconds = { chosen: await timed("chosen", now), exact: await timed("exact", now) };
+  milliseconds = { ...milliseconds, chosen: await timed("chosen", now), exact: await timed("exact", now) };
   settled = mine;
   if (!state.resolution && !fast && milliseconds.chosen + milliseconds.exact < FAST) {
     fast = true;
@@ -266,6 +314,7 @@ async function settle() {
   }
   if (mine !== settling || shown?.generation !== generation) return;
   measured.set(shown.choices.method, result);
+  left.set(shown.choices.order, result.left.mean);
   report(result, now);
   document.body.dataset.state = "ready";
   waiting.forEach((done) => done(figures));
@@ -281,10 +330,34 @@ const kernelOf = (method, order) => method.kernels[order] ?? { total: 0, special
 function lookAtLeans() {
   const { normals, choices } = shown;
   const now = size();
-  const level = Math.min(levelOf(index.repeats * normals.width, now.width * now.samples, state.distance), normals.levels.length - 1);
+  const level = Math.min(levelOf(index.repeats * normals.width, now.width * now.samples, state), normals.levels.length - 1);
   const of = (i) => once(`lean ${choices.normals} ${choices.strength} ${i}`, () => lean(normals.levels[i], choices.strength, index.leastZ));
   shown.leans = { ...of(level), most: of(0).most };
 }
+
+/** The light itself: how it is read, its bands, and what the order holds of it. */
+function lookAtLight() {
+  const { choices, coefficients, environment, light } = shown;
+  const map = row("maps", choices.light);
+  $("light-note").textContent = map.told;
+  const held = drawBands($("bands"), { shares: map.shares, beyond: map.beyond, order: choices.order });
+  $("bands-note").textContent = `The ${choices.order} bands of the order hold ${percent(held)} of the light’s energy; small bright lights fill all bands.`;
+  const exposure = 0.95 / light.mean;
+  shown.signs = drawMaps([$("map"), $("series")], { environment, coefficients, order: choices.order, exposure });
+  const { negative, lowest } = shown.signs;
+  $("series-note").textContent = `The map, and what order ${choices.order} holds of it: ${
+    negative ? `negative in ${percent(negative)} of the directions (magenta), down to −${(-lowest).toFixed(2)} of the mean` : "nowhere negative"
+  }.`;
+  const apart = Math.max(...map.apart);
+  $("every-note").textContent = `brute force: ${map.lights[1].toLocaleString("en")} lights times the reflectance`;
+  $("every-words").textContent = `All bands are summed by brute force, with no harmonics: ${map.lights[1].toLocaleString("en")} lights, gathered from the map’s ${map.texels.toLocaleString("en")} texels, times the reflectance itself. Against the sum over all texels it errs by ${percent(apart)} of the mean radiance, in the mean over surfaces that lie anyhow, with the reflectance of this page for which that is the most.`;
+}
+
+/** What each order is expected to leave out. */
+const expectedLeft = () => {
+  const { choices, unit } = shown;
+  return leftOut(row("brdfs", choices.brdf).norms, row("maps", choices.light).energy, unit);
+};
 
 /** What is known of a method before it is drawn. */
 function expected(method) {
@@ -336,7 +409,7 @@ function table() {
     const cells = [
       kernelOf(method, choices.order).total,
       method.id === "exact" ? "rounding" : percent(expected(method.id).kernel[0]),
-      got ? percent(got.mean) : "–", got ? percent(got.worst) : "–",
+      got ? percent(got.mean) : "–", got ? percent(got.worst) : "–", got ? percent(got.whole.mean) : "–",
     ].map((text) => {
       const cell = document.createElement("td");
       cell.textContent = text;
@@ -356,18 +429,42 @@ function report(result, now) {
   const { choices, leans } = shown;
   const plan = expected(choices.method);
   const kernel = kernelOf(row("methods", choices.method), choices.order);
-  figures = { ...state, ...result, predicted: plan, operations: kernel.total, milliseconds, adapter: backend.adapter, api: backend.api, width: now.width };
+  const most = limit();
+  figures = {
+    ...state, ...result, predicted: plan, expected: expectedLeft(), signs: shown.signs, operations: kernel.total, milliseconds,
+    adapter: backend.adapter, api: backend.api, width: now.width, samples: now.samples,
+  };
   const bound = plan.worst > 10 ? "nothing bounds the worst" : `worst at most ${percent(plan.worst)}`;
   $("predicted").textContent = percent(plan.mean);
-  $("predicted-note").textContent = `mean, estimated; ${bound}. Normals lean by ${leans.rms.toFixed(0)}° rms, ${leans.most.toFixed(0)}° at most`;
+  $("predicted-note").textContent = `of the method: mean, estimated; ${bound}. Normals lean by ${leans.rms.toFixed(0)}° rms, ${leans.most.toFixed(0)}° at most`;
   $("measured").textContent = percent(result.mean);
   $("measured-note").textContent = `mean; worst ${percent(result.worst)}, of ${result.pixels.toLocaleString("en")} pixels`;
+  $("left").textContent = percent(result.left.mean);
+  $("left-note").textContent = `mean; worst ${percent(result.left.worst)}: the exact picture against all bands`;
+  $("whole").textContent = percent(result.whole.mean);
+  $("whole-note").textContent = `mean; worst ${percent(result.whole.worst)}: what is seen against all bands`;
+  $("beyond").textContent = result.beyond
+    ? `${percent(result.beyond)} of the pixels lean by more than ${((most * 180) / Math.PI).toFixed(0)}°, for which this method is not meant`
+    : "";
   $("time").textContent = duration(milliseconds.chosen);
   $("time-note").textContent = `exact ${duration(milliseconds.exact)}; ${now.width * now.samples} × ${now.height * now.samples}`;
   table();
   const method = row("methods", choices.method).label;
-  const text = `${method}, order ${choices.order}: ${kernel.total} operations, mean error ${percent(result.mean)}, worst ${percent(result.worst)}.`;
+  $("verdict").textContent = `Left out by order ${choices.order}: ${percent(result.left.mean)}; added by the method: ${percent(result.mean)}.`;
+  drawOrders($("orders"), { expected: figures.expected, measured: left, whole: result.whole.mean, order: choices.order, last: 16 });
+  const text = `${method}, order ${choices.order}: ${kernel.total} operations, left out by the order ${percent(result.left.mean)}, added by the method: mean error ${percent(result.mean)}, worst ${percent(result.worst)}.`;
   if (!state.rotate && $("status").textContent !== text) $("status").textContent = text;
+}
+
+/** Draws every order once, so that the plot is full, and comes back to the chosen one. */
+async function measureOrders() {
+  const { order } = state;
+  $("measure-orders").disabled = true;
+  for (const other of [...index.orders.filter((each) => each !== order), order]) {
+    choose("order", other);
+    await ready();
+  }
+  $("measure-orders").disabled = false;
 }
 
 /** Draws every method once, so that the table is full, and comes back to the chosen one. */
@@ -425,11 +522,11 @@ async function connect(wanted) {
 
 // ---- controls ----
 
-const NUMBERS = ["order", "strength", "exposure", "resolution", "azimuth", "elevation", "distance", "rotate"];
+const NUMBERS = ["order", "strength", "exposure", "resolution", "azimuth", "elevation", "distance", "field", "rotate", "domain"];
 
 function show() {
-  for (const key of ["method", "mesh", "brdf", "normals", "light", "resolution", "order", "strength", "exposure"]) $(key).value = state[key];
-  $("rotate").checked = Boolean(state.rotate);
+  for (const key of ["method", "mesh", "brdf", "normals", "light", "resolution", "against", "order", "strength", "exposure"]) $(key).value = state[key];
+  for (const key of ["rotate", "domain"]) $(key).checked = Boolean(state[key]);
   $("order-value").textContent = `${state.order} (${state.order ** 2} coefficients)`;
   $("strength-value").textContent = `${Number(state.strength).toFixed(2)}`;
   $("exposure-value").textContent = `${state.exposure > 0 ? "+" : ""}${state.exposure} EV`;
@@ -438,7 +535,7 @@ function show() {
 function choose(key, value) {
   state[key] = NUMBERS.includes(key) ? Number(value) : value;
   show();
-  if (["exposure", "resolution", "rotate"].includes(key)) return touch();
+  if (["exposure", "resolution", "rotate", "against", "domain"].includes(key)) return touch();
   settling++;
   return apply();
 }
@@ -455,16 +552,17 @@ function recall() {
   const lists = { method: "methods", mesh: "meshes", brdf: "brdfs", normals: "normals", light: "maps" };
   for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
     if (!(key in FIRST)) continue;
-    const known = key in lists ? row(lists[key], value) : key === "api" ? value in APIS : Number.isFinite(Number(value));
+    const known = key in lists ? row(lists[key], value) : key === "api" ? value in APIS : key === "against" ? value in AGAINST : Number.isFinite(Number(value));
     if (known) state[key] = NUMBERS.includes(key) ? Number(value) : value;
   }
   const within = (key, least, most) => (state[key] = Math.min(Math.max(state[key], least), most));
   within("order", index.orders[0], bands());
   state.order = Math.round(state.order);
-  within("strength", 0, 2);
+  within("strength", 0, Math.max(2, FIRST.strength));
   within("exposure", -4, 4);
   within("elevation", -85, 85);
-  within("distance", 2.2, 9);
+  within("distance", Math.min(2.2, FIRST.distance), Math.max(9, FIRST.distance));
+  within("field", 1, 120);
   if (![0, 0.5, 1, 2].includes(state.resolution)) state.resolution = FIRST.resolution;
 }
 
@@ -475,7 +573,7 @@ function orbit(sideways, upwards) {
 }
 
 function zoom(factor) {
-  state.distance = Math.min(Math.max(state.distance * factor, 2.2), 9);
+  state.distance = Math.min(Math.max(state.distance * factor, Math.min(2.2, FIRST.distance)), Math.max(9, FIRST.distance));
   touch();
 }
 
@@ -507,17 +605,28 @@ function release(event) {
 }
 
 function listen() {
-  for (const key of ["method", "mesh", "brdf", "normals", "light", "resolution"]) {
+  for (const key of ["method", "mesh", "brdf", "normals", "light", "resolution", "against"]) {
     $(key).addEventListener("change", () => choose(key, $(key).value));
   }
   for (const key of ["order", "strength", "exposure"]) $(key).addEventListener("input", () => choose(key, $(key).value));
-  $("rotate").addEventListener("change", () => choose("rotate", $("rotate").checked ? 1 : 0));
+  for (const key of ["rotate", "domain"]) $(key).addEventListener("change", () => choose(key, $(key).checked ? 1 : 0));
   $("api").addEventListener("change", () => {
     settling++;
     connect($("api").value);
   });
   $("reset").addEventListener("click", first);
   $("measure-all").addEventListener("click", measureAll);
+  $("measure-orders").addEventListener("click", measureOrders);
+  listenForMaps(index.drop, $("own"), {
+    busy: (names) => say(`Reading ${names.join(", ")} …`),
+    failed: say,
+    taken: (map) => {
+      index.maps.unshift(map);
+      $("light").prepend(new Option(map.label, map.id));
+      say("");
+      choose("light", map.id);
+    },
+  });
   for (const panel of panels) {
     panel.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
@@ -566,7 +675,7 @@ async function check(api, name, count, inputs) {
 async function start() {
   try {
     index = await load("data/index.json", "json");
-    [lights, errors] = (await Promise.all([bytes("data/lights.bin"), bytes("data/errors.bin")])).map((b) => new Float32Array(b));
+    errors = new Float32Array(await bytes("data/errors.bin"));
   } catch (error) {
     document.body.dataset.state = "failed";
     return say(error.message);
@@ -575,6 +684,9 @@ async function start() {
   for (const [key, list] of Object.entries(options)) {
     $(key).replaceChildren(...index[list].map(({ id, label }) => new Option(label, id)));
   }
+  Object.assign(FIRST, index.first);
+  for (const key of Object.keys(VIEW)) VIEW[key] = FIRST[key];
+  $("strength").max = Math.max(2, FIRST.strength);
   [$("order").min, $("order").max] = [index.orders[0], bands()];
   $("ramp").style.background = `linear-gradient(to right, ${index.ramp.join(", ")})`;
   recall();

@@ -1,6 +1,6 @@
 #version 300 es
-// What is seen of the radiance: the chosen picture, the exact one and their difference in false colours, side by side,
-// over the blurred environment. Exposure, a filmic curve (Narkowicz 2015) and sRGB.
+// What is seen of the radiance: the chosen picture, the exact one, all bands and a difference in false colours, side by
+// side, over the blurred environment; red where normals lean further than the chosen method takes. Exposure, a filmic curve (Narkowicz 2015) and sRGB.
 
 precision highp float;
 precision highp int;
@@ -20,9 +20,15 @@ uniform float exposure;
 uniform float unit;
 // So many times so many samples a pixel.
 uniform int samples;
+// What the difference is from: 0 for all bands, 1 for the exact picture.
+uniform int against;
+// The lean in radians from which on the chosen picture and the difference are red; none is below 0.
+uniform float limit;
 uniform sampler2D chosen;
 uniform sampler2D exact;
 uniform sampler2D environment;
+// All bands; alpha is 1 and the lean.
+uniform sampler2D every;
 
 out vec4 colour;
 
@@ -55,13 +61,17 @@ void main() {
             ivec2 at = corner * samples + ivec2(i, j);
             vec4 e = texelFetch(exact, at, 0);
             vec4 c = texelFetch(chosen, at, 0);
-            if (panel == 2) {
-                float error = length(c.rgb - e.rgb) / unit;
+            vec4 a = texelFetch(every, at, 0);
+            bool is_beyond = limit >= 0.0 && e.a >= 0.5 && a.a - 1.0 > limit && (panel == 0 || panel == 3);
+            if (is_beyond) {
+                sum += mix(vec3(0.85, 0.02, 0.05), tone(c.rgb), panel == 0 ? 0.25 : 0.0);
+            } else if (panel == 3) {
+                float error = length(c.rgb - (against == 0 ? a.rgb : e.rgb)) / unit;
                 sum += e.a < 0.5 ? vec3(0.105, 0.133, 0.172) : false_colour(error);
             } else if (e.a < 0.5) {
                 sum += background((vec2(at) + 0.5) / float(samples));
             } else {
-                sum += tone(panel == 0 ? c.rgb : e.rgb);
+                sum += tone(panel == 0 ? c.rgb : panel == 1 ? e.rgb : a.rgb);
             }
         }
     }

@@ -1,5 +1,5 @@
-// What is seen of the radiance: the chosen picture, the exact one and their difference in false colours, side by side,
-// over the blurred environment. Exposure, a filmic curve (Narkowicz 2015) and sRGB.
+// What is seen of the radiance: the chosen picture, the exact one, all bands and a difference in false colours, side by
+// side, over the blurred environment; red where normals lean further than the chosen method takes. Exposure, a filmic curve (Narkowicz 2015) and sRGB.
 
 struct Display {
     // A pixel's ray is x right + y up - back.
@@ -16,6 +16,10 @@ struct Display {
     unit: f32,
     // So many times so many samples a pixel.
     samples: i32,
+    // What the difference is from: 0 for all bands, 1 for the exact picture.
+    against: i32,
+    // The lean in radians from which on the chosen picture and the difference are red; none is below 0.
+    limit: f32,
 }
 
 @group(0) @binding(0) var<uniform> display: Display;
@@ -23,6 +27,8 @@ struct Display {
 @group(0) @binding(2) var exact: texture_2d<f32>;
 @group(0) @binding(3) var environment: texture_2d<f32>;
 @group(0) @binding(4) var wrapped: sampler;
+// All bands; alpha is 1 and the lean.
+@group(0) @binding(5) var every: texture_2d<f32>;
 
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
@@ -59,13 +65,17 @@ fn fragment(@builtin(position) place: vec4<f32>) -> @location(0) vec4<f32> {
             let at = corner * display.samples + vec2<i32>(i, j);
             let e = textureLoad(exact, at, 0);
             let c = textureLoad(chosen, at, 0);
-            if (panel == 2) {
-                let error = length(c.rgb - e.rgb) / display.unit;
+            let a = textureLoad(every, at, 0);
+            let is_marked = panel == 0 || panel == 3;
+            if (display.limit >= 0.0 && e.a >= 0.5 && a.a - 1.0 > display.limit && is_marked) {
+                sum += mix(vec3<f32>(0.85, 0.02, 0.05), tone(c.rgb), select(0.0, 0.25, panel == 0));
+            } else if (panel == 3) {
+                let error = length(c.rgb - select(e.rgb, a.rgb, display.against == 0)) / display.unit;
                 sum += select(false_colour(error), vec3<f32>(0.105, 0.133, 0.172), e.a < 0.5);
             } else if (e.a < 0.5) {
                 sum += background((vec2<f32>(at) + 0.5) / f32(display.samples));
             } else {
-                sum += tone(select(e.rgb, c.rgb, panel == 0));
+                sum += tone(select(select(a.rgb, e.rgb, panel == 1), c.rgb, panel == 0));
             }
         }
     }

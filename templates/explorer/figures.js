@@ -3,20 +3,18 @@
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-/** The field of view in degrees, across the picture, which is square. */
-const FIELD = 32;
-
 /**
- * The camera around the origin, z up: `azimuth` from +x towards +y and `elevation` in degrees. Gives where the eye is,
+ * The camera around the origin, z up: `azimuth` from +x towards +y, `elevation`, and the `field` of view across the picture,
+ * which is square, in degrees. Gives where the eye is,
  * the matrix from world to clip space by columns, and the vectors of which a pixel's ray is x right + y up − back.
  */
-export function camera({ azimuth, elevation, distance }) {
+export function camera({ azimuth, elevation, distance, field }) {
   const [a, e] = [azimuth, elevation].map((degrees) => (degrees * Math.PI) / 180);
   const back = [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)];
   const right = [-Math.sin(a), Math.cos(a), 0];
   const up = cross(back, right);
   const eye = back.map((x) => x * distance);
-  const slope = Math.tan((FIELD * Math.PI) / 360);
+  const slope = Math.tan((field * Math.PI) / 360);
   const [near, far] = [Math.max(distance - 1.1, 0.01), distance + 1.1];
   const rows = [
     [...right.map((x) => x / slope), 0],
@@ -50,10 +48,10 @@ export function lean(texels, strength, leastZ) {
 
 /**
  * Which level of a normal map most of the object shows: of `texels` a unit length, on a picture of so many pixels, from so
- * far; surfaces that are seen aslant add half a level.
+ * far and in such a field of view; surfaces that are seen aslant add half a level.
  */
-export function levelOf(texels, pixels, distance) {
-  const across = 2 * distance * Math.tan((FIELD * Math.PI) / 360);
+export function levelOf(texels, pixels, { distance, field }) {
+  const across = 2 * distance * Math.tan((field * Math.PI) / 360);
   return Math.max(0, Math.round(0.5 + Math.log2((texels * across) / pixels)));
 }
 
@@ -110,22 +108,82 @@ export function predict({ errors, typical, order, bands, leans, reflectance, lig
   return { mean: mean / unit, worst: worst / unit, kernel: [rms, most].map((all) => Math.max(...all)) };
 }
 
-/**
- * The mean and the worst error of a picture, over the pixels that show the object, in shares of the exact picture's mean
- * radiance, which is `unit`.
- */
-export function measure(chosen, exact) {
-  const norm = (r, g, b) => Math.sqrt(r * r + g * g + b * b);
-  let [sum, worst, radiance, pixels] = [0, 0, 0, 0];
-  for (let i = 0; i < exact.length; i += 4) {
-    if (exact[i + 3] < 0.5) continue;
-    const error = norm(chosen[i] - exact[i], chosen[i + 1] - exact[i + 1], chosen[i + 2] - exact[i + 2]);
-    sum += error;
-    worst = error > worst || Number.isNaN(error) ? error : worst;
-    radiance += norm(exact[i], exact[i + 1], exact[i + 2]);
+const norm = (r, g, b) => Math.sqrt(r * r + g * g + b * b);
+
+/** The mean radiance of a picture over the pixels that show the object, and how many those are. */
+export function brightness(picture) {
+  let [sum, pixels] = [0, 0];
+  for (let i = 0; i < picture.length; i += 4) {
+    if (picture[i + 3] < 0.5) continue;
+    sum += norm(picture[i], picture[i + 1], picture[i + 2]);
     pixels++;
   }
-  return pixels ? { mean: sum / radiance, worst: (worst * pixels) / radiance, unit: radiance / pixels, pixels } : { mean: 0, worst: 0, unit: 0, pixels };
+  return { unit: pixels ? sum / pixels : 0, pixels };
+}
+
+/** The mean and the worst error of a picture against another, over the pixels that show the object, in shares of `unit`. */
+export function measure(picture, other, unit) {
+  let [sum, worst, pixels] = [0, 0, 0];
+  for (let i = 0; i < other.length; i += 4) {
+    if (other[i + 3] < 0.5) continue;
+    const error = norm(picture[i] - other[i], picture[i + 1] - other[i + 1], picture[i + 2] - other[i + 2]);
+    sum += error;
+    worst = error > worst || Number.isNaN(error) ? error : worst;
+    pixels++;
+  }
+  return pixels && unit ? { mean: sum / pixels / unit, worst: worst / unit } : { mean: 0, worst: 0 };
+}
+
+/** The share of the object's pixels whose normals lean by more than `limit` radians: a picture of all bands tells leans. */
+export function leaning(all, limit) {
+  let [beyond, pixels] = [0, 0];
+  for (let i = 3; i < all.length; i += 4) {
+    if (all[i] < 0.5) continue;
+    pixels++;
+    beyond += all[i] - 1 > limit;
+  }
+  return pixels ? beyond / pixels : 0;
+}
+
+/**
+ * What each order from 1 leaves out, in shares of the mean radiance, if every rotation of the reflectance against the light is
+ * as likely as any other: the mean square of band l is then the product of the two energies over 2l + 1. `norms` are those of
+ * the reflectance and `energy` the energies of the light, by band.
+ */
+export function leftOut(norms, energy, unit) {
+  let square = 0;
+  const errors = [];
+  for (let l = norms.length - 1; l > 0; l--) {
+    square += (norms[l] ** 2 * energy[l]) / (2 * l + 1);
+    errors[l - 1] = Math.sqrt(square) / unit;
+  }
+  return errors;
+}
+
+/** R, G and B of the first bands of a light in a direction; the basis is zonal's (docs/MATH.md, Conventions). */
+export function evaluate(coefficients, order, [x, y, z]) {
+  const sum = [0, 0, 0];
+  const add = (i, value) => {
+    for (let k = 0; k < 3; k++) sum[k] += coefficients[3 * i + k] * value;
+  };
+  let [sectoral, cos, sin] = [0.5 / Math.sqrt(Math.PI), 1, 0];
+  for (let m = 0; m < order; m++) {
+    if (m > 0) {
+      sectoral *= -Math.sqrt(m === 1 ? 3 : (2 * m + 1) / (2 * m));
+      [cos, sin] = [x * cos - y * sin, x * sin + y * cos];
+    }
+    let [before, value, last] = [0, sectoral, 1];
+    for (let l = m; l < order; l++) {
+      if (l > m) {
+        const ratio = Math.sqrt((4 * l * l - 1) / (l * l - m * m));
+        [before, value] = [value, ratio * (z * value - before / last)];
+        last = ratio;
+      }
+      add(l * (l + 1) + m, value * cos);
+      if (m > 0) add(l * (l + 1) - m, value * sin);
+    }
+  }
+  return sum;
 }
 
 /** A share as a person reads it. */

@@ -3,6 +3,9 @@
 /** The attributes of a vertex: how many numbers, from which on; twelve in all. */
 const ATTRIBUTES = [[3, 0], [3, 3], [4, 6], [2, 10]];
 
+/** How many rows of a picture are drawn at once where each pixel adds up so many lights. */
+export const stripOf = (width, lights) => Math.max(1, Math.floor(2 ** 27 / (width * Math.max(lights, 1))));
+
 /** Opens WebGL2, or throws with a reason that a person can read. `files` gives a shader's text by its name. */
 export async function open(files) {
   const canvas = document.createElement("canvas");
@@ -54,10 +57,13 @@ export async function open(files) {
   const normals = texture(gl.LINEAR_MIPMAP_LINEAR, gl.REPEAT);
   const views = texture(gl.NEAREST, gl.CLAMP_TO_EDGE);
   const environment = texture(gl.LINEAR, gl.REPEAT);
+  const lights = texture(gl.NEAREST, gl.CLAMP_TO_EDGE);
   const empty = gl.createVertexArray();
   let mesh = null;
   let light = new Float32Array(0);
   let targets = { width: 0, height: 0, all: [] };
+  /** What the picture of all bands in its target shows. */
+  let summed = null;
 
   function target(width, height) {
     const framebuffer = gl.createFramebuffer();
@@ -81,7 +87,8 @@ export async function open(files) {
   function resize(width, height) {
     if (targets.width === width && targets.height === height) return;
     targets.all.forEach(free);
-    targets = { width, height, all: [target(width, height), target(width, height)] };
+    targets = { width, height, all: [0, 1, 2].map(() => target(width, height)) };
+    summed = null;
   }
 
   function bind(unit, bound, location) {
@@ -90,8 +97,8 @@ export async function open(files) {
     gl.uniform1i(location, unit);
   }
 
-  /** One picture's radiance into target 0 or 1. */
-  function shade(place, { program, uniforms }, frame) {
+  /** The object into a target, by a program whose own uniforms `own` sets. */
+  function render(place, { program, uniforms }, frame, own) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, targets.all[place].framebuffer);
     gl.viewport(0, 0, targets.width, targets.height);
     gl.enable(gl.DEPTH_TEST);
@@ -101,11 +108,37 @@ export async function open(files) {
     gl.uniformMatrix4fv(uniforms.clip, false, frame.camera.clip);
     gl.uniform3fv(uniforms.eye, frame.camera.eye);
     gl.uniform1f(uniforms.strength, frame.strength);
-    gl.uniform4fv(uniforms.light, light);
     bind(0, normals, uniforms.normals);
-    bind(1, views, uniforms.views);
+    own(uniforms);
     gl.bindVertexArray(mesh.array);
     gl.drawElements(gl.TRIANGLES, mesh.count, gl.UNSIGNED_INT, 0);
+  }
+
+  /** One picture's radiance into target 0 or 1. */
+  function shade(place, program, frame) {
+    render(place, program, frame, (uniforms) => {
+      gl.uniform4fv(uniforms.light, light);
+      bind(1, views, uniforms.views);
+    });
+  }
+
+  /** The radiance of all bands into target 2, if it is not there yet: in strips, so that none takes a driver too long. */
+  function sum(frame) {
+    const { key, brdf, range } = frame.all;
+    if (summed === key) return;
+    const rows = stripOf(targets.width, range[1]);
+    gl.enable(gl.SCISSOR_TEST);
+    for (let y = 0; y < targets.height; y += rows) {
+      gl.scissor(0, y, targets.width, rows);
+      render(2, frame.programs.all, frame, (uniforms) => {
+        gl.uniform3fv(uniforms.brdf, brdf);
+        gl.uniform2iv(uniforms.range, range);
+        bind(1, lights, uniforms.lights);
+      });
+      gl.flush();
+    }
+    gl.disable(gl.SCISSOR_TEST);
+    summed = key;
   }
 
   return {
@@ -155,6 +188,11 @@ export async function open(files) {
       light = values;
     },
 
+    setLights({ width, height, texels }) {
+      gl.bindTexture(gl.TEXTURE_2D, lights);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, texels);
+    },
+
     /** A program by the name of its shader, compiled once. */
     program(name) {
       if (!programs.has(name)) {
@@ -164,13 +202,14 @@ export async function open(files) {
       return programs.get(name);
     },
 
-    /** Draws the three pictures, each on a canvas of its own, by their 2D contexts. */
+    /** Draws the four pictures, each on a canvas of its own, by their 2D contexts. */
     async draw(frame, contexts) {
       const { width, height, samples } = frame;
       resize(width * samples, height * samples);
-      if (canvas.width !== 3 * width || canvas.height !== height) [canvas.width, canvas.height] = [3 * width, height];
+      if (canvas.width !== 4 * width || canvas.height !== height) [canvas.width, canvas.height] = [4 * width, height];
       shade(0, frame.programs.chosen, frame);
       shade(1, frame.programs.exact, frame);
+      sum(frame);
       gl.bindFramebuffer(gl.FRAMEBUFFER, null);
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.disable(gl.DEPTH_TEST);
@@ -182,15 +221,18 @@ export async function open(files) {
       gl.uniform1f(uniforms.exposure, frame.exposure);
       gl.uniform1f(uniforms.unit, frame.unit);
       gl.uniform1i(uniforms.samples, samples);
+      gl.uniform1i(uniforms.against, frame.against);
+      gl.uniform1f(uniforms.limit, frame.limit);
       bind(0, targets.all[0].colour, uniforms.chosen);
       bind(1, targets.all[1].colour, uniforms.exact);
       bind(2, environment, uniforms.environment);
+      bind(3, targets.all[2].colour, uniforms.every);
       gl.bindVertexArray(empty);
       gl.drawArrays(gl.TRIANGLES, 0, 3);
       contexts.forEach((context, i) => context.drawImage(canvas, i * width, 0, width, height, 0, 0, width, height));
     },
 
-    /** The radiance of the chosen and of the exact picture, as last drawn. */
+    /** The radiance of the chosen picture, of the exact one and of all bands, as last drawn. */
     async read() {
       return targets.all.map(({ framebuffer }) => {
         gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);

@@ -1,6 +1,6 @@
 // Draws in WebGPU: the same interface as webgl.js. It knows nothing of the page.
 
-import { cut } from "./webgl.js";
+import { cut, stripOf } from "./webgl.js";
 
 const ATTRIBUTES = [["float32x3", 0], ["float32x3", 12], ["float32x4", 24], ["float32x2", 40]];
 const FLOAT = "rgba32float";
@@ -31,7 +31,7 @@ export async function open(files) {
   const uniform = (binding, visibility) => ({ binding, visibility, buffer: { type: "uniform" } });
   const layouts = {
     shade: [uniform(0, VERTEX | FRAGMENT), filterable(1), sampled(2), uniform(3, FRAGMENT), unfilterable(4)],
-    display: [uniform(0, FRAGMENT), unfilterable(1), unfilterable(2), filterable(3), sampled(4)],
+    display: [uniform(0, FRAGMENT), unfilterable(1), unfilterable(2), filterable(3), sampled(4), unfilterable(5)],
     check: [unfilterable(0)],
   };
   for (const [name, entries] of Object.entries(layouts)) {
@@ -62,8 +62,11 @@ export async function open(files) {
   const buffer = (size, usage) => device.createBuffer({ size, usage: usage | GPUBufferUsage.COPY_DST });
   const cameraBuffer = buffer(80, GPUBufferUsage.UNIFORM);
   const displayBuffer = buffer(224, GPUBufferUsage.UNIFORM);
+  const sumBuffer = buffer(32, GPUBufferUsage.UNIFORM);
   const programs = new Map();
-  let mesh, normals, environment, views, light, groups;
+  let mesh, normals, environment, views, light, lights, groups;
+  /** What the picture of all bands in its target shows. */
+  let summed = null;
   let targets = { width: 0, height: 0, all: [], depth: null };
   let seen = null;
 
@@ -95,8 +98,9 @@ export async function open(files) {
     [...targets.all, targets.depth].forEach((texture) => texture?.destroy());
     const made = (kind, usage) => device.createTexture({ size: [width, height], format: kind, usage: usage | RENDER_ATTACHMENT });
     const colour = () => made(FLOAT, TEXTURE_BINDING | COPY_SRC);
-    targets = { width, height, all: [colour(), colour()], depth: made(DEPTH, 0) };
+    targets = { width, height, all: [colour(), colour(), colour()], depth: made(DEPTH, 0) };
     groups = null;
+    summed = null;
   }
 
   const bind = (layout, resources) => device.createBindGroup({
@@ -110,23 +114,42 @@ export async function open(files) {
       shade: bind("shade", [{ buffer: cameraBuffer }, normals.createView(), repeated, { buffer: light }, views.createView()]),
       display: bind("display", [
         { buffer: displayBuffer }, targets.all[0].createView(), targets.all[1].createView(), environment.createView(), around,
+        targets.all[2].createView(),
       ]),
+      sum: bind("shade", [{ buffer: cameraBuffer }, normals.createView(), repeated, { buffer: sumBuffer }, lights.createView()]),
     };
     return groups;
   }
 
-  /** One picture's radiance into target 0 or 1. */
-  function shade(encoder, place, program) {
+  /** One picture's radiance into a target; only some rows of it, if they are given. */
+  function shade(encoder, place, program, group = bound().shade, rows = null) {
     const pass = encoder.beginRenderPass({
-      colorAttachments: [{ view: targets.all[place].createView(), loadOp: "clear", storeOp: "store", clearValue: [0, 0, 0, 0] }],
+      colorAttachments: [{
+        view: targets.all[place].createView(), loadOp: rows?.[0] ? "load" : "clear", storeOp: "store", clearValue: [0, 0, 0, 0],
+      }],
       depthStencilAttachment: { view: targets.depth.createView(), depthClearValue: 1, depthLoadOp: "clear", depthStoreOp: "discard" },
     });
+    if (rows) pass.setScissorRect(0, rows[0], targets.width, rows[1]);
     pass.setPipeline(program);
-    pass.setBindGroup(0, bound().shade);
+    pass.setBindGroup(0, group);
     pass.setVertexBuffer(0, mesh.vertices);
     pass.setIndexBuffer(mesh.indices, "uint32");
     pass.drawIndexed(mesh.count);
     pass.end();
+  }
+
+  /** The radiance of all bands into target 2, if it is not there yet: in strips, so that none takes a driver too long. */
+  function sum(frame) {
+    const { key, brdf, range } = frame.all;
+    if (summed === key) return;
+    device.queue.writeBuffer(sumBuffer, 0, new Float32Array([...brdf, 0, ...range, 0, 0]));
+    const rows = stripOf(targets.width, range[1]);
+    for (let y = 0; y < targets.height; y += rows) {
+      const encoder = device.createCommandEncoder();
+      shade(encoder, 2, frame.programs.all, bound().sum, [y, Math.min(rows, targets.height - y)]);
+      device.queue.submit([encoder.finish()]);
+    }
+    summed = key;
   }
 
   function writeCamera({ camera, strength }) {
@@ -179,6 +202,10 @@ export async function open(files) {
       groups = null;
     },
 
+    setLights({ width, height, texels }) {
+      lights = textureOf(lights, FLOAT, width, height, [texels], 16);
+    },
+
     /** A program by the name of its shader, compiled once. */
     program(name) {
       const depthStencil = { format: DEPTH, depthWriteEnabled: true, depthCompare: "less" };
@@ -189,20 +216,22 @@ export async function open(files) {
       return programs.get(name);
     },
 
-    /** Draws the three pictures, each on a canvas of its own, by their 2D contexts. */
+    /** Draws the four pictures, each on a canvas of its own, by their 2D contexts. */
     async draw(frame, contexts) {
       const { width, height, samples, camera } = frame;
       resize(width * samples, height * samples);
-      if (seen?.width !== 3 * width || seen.height !== height) {
+      if (seen?.width !== 4 * width || seen.height !== height) {
         seen?.destroy();
-        seen = device.createTexture({ size: [3 * width, height], format: SEEN, usage: RENDER_ATTACHMENT | COPY_SRC });
+        seen = device.createTexture({ size: [4 * width, height], format: SEEN, usage: RENDER_ATTACHMENT | COPY_SRC });
       }
       writeCamera(frame);
       const numbers = new Float32Array(56);
       [camera.right, camera.up, camera.back, ...frame.ramp].forEach((vector, i) => numbers.set(vector, 4 * i));
       numbers.set([width, height, frame.exposure, frame.unit], 48);
-      new Int32Array(numbers.buffer)[52] = samples;
+      new Int32Array(numbers.buffer).set([samples, frame.against], 52);
+      numbers[54] = frame.limit;
       device.queue.writeBuffer(displayBuffer, 0, numbers);
+      sum(frame);
       const encoder = device.createCommandEncoder();
       shade(encoder, 0, frame.programs.chosen);
       shade(encoder, 1, frame.programs.exact);
@@ -212,11 +241,11 @@ export async function open(files) {
       pass.draw(3);
       pass.end();
       device.queue.submit([encoder.finish()]);
-      const image = new ImageData(await readBack(seen, 4), 3 * width, height);
+      const image = new ImageData(await readBack(seen, 4), 4 * width, height);
       contexts.forEach((context, i) => context.putImageData(image, -i * width, 0, i * width, 0, width, height));
     },
 
-    /** The radiance of the chosen and of the exact picture, as last drawn. */
+    /** The radiance of the chosen picture, of the exact one and of all bands, as last drawn. */
     read() {
       return Promise.all(targets.all.map(readFloats));
     },

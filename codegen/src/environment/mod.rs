@@ -1,5 +1,5 @@
-//! Environment maps: reads a latitude-longitude image, projects it on spherical harmonics and tells what each order
-//! leaves out. It knows nothing of kernels.
+//! Environment maps: reads an image of what surrounds a point, as latitude and longitude or as a cube, projects it on
+//! spherical harmonics and tells what each order leaves out. It knows nothing of kernels.
 //!
 //! # Directions
 //!
@@ -7,6 +7,12 @@
 //! inside, the centre of the map lies along +x, columns to the right of it turn towards −y (so a quarter of the width
 //! right of the centre is −y, a quarter left of it +y), and the left and right edges meet at −x. Blender places an
 //! environment texture so. [`crate::math::convention`] takes coefficients into the frames of others and back.
+//!
+//! A cubemap's faces are named and turned as in OpenGL, Direct3D and Vulkan: six images, each seen from inside, of a
+//! left-handed frame with y up, in the order +x −x +y −y +z −z. Its +x looks along zonal's +x, its +y up along zonal's +z,
+//! its +z along zonal's +y; the image of +x has −z to its right, that of +z has +x, and the lower edge of +y is the upper
+//! edge of +z. So a cubemap that a program in such a frame (`unity`, `directxmath`) makes of a latitude-longitude map has the
+//! same coefficients as that map. three.js mirrors the x of a `CubeTexture`: for its world the axes are `-x,z,y`.
 //!
 //! # Quadrature
 //!
@@ -16,15 +22,30 @@
 //! (Sampling the harmonics at the centres of texels would change order 10 of a 256×128 map by about 1e-3 in rms.)
 //! docs/MATH.md#projection-of-maps has the integrals.
 
+mod cube;
 pub mod error;
+pub mod harmonics;
+pub mod lamps;
+pub mod layout;
+pub mod loaded;
 pub mod map;
 mod openexr;
+mod png;
 pub mod project;
 mod radiance;
+pub mod ringing;
+mod six;
+pub mod spectrum;
 #[cfg(test)]
 mod tests;
 mod waves;
 
-pub use error::{MAX_BYTES, MAX_WIDTH, MapError};
+pub use error::{MAX_BYTES, MAX_SIDE, MAX_WIDTH, MapError};
+pub use harmonics::cosine_lobe;
+pub use lamps::Lamps;
+pub use layout::{FACES, Layout};
+pub use loaded::Loaded;
 pub use map::Map;
-pub use project::{Projection, cosine_lobe};
+pub use project::{Projection, Survey};
+pub use ringing::Negative;
+pub use spectrum::{Parts, Spectrum, Weights};

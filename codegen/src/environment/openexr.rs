@@ -1,33 +1,104 @@
-//! OpenEXR, as the crate `exr` reads it: the first layer that has R, G and B. Without the feature `exr` every such file is
-//! refused.
+//! OpenEXR, as the crate `exr` reads it: the first part that has R, G and B; else the layer that has them, if one can be told;
+//! else luminance alone. Without the feature `exr` every such file is refused.
 
 use super::error::MapError;
-
-/// The numbers of columns and of rows, and the texels of all rows.
-type Texels = (usize, usize, Vec<[f64; 3]>);
+use super::loaded::Decoded;
 
 /// The first bytes of a file.
 pub(super) const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
+/// Refuses a size.
+type Check<'a> = &'a dyn Fn(usize, usize) -> Result<(), MapError>;
+
 #[cfg(not(feature = "exr"))]
-pub(super) fn read(name: &str, _: &[u8]) -> Result<Texels, MapError> {
-    Err(MapError::Unsupported { name: name.to_owned() })
+pub(super) fn read(name: &str, _: &[u8], _: Check<'_>) -> Result<Decoded, MapError> {
+    Err(MapError::Unsupported { name: name.to_owned(), format: "OpenEXR", feature: "exr" })
 }
 
 #[cfg(feature = "exr")]
-pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Texels, MapError> {
+pub(super) fn read(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
     use std::panic::{AssertUnwindSafe, catch_unwind};
     // The decoder is not proof against overflow in damaged files.
-    let decoded = catch_unwind(AssertUnwindSafe(|| decode(name, bytes)));
+    let decoded = catch_unwind(AssertUnwindSafe(|| decode(name, bytes, check)));
     decoded.unwrap_or_else(|_| Err(MapError::malformed(name, "the decoder gave up")))
+}
+
+/// Which channels hold the radiance.
+#[cfg(feature = "exr")]
+struct Channels {
+    /// The part of the file.
+    part: usize,
+    /// R, G and B, or luminance alone.
+    names: Vec<String>,
+    /// What a person is told.
+    encoding: String,
+}
+
+/// The names of layers that hold the whole picture, the best first, as Blender, Arnold and others write them.
+#[cfg(feature = "exr")]
+const WHOLE: [&str; 5] = ["combined", "beauty", "rgba", "rgb", "default"];
+
+/// Which channels hold the radiance, or what is wrong and what to do.
+#[cfg(feature = "exr")]
+fn channels(name: &str, headers: &[exr::meta::header::Header]) -> Result<Channels, MapError> {
+    let refused = |message: String, help: &str| Err(MapError::refused(name, message, help));
+    let flat: Vec<(usize, Vec<String>)> = headers
+        .iter()
+        .enumerate()
+        .filter(|(_, header)| !header.deep)
+        .map(|(part, header)| (part, header.channels.list.iter().map(|channel| channel.name.to_string()).collect()))
+        .collect();
+    if flat.is_empty() {
+        return refused("holds deep data alone".to_owned(), "flatten the image and save it again");
+    }
+    let has = |names: &[String], wanted: &str| names.iter().any(|name| name == wanted);
+    let rgb = ["R", "G", "B"];
+    if let Some((part, _)) = flat.iter().find(|(_, names)| rgb.iter().all(|channel| has(names, channel))) {
+        let names = rgb.map(str::to_owned).to_vec();
+        return Ok(Channels { part: *part, names, encoding: "OpenEXR".to_owned() });
+    }
+    // Layers within a part: `diffuse.R` and so on.
+    let mut layers: Vec<(usize, String)> = Vec::new();
+    for (part, names) in &flat {
+        let prefixes = names.iter().filter_map(|channel| channel.strip_suffix(".R"));
+        let whole = prefixes.filter(|layer| ["G", "B"].iter().all(|channel| has(names, &format!("{layer}.{channel}"))));
+        layers.extend(whole.map(|layer| (*part, layer.to_owned())));
+    }
+    let last = |layer: &str| layer.rsplit('.').next().unwrap_or(layer).to_lowercase();
+    let best = WHOLE.iter().find_map(|known| layers.iter().find(|(_, layer)| last(layer) == *known));
+    match (best, &layers[..]) {
+        (Some((part, layer)), _) | (None, [(part, layer)]) => {
+            let names = rgb.map(|channel| format!("{layer}.{channel}")).to_vec();
+            return Ok(Channels { part: *part, names, encoding: format!("OpenEXR, layer `{layer}`") });
+        }
+        (None, []) => {}
+        (None, several) => {
+            let list: Vec<String> = several.iter().take(8).map(|(_, layer)| format!("`{layer}`")).collect();
+            let message = format!("has the layers {}, and none says that it is the whole picture", list.join(", "));
+            return refused(message, "save the one that you want as channels R, G and B");
+        }
+    }
+    let luminance = |names: &[String]| has(names, "Y");
+    if let Some((part, names)) = flat.iter().find(|(_, names)| luminance(names)) {
+        if has(names, "RY") || has(names, "BY") {
+            let message = "holds luminance and chroma (Y, RY, BY)".to_owned();
+            return refused(message, "save it as channels R, G and B");
+        }
+        let encoding = "OpenEXR, luminance alone: grey".to_owned();
+        return Ok(Channels { part: *part, names: vec!["Y".to_owned()], encoding });
+    }
+    let list: Vec<&String> = flat.iter().flat_map(|(_, names)| names).take(8).collect();
+    let list: Vec<String> = list.iter().map(|name| format!("`{name}`")).collect();
+    refused(
+        format!("has the channels {}, but neither R, G and B nor a luminance Y", list.join(", ")),
+        "save the map as channels R, G and B",
+    )
 }
 
 /// Texels outside of the display window are lost, those that the file leaves out are black.
 #[cfg(feature = "exr")]
-fn decode(name: &str, bytes: &[u8]) -> Result<Texels, MapError> {
-    use super::error::check_size;
+fn decode(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
     use exr::error::Error;
-    use exr::meta::header::Header;
     use exr::prelude::*;
     use std::io::{Cursor, ErrorKind};
     let undecodable = |error: Error| match error {
@@ -35,30 +106,47 @@ fn decode(name: &str, bytes: &[u8]) -> Result<Texels, MapError> {
         error => MapError::malformed(name, &error.to_string()),
     };
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(undecodable)?;
-    let has = |header: &Header, channel: &str| header.channels.find_index_of_channel(&Text::from(channel)).is_some();
-    let is_rgb = |header: &&Header| !header.deep && ["R", "G", "B"].iter().all(|channel| has(header, channel));
-    let header = reader.headers().iter().find(is_rgb);
-    let header = header.ok_or_else(|| MapError::malformed(name, "it has no layer of R, G and B that is not deep"))?;
+    let Channels { part, names, encoding } = channels(name, reader.headers())?;
+    let header = &reader.headers()[part];
     let window = header.shared_attributes.display_window;
     let (width, height) = (window.size.width(), window.size.height());
-    check_size(name, width, height)?;
+    check(width, height)?;
     let offset = header.own_attributes.layer_position - window.position;
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            move |_, _| vec![[0.0; 3]; width * height],
-            move |texels, place, (r, g, b): (f32, f32, f32)| {
-                let place = place.to_i32() + offset;
-                let inside = |x: i32, side: usize| usize::try_from(x).ok().filter(|&x| x < side);
-                if let (Some(x), Some(y)) = (inside(place.x(), width), inside(place.y(), height)) {
-                    texels[y * width + x] = [r, g, b].map(f64::from);
-                }
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_chunks(reader)
-        .map_err(undecodable)?;
-    Ok((width, height, image.layer_data.channel_data.pixels))
+    let put = move |texels: &mut Vec<[f64; 3]>, place: Vec2<usize>, texel: [f32; 3]| {
+        let place = place.to_i32() + offset;
+        let inside = |x: i32, side: usize| usize::try_from(x).ok().filter(|&x| x < side);
+        if let (Some(x), Some(y)) = (inside(place.x(), width), inside(place.y(), height)) {
+            texels[y * width + x] = texel.map(f64::from);
+        }
+    };
+    let wanted = exr::prelude::read().no_deep_data().largest_resolution_level();
+    let texels = match &names[..] {
+        [r, g, b] => {
+            let channels = wanted.specific_channels().required(r.as_str()).required(g.as_str()).required(b.as_str());
+            let image = channels
+                .collect_pixels(
+                    move |_, _| vec![[0.0; 3]; width * height],
+                    move |texels, place, (r, g, b): (f32, f32, f32)| put(texels, place, [r, g, b]),
+                )
+                .first_valid_layer()
+                .all_attributes()
+                .from_chunks(reader)
+                .map_err(undecodable)?;
+            image.layer_data.channel_data.pixels
+        }
+        _ => {
+            let channels = wanted.specific_channels().required(names[0].as_str());
+            let image = channels
+                .collect_pixels(
+                    move |_, _| vec![[0.0; 3]; width * height],
+                    move |texels, place, (grey,): (f32,)| put(texels, place, [grey; 3]),
+                )
+                .first_valid_layer()
+                .all_attributes()
+                .from_chunks(reader)
+                .map_err(undecodable)?;
+            image.layer_data.channel_data.pixels
+        }
+    };
+    Ok(Decoded { width, height, texels, encoding })
 }

@@ -1,11 +1,16 @@
 //! A map projected on spherical harmonics in f64, as it stands in memory or as it is read, and what each order leaves
 //! out.
 
-use super::error::{MAX_BYTES, MapError};
-use super::map::{Format, Map, format, solid_angle};
+use super::cube;
+use super::error::MapError;
+use super::harmonics::{basis, cosine_lobe};
+use super::lamps::{Lamps, Octaves};
+use super::layout::{Expected, Layout};
+use super::loaded::{self, Format, Loaded};
+use super::map::{Map, solid_angle};
 use super::radiance::{Radiance, Row};
+use super::spectrum::{Parts, Spectrum, Weights};
 use super::waves::{Waves, dot};
-use crate::input;
 use crate::math::quadrature::gauss_legendre_5;
 use crate::threads;
 use std::f64::consts::PI;
@@ -31,31 +36,52 @@ pub struct Projection {
     pub beyond: f64,
 }
 
+/// What a map is found to be when it is projected.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// Its first bands.
+    pub projection: Projection,
+    /// The numbers of its columns and rows.
+    pub size: [usize; 2],
+    /// Its brightest texels.
+    pub lamps: Lamps,
+    /// Its bright texels and the others, in many ways.
+    pub parts: Vec<Parts>,
+}
+
 /// What projects rows of a size.
 struct Projector {
     order: usize,
     width: usize,
     height: usize,
     waves: Waves,
+    /// The cosine and the sine of the azimuth of each column.
+    azimuths: Vec<[f64; 2]>,
     /// √((4l² − 1) / (l² − m²)) for the degrees l above m, by m.
     ratios: Vec<Vec<f64>>,
 }
 
-/// Coefficients and energy of some rows.
+/// Coefficients, energy and texels of some rows.
 struct Part {
     coefficients: Vec<[f64; 3]>,
     energy: f64,
+    octaves: Octaves,
 }
 
 impl Projector {
     fn new(order: usize, width: usize, height: usize) -> Self {
         let ratio = |l: usize, m: usize| ((4 * l * l - 1) as f64 / (l * l - m * m) as f64).sqrt();
         let ratios = (0..order).map(|m| (m + 1..order).map(|l| ratio(l, m)).collect()).collect();
-        Self { order, width, height, waves: Waves::new(order, width), ratios }
+        let azimuth = |x: usize| {
+            let (sin, cos) = (PI - 2.0 * PI * (x as f64 + 0.5) / width as f64).sin_cos();
+            [cos, sin]
+        };
+        let azimuths = (0..width).map(azimuth).collect();
+        Self { order, width, height, waves: Waves::new(order, width), azimuths, ratios }
     }
 
     fn nothing(&self) -> Part {
-        Part { coefficients: vec![[0.0; 3]; self.order * self.order], energy: 0.0 }
+        Part { coefficients: vec![[0.0; 3]; self.order * self.order], energy: 0.0, octaves: Octaves::new() }
     }
 
     /// The rows from `first` on, each of which `read` writes over three planes.
@@ -66,12 +92,25 @@ impl Projector {
             read(row, planes.each_mut().map(Vec::as_mut_slice));
             let squares: f64 = planes.iter().map(|plane| dot(plane, plane)).sum();
             part.energy += solid_angle(self.width, self.height, y) * squares;
+            self.count(y, planes.each_ref().map(Vec::as_slice), &mut part.octaves);
             let zonal = self.zonal(y);
             for (channel, plane) in planes.iter().enumerate() {
                 self.add(&zonal, &self.waves.integrals(plane), channel, &mut part.coefficients);
             }
         }
         part
+    }
+
+    /// Counts the texels of a row.
+    fn count(&self, y: usize, [red, green, blue]: [&[f64]; 3], octaves: &mut Octaves) {
+        let solid_angle = solid_angle(self.width, self.height, y);
+        let (sin, cos) = (PI * (y as f64 + 0.5) / self.height as f64).sin_cos();
+        let azimuths = self.azimuths.as_slice();
+        let mut x = 0;
+        while x < azimuths.len() {
+            octaves.add([red[x], green[x], blue[x]], solid_angle, [sin * azimuths[x][0], sin * azimuths[x][1], cos]);
+            x += 1;
+        }
     }
 
     /// Adds the products of what was integrated over the polar angle and over the azimuth.
@@ -126,29 +165,57 @@ impl Projector {
         }
     }
 
-    fn whole(&self, parts: impl IntoIterator<Item = Part>) -> Projection {
+    fn whole(&self, parts: impl IntoIterator<Item = Part>) -> Survey {
         let mut whole = self.nothing();
         for part in parts {
             for (sum, coefficient) in whole.coefficients.iter_mut().zip(part.coefficients) {
                 (0..3).for_each(|channel| sum[channel] += coefficient[channel]);
             }
             whole.energy += part.energy;
+            whole.octaves.join(&part.octaves);
         }
         let mut projection = Projection { order: self.order, coefficients: whole.coefficients, beyond: 0.0 };
         projection.beyond = (whole.energy - projection.energy()).max(0.0);
-        projection
+        whole.octaves.survey(projection, [self.width, self.height])
+    }
+}
+
+impl Octaves {
+    fn survey(&self, projection: Projection, size: [usize; 2]) -> Survey {
+        Survey { projection, size, lamps: self.brightest(), parts: self.parts() }
     }
 }
 
 impl Map {
     /// The radiance projected on the first `order` bands: the coefficients, and the energy that they leave out.
     ///
-    /// The time grows as the number of texels times `order`.
+    /// The time of a latitude-longitude map grows as the number of texels times `order`; that of a cubemap as the number of
+    /// texels, and as the fourth power of `order`. Coefficients of a cubemap are good to 1e-9 of the norm of them all.
     ///
     /// # Panics
     ///
     /// If the map was made by hand and has fewer texels than its size says; see [`Map::checked`].
     pub fn project(&self, order: usize) -> Projection {
+        self.survey(order).projection
+    }
+
+    /// [`Map::project`], with the brightest texels of the map.
+    ///
+    /// # Panics
+    ///
+    /// As [`Map::project`].
+    pub fn survey(&self, order: usize) -> Survey {
+        if self.is_cube() {
+            let coefficients = cube::project(self.width, &self.texels, order);
+            let mut projection = Projection { order, coefficients, beyond: 0.0 };
+            projection.beyond = (self.energy() - projection.energy()).max(0.0);
+            let mut octaves = Octaves::new();
+            for (i, &texel) in self.texels.iter().enumerate() {
+                let (x, y) = (i % self.width, i / self.width);
+                octaves.add(texel, self.solid_angle(x, y), self.direction(x, y));
+            }
+            return octaves.survey(projection, [self.width, self.height]);
+        }
         let projector = Projector::new(order, self.width, self.height);
         let read = |row: &&[[f64; 3]], [red, green, blue]: [&mut [f64]; 3]| {
             let mut x = 0;
@@ -167,47 +234,24 @@ impl Map {
 }
 
 impl Projection {
-    /// [`Projection::from_bytes`] of a file.
+    /// [`Projection::from_bytes`] of a file, or of six that hold the faces of a cube, as [`Map::read`] takes them.
     ///
     /// # Errors
     ///
     /// As [`Map::read`].
     pub fn read(path: &Path, order: usize) -> Result<(Self, [usize; 2]), MapError> {
-        let name = path.display().to_string();
-        match input::read(path, MAX_BYTES) {
-            Ok(bytes) => Self::from_bytes(&name, &bytes, order),
-            Err(source) => Err(MapError::Unreadable { name, source }),
-        }
+        Survey::read(path, order).map(|survey| (survey.projection, survey.size))
     }
 
-    /// The projection of the map that a file holds, with its numbers of columns and rows: as [`Map::from_bytes`] and
-    /// [`Map::project`] give it, but a map in Radiance HDR is projected while it is read and never stands in memory.
+    /// The projection of the map that a file holds, with the image's numbers of columns and rows: as [`Map::from_bytes`] and
+    /// [`Map::project`] give it, but a latitude-longitude map in Radiance HDR is projected while it is read and never stands
+    /// in memory.
     ///
     /// # Errors
     ///
     /// As [`Map::from_bytes`].
     pub fn from_bytes(name: &str, bytes: &[u8], order: usize) -> Result<(Self, [usize; 2]), MapError> {
-        let mut image = match format(name, bytes)? {
-            Format::OpenExr => {
-                let map = Map::from_bytes(name, bytes)?;
-                return Ok((map.project(order), [map.width, map.height]));
-            }
-            Format::Radiance => Radiance::new(name, bytes)?,
-        };
-        let (width, height) = (image.width, image.height);
-        let projector = Projector::new(order, width, height);
-        let bands = (0..height).step_by(BAND).map(|first| {
-            let rows = (first..height.min(first + BAND)).map(|_| image.row());
-            rows.collect::<Result<Vec<Row>, MapError>>().map(|rows| (first, rows))
-        });
-        let part = |band: Result<(usize, Vec<Row>), MapError>| {
-            band.map(|(first, rows)| projector.part(first, &rows, Row::read))
-        };
-        let whole = projector.whole(threads::map(bands, part).into_iter().collect::<Result<Vec<Part>, MapError>>()?);
-        match whole.energy() == 0.0 {
-            true => Err(MapError::Black { name: name.to_owned() }),
-            false => Ok((whole, [width, height])),
-        }
+        Survey::from_bytes(name, bytes, order).map(|survey| (survey.projection, survey.size))
     }
 
     /// The energy of each band: the sum of the squares of its coefficients over m and over R, G and B. By Parseval's
@@ -217,9 +261,14 @@ impl Projection {
         (0..self.order).map(|l| band(l).iter().flatten().map(|c| c * c).sum()).collect()
     }
 
+    /// The energy of each band and of those beyond.
+    pub fn spectrum(&self) -> Spectrum {
+        Spectrum { bands: self.band_energy(), beyond: self.beyond }
+    }
+
     /// The energy of all bands, those beyond the projection included.
     pub fn energy(&self) -> f64 {
-        self.band_energy().iter().sum::<f64>() + self.beyond
+        self.spectrum().energy()
     }
 
     /// Whether a band holds nothing but rounding: less than 1e-13 of the whole in rms terms. Band 3 and every later
@@ -240,35 +289,22 @@ impl Projection {
     /// terms beyond order 10, 0.53 % beyond order 32 and 0.19 % beyond order 64, whatever the map, and small bright
     /// lights come near that. Project to order 32 to choose a small order of irradiance.
     pub fn irradiance(&self) -> Self {
-        let factors: Vec<f64> = (0..self.order + 2).map(cosine_lobe).collect();
         let mut coefficients = self.coefficients.clone();
         for l in 0..self.order {
             for c in coefficients[l * l..(l + 1) * (l + 1)].iter_mut().flatten() {
-                *c *= factors[l];
+                *c *= cosine_lobe(l);
             }
         }
-        let largest = factors[self.order].abs().max(factors[self.order + 1].abs());
-        let mut beyond = largest * largest * self.beyond;
-        if let Some(&uniform) = self.band_energy().first() {
-            // (2l+1) A_l² of all bands is 4π times the integral of the squared cosine lobe.
-            let all = 8.0 * PI * PI / 3.0;
-            let terms = (0..self.order).map(|l| (2 * l + 1) as f64 * factors[l] * factors[l]);
-            beyond = beyond.min(uniform * (all - terms.sum::<f64>()).max(0.0));
-        }
+        let spectrum = self.spectrum();
+        let whole = spectrum.bands.first().map(|&uniform| Parts { uniform, others: 0.0 });
+        let beyond = Weights::irradiance(self.order).seen(&spectrum, whole.as_slice()).beyond;
         Self { order: self.order, coefficients, beyond }
     }
 
     /// The relative rms error that each order leaves: entry n−1 is √(energy left out by order n / energy of all), from
     /// 0 to 1, for the orders 1 to `order`. Never below the truth; above it for irradiance, as far as `beyond` is.
     pub fn errors(&self) -> Vec<f64> {
-        let total = self.energy();
-        let mut left = self.beyond;
-        let mut errors = vec![0.0; self.order];
-        for (error, band) in errors.iter_mut().zip(self.band_energy()).rev() {
-            *error = if total > 0.0 { (left / total).sqrt() } else { 0.0 };
-            left += band;
-        }
-        errors
+        self.spectrum().errors()
     }
 
     /// The smallest order whose relative rms error, as [`Projection::errors`] gives it, is at most `budget`; none if
@@ -292,49 +328,52 @@ impl Projection {
     }
 }
 
-/// The factor A_l by which band `l` of radiance gives the irradiance of a surface, the clamped cosine's integral over
-/// the hemisphere against the Legendre polynomial: π, 2π/3, π/4, 0, −π/24, 0, π/64, …. It is in steradians, and exactly
-/// 0 for every odd band above 1.
-///
-/// For even l it is 2π (−1)^(l/2−1) / ((l+2)(l−1)) · l! / (2^l (l/2)!²) (Ramamoorthi and Hanrahan 2001, equation 19).
-pub fn cosine_lobe(l: usize) -> f64 {
-    if l == 1 {
-        return 2.0 * PI / 3.0;
-    }
-    if l % 2 == 1 {
-        return 0.0;
-    }
-    let central: f64 = (1..=l / 2).map(|k| -((2 * k - 1) as f64) / (2 * k) as f64).product();
-    let l = l as f64;
-    -2.0 * PI * central / ((l + 2.0) * (l - 1.0))
-}
-
-/// The harmonics of the bands below `order` in a direction (x, y, z) of length 1, into the first `order * order` of
-/// `values`, at index l(l+1)+m. Polynomials in x, y and z, so that the poles are like any other place.
-pub(crate) fn basis(order: usize, direction: [f64; 3], values: &mut [f64]) {
-    let [x, y, z] = direction;
-    let mut sectoral = 0.5 / PI.sqrt();
-    let (mut cos, mut sin) = (1.0, 0.0);
-    for m in 0..order {
-        if m > 0 {
-            let factor = if m == 1 { 3.0 } else { (2 * m + 1) as f64 / (2 * m) as f64 };
-            sectoral *= -factor.sqrt();
-            (cos, sin) = (x * cos - y * sin, x * sin + y * cos);
+impl Survey {
+    /// [`Survey::from_bytes`] of a file, or of six that hold the faces of a cube, as [`Map::read`] takes them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Map::read`].
+    pub fn read(path: &Path, order: usize) -> Result<Self, MapError> {
+        match loaded::single(path)? {
+            Some((name, bytes)) => Self::from_bytes(&name, &bytes, order),
+            None => Loaded::read(path).map(|loaded| Self { size: loaded.size, ..loaded.map.survey(order) }),
         }
-        let (mut before, mut legendre) = (0.0, sectoral);
-        let mut last_ratio = 1.0;
-        for l in m..order {
-            if l > m {
-                let (ll, mm) = ((l * l) as f64, (m * m) as f64);
-                let ratio = ((4.0 * ll - 1.0) / (ll - mm)).sqrt();
-                (before, legendre) = (legendre, ratio * (z * legendre - before / last_ratio));
-                last_ratio = ratio;
+    }
+
+    /// What the map that a file holds is found to be, with the image's numbers of columns and rows: as [`Map::from_bytes`]
+    /// and [`Map::survey`] give it, but a latitude-longitude map in Radiance HDR is projected while it is read and never
+    /// stands in memory.
+    ///
+    /// # Errors
+    ///
+    /// As [`Map::from_bytes`].
+    pub fn from_bytes(name: &str, bytes: &[u8], order: usize) -> Result<Self, MapError> {
+        if let Format::Radiance = loaded::format(name, bytes)? {
+            let image = Radiance::new(name, bytes, Expected::Whole)?;
+            if image.is_upright() && Layout::of(image.width, image.height) == Some(Layout::LatitudeLongitude) {
+                return Self::from_rows(name, image, order);
             }
-            let centre = l * (l + 1);
-            values[centre + m] = legendre * cos;
-            if m > 0 {
-                values[centre - m] = legendre * sin;
-            }
+        }
+        let Loaded { map, size, .. } = Loaded::from_bytes(name, bytes)?;
+        Ok(Self { size, ..map.survey(order) })
+    }
+
+    /// The survey of rows, while they are read.
+    fn from_rows(name: &str, mut image: Radiance<'_>, order: usize) -> Result<Self, MapError> {
+        let (width, height) = (image.width, image.height);
+        let projector = Projector::new(order, width, height);
+        let bands = (0..height).step_by(BAND).map(|first| {
+            let rows = (first..height.min(first + BAND)).map(|_| image.row());
+            rows.collect::<Result<Vec<Row>, MapError>>().map(|rows| (first, rows))
+        });
+        let part = |band: Result<(usize, Vec<Row>), MapError>| {
+            band.map(|(first, rows)| projector.part(first, &rows, Row::read))
+        };
+        let whole = projector.whole(threads::map(bands, part).into_iter().collect::<Result<Vec<Part>, MapError>>()?);
+        match whole.projection.energy() == 0.0 {
+            true => Err(MapError::Black { name: name.to_owned() }),
+            false => Ok(whole),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Maps of which the projection is known, and files that are none.
 
-use super::project::basis;
+use super::harmonics::basis;
 use super::{Map, MapError, Projection, cosine_lobe};
 use crate::math::quadrature::gauss_legendre_5;
 use crate::promise::samples::Random;
@@ -111,7 +111,7 @@ fn directions_follow_the_documented_layout() {
     assert!(close(map.direction(0, 64), [-1.0, 0.0, 0.0]));
     assert!(close(map.direction(17, 0), [0.0, 0.0, 1.0]));
     assert!(close(map.direction(17, 127), [0.0, 0.0, -1.0]));
-    let sphere: f64 = (0..128).map(|y| 256.0 * map.solid_angle(y)).sum();
+    let sphere: f64 = (0..128).map(|y| 256.0 * map.solid_angle(0, y)).sum();
     assert!((sphere - 4.0 * PI).abs() < 1e-13);
 }
 
@@ -342,7 +342,7 @@ fn formats_are_told_apart_by_content() {
     };
     assert_eq!(found(b""), "nothing");
     assert_eq!(found(b"A text.\n"), "unknown data");
-    assert_eq!(found(b"\x89PNG\r\n\x1a\n"), "a Png image");
+    assert_eq!(found(b"\xff\xd8\xff\xe0"), "a Jpeg image");
     let texel = [128, 64, 32, 129];
     let read = |bytes: &[u8]| Map::from_bytes("a.exr", bytes).unwrap().texels[0];
     assert_eq!(read(&hdr(&texel.repeat(16 * 8))), [1.0, 0.5, 0.25]);
@@ -380,8 +380,8 @@ fn what_is_no_radiance_is_refused() {
     );
     assert_eq!(
         message(4, 4, &[]),
-        "a.exr: is 4×4 texels, but a latitude-longitude map is twice as wide as high; \
-         convert it to that layout, uncropped"
+        "a.exr: is 4×4 texels, the size of no map; a map is twice as wide as high, or a cubemap in a strip (6:1, 1:6) or a \
+         cross (4:3, 3:4); if this is one of six faces, name the folder that holds them all"
     );
     let black: Vec<_> = (0..6).map(|i| (i, 0.0)).collect();
     assert_eq!(message(2, 1, &black), "a.exr: is black all over; check how it was exported");
@@ -392,7 +392,7 @@ fn what_is_no_radiance_is_refused() {
     assert!(matches!(sized("-Y 0 +X 0"), MapError::Empty { .. }));
     assert!(matches!(sized("-Y 8192 +X 16384"), MapError::TooLarge { width: 16384, .. }));
     assert!(matches!(sized("-Y 100000 +X 100000"), MapError::Shape { .. }));
-    assert!(matches!(sized("+Y 8 +X 16"), MapError::Malformed { .. }));
+    assert!(matches!(sized("+Y 8 +Y 16"), MapError::Malformed { .. }));
     let short = Map { width: 2, height: 1, texels: vec![[1.0; 3]] };
     assert!(matches!(short.checked("short"), Err(MapError::Malformed { .. })));
 }

@@ -69,6 +69,9 @@ pub struct Chosen {
     pub max_error: Option<f64>,
     /// What the error is the error of.
     pub norm: Option<Norm>,
+    /// What the method adds at that angle to the error of what is seen of the environment, relative to all of its bands, in
+    /// the root mean square.
+    pub seen_error: Option<f64>,
     /// Why this one.
     pub reason: String,
     /// All methods that were weighed, cheapest first; none for a kernel that the scene names.
@@ -240,6 +243,7 @@ impl<'a> Contest<'a> {
             method_error: Some(self.entries[best].rival.method_error),
             max_error: Some(max_error.value),
             norm: Some(self.budget.norm),
+            seen_error: None,
             reason,
             rivals: self.entries.into_iter().map(|entry| entry.rival).collect(),
         };

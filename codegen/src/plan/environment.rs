@@ -1,21 +1,24 @@
-//! The environment of a scene: the smallest order whose missing bands cost less than the budget, which bands are stored,
-//! and what that saves.
+//! The environment of a scene: its order, which bands are stored, what that saves, and the constants that are printed.
+//! What is said of it in words is in [`light`](super::light).
 
-use super::text::{percent, row, table};
+use super::order::{self, Found};
+use super::text::{capital, percent};
 use crate::emit::Constants;
-use crate::environment::{MapError, Projection};
+use crate::environment::{Lamps, Negative};
 // Names a family: evaluation is what an environment's coefficients are for.
 use crate::families::basis;
-use crate::families::family::{MIN_ORDER, Spec};
-use crate::generate;
+use crate::families::family::Spec;
 use crate::math::convention::{Convention, Places, ZONAL};
-use crate::reflectance::requirement::Requirement;
+use crate::promise::law;
+use crate::reflectance::requirement::{Requirement, Room};
+use crate::scene::budget::RelativeTo;
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::{Light, Maps, Scene};
+use crate::scene::{Light, Scene};
 use serde::Serialize;
-use std::fmt;
 
-/// What was found about an environment.
+/// What was found about an environment. *What is seen* of it is the light that the scene's reflectance sends back, in the
+/// root mean square over all normals and views; or its irradiance, over all normals; or, for radiance without a reflectance,
+/// the light itself.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EnvironmentPlan {
     /// What the constants are called.
@@ -26,24 +29,40 @@ pub struct EnvironmentPlan {
     pub size: [usize; 2],
     /// What is wanted of it.
     pub signal: Light,
-    /// The budget.
+    /// What reflects it.
+    pub brdf: Option<String>,
+    /// The budget: the relative rms error of what is seen that leaving bands out may cost.
     pub budget: f64,
+    /// What that error is relative to.
+    pub relative_to: RelativeTo,
     /// The most bands that the scene can afford.
     pub max_order: usize,
     /// The order that was chosen.
     pub order: usize,
+    /// Whether it keeps the budget.
+    pub kept: bool,
+    /// The smallest order that keeps the budget, though the scene cannot afford it; none if none up to 32 does.
+    pub would_keep: Option<usize>,
     /// The bands whose coefficients are stored.
     pub bands: Vec<usize>,
-    /// The share of each band below `max_order` in the energy that they hold together.
+    /// The share of each band below `max_order` in the energy of what is seen that they hold together.
     pub energy: Vec<f64>,
-    /// The share of those bands in the energy of the whole map.
+    /// The share of those bands in the energy of what is seen of all bands.
     pub held: f64,
-    /// The relative rms error of each order from 1 to `max_order`, against the whole map.
+    /// The relative rms error of what is seen by each order from 1 to `max_order`, against all bands; at most.
     pub errors: Vec<f64>,
+    /// That error against `max_order`.
+    pub costs: Vec<f64>,
+    /// The relative rms error of the light itself by each order from 1 to `max_order`, against the whole map.
+    pub light_errors: Vec<f64>,
+    /// The relative rms error of diffuse light by each order from 1 to `max_order`, against all bands; at most.
+    pub diffuse_errors: Vec<f64>,
+    /// The brightest texels of the map.
+    pub lamps: Lamps,
+    /// Where the chosen order is negative.
+    pub negative: Negative,
     /// The bands below `max_order` that hold nothing.
     pub vanishing: Vec<usize>,
-    /// The relative rms error of each order from 1 to `max_order`, against `max_order`.
-    pub costs: Vec<f64>,
     /// How many RGB coefficients are stored, and how many `max_order` has.
     pub coefficients: [usize; 2],
     /// The operations of evaluating the stored bands in RGB, and of evaluating all of `max_order`.
@@ -52,22 +71,8 @@ pub struct EnvironmentPlan {
     pub values: Vec<[f64; 3]>,
     /// How the values are held.
     pub convention: Convention,
-    /// What the scene's reflectance requires of the light; then `energy` is that of what is reflected.
+    /// What else the scene's reflectance would let go.
     pub requirement: Option<Requirement>,
-}
-
-/// Maps are projected at least this far, so that the energy beyond is known well.
-const DEPTH: usize = 32;
-
-/// The projection of a scene's map, and its size.
-fn projected(scene: &Scene, name: &str, order: usize) -> Result<(Projection, [usize; 2]), MapError> {
-    match &scene.maps {
-        Maps::Folder(folder) => Projection::read(&folder.join(name), order),
-        Maps::Embedded(maps) => {
-            let found = maps.iter().find(|(known, _)| *known == name);
-            Projection::from_bytes(name, found.map_or(&[], |(_, bytes)| bytes), order)
-        }
-    }
 }
 
 /// Reads the map of a scene and chooses the order that it needs.
@@ -75,47 +80,51 @@ pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic>
     let Some(wanted) = &scene.environment else {
         return Ok(None);
     };
-    let (radiance, size) = projected(scene, &wanted.map.value, DEPTH.max(wanted.max_order))
-        .map_err(|error| Diagnostic::of(&wanted.map.place, error))?;
-    let signal = match wanted.signal {
-        Light::Radiance => radiance,
-        Light::Irradiance => radiance.irradiance(),
-    };
+    let Found { survey, weights, seen, order, kept, errors, costs } = order::find(scene, wanted)?;
     let max_order = wanted.max_order;
-    let mut vanishing: Vec<usize> = (0..max_order).filter(|&l| signal.vanishes(l)).collect();
-    let mut energy = signal.band_energy();
-    energy.truncate(max_order);
-    let held = energy.iter().sum::<f64>() / signal.energy();
-    let requirement = scene.brdf.filter(|_| wanted.signal == Light::Radiance).map(|brdf| {
-        let half = scene.targets.iter().all(|target| target.half.is_some());
-        Requirement::new(&signal, &brdf, wanted.budget, max_order, half)
-    });
-    if let Some(requirement) = &requirement {
-        // What is reflected decides, not the light itself.
-        energy.clone_from(&requirement.energy);
-        vanishing = (0..max_order).filter(|&l| !requirement.holds(l)).collect();
-    }
-    vanishing.iter().for_each(|&l| energy[l] = 0.0);
+    let light = &survey.projection;
+    let vanishing: Vec<usize> = (0..max_order).filter(|&l| seen.bands[l] == 0.0).collect();
     // No map is black, so that this is above zero.
-    let all: f64 = energy.iter().sum();
-    energy.iter_mut().for_each(|band| *band /= all);
-    let costs: Vec<f64> = (1..=max_order).map(|order| energy[order..].iter().sum::<f64>().sqrt()).collect();
-    // The last entry is zero, so that one is found.
-    let order = (MIN_ORDER..max_order).find(|&order| costs[order - 1] <= wanted.budget).unwrap_or(max_order);
+    let below: f64 = seen.bands[..max_order].iter().sum();
+    let energy: Vec<f64> = seen.bands[..max_order].iter().map(|band| band / below).collect();
+    let brdf = scene.brdf.filter(|_| wanted.signal == Light::Radiance);
+    let (error, total) = match wanted.relative_to {
+        RelativeTo::AllBands => (errors[order - 1], seen.energy()),
+        RelativeTo::MaxOrder => (costs[order - 1], below),
+    };
+    let room = Room { order, max_order, budget: wanted.budget, error, weights: &weights.of_band, energy: total };
+    let half = scene.targets.iter().all(|target| target.half.is_some());
+    let requirement = brdf.map(|brdf| Requirement::new(light, &brdf, &room, &vanishing, half));
+    let irradiance = light.irradiance();
+    let signal = match wanted.signal {
+        Light::Radiance => light,
+        Light::Irradiance => &irradiance,
+    };
     Ok(Some(EnvironmentPlan {
         name: wanted.name.value.clone(),
         map: wanted.map.value.clone(),
-        size,
+        size: survey.size,
         signal: wanted.signal,
+        brdf: brdf.map(|brdf| brdf.to_string()),
         budget: wanted.budget,
+        relative_to: wanted.relative_to,
         max_order,
         order,
+        kept,
+        would_keep: if kept { None } else { order::smallest(&errors, wanted.budget) },
         bands: (0..order).collect(),
         energy,
-        held,
-        errors: signal.errors()[..max_order].to_vec(),
+        held: below / seen.energy(),
+        errors: errors[..max_order].to_vec(),
         vanishing,
         costs,
+        light_errors: light.errors()[..max_order].to_vec(),
+        diffuse_errors: order::weights(Light::Irradiance, None, light.order)
+            .seen(&light.spectrum(), &survey.parts)
+            .errors()[..max_order]
+            .to_vec(),
+        lamps: survey.lamps,
+        negative: signal.negative(order),
         coefficients: [0, 0],
         operations: [0, 0],
         values: wanted.convention.value.convert_to(&signal.coefficients[..order * order]),
@@ -145,12 +154,27 @@ impl EnvironmentPlan {
         let eval =
             |order: usize, bands: &[usize]| Spec { bands: bands.to_vec(), ..Spec::new(&basis::EVAL, order).rgb() };
         let all: Vec<usize> = (0..self.max_order).collect();
-        let functions = generate::build(&[eval(self.order, &self.bands), eval(self.max_order, &all)]);
-        self.operations = [0, 1].map(|i| functions[i].built.code.cost(3).total);
+        let specs = [eval(self.order, &self.bands), eval(self.max_order, &all)];
+        self.operations = specs.map(|spec| spec.code().cost(3).total);
         self.coefficients = [self.values.len(), self.max_order * self.max_order];
     }
 
-    pub(super) fn constants(&self) -> Constants {
+    /// What a method that turns this light or its reflectance adds to the error of what is seen, by its law, where it errs
+    /// most: relative to what is seen of all bands, in the root mean square. The reflectance is taken for a random one of its
+    /// energies.
+    pub(super) fn added_by(&self, spec: &Spec, angle: f64) -> f64 {
+        let errors = law::errors(spec, angle);
+        let squares = errors.iter().zip(&self.energy).map(|(error, share)| share * error.mean * error.mean);
+        (self.held * squares.sum::<f64>()).sqrt()
+    }
+
+    /// The error of the chosen order against all bands.
+    pub fn error(&self) -> f64 {
+        self.errors[self.order - 1]
+    }
+
+    /// What stands above the constants.
+    pub fn constants_doc(&self) -> String {
         let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
         let what = match self.signal {
             Light::Radiance => "radiance",
@@ -166,19 +190,20 @@ impl EnvironmentPlan {
             true => format!("order {}{index}", self.order),
             false => format!("the bands {}, one after the other; the bands between hold nothing", bands.join(", ")),
         };
-        let error = match self.order == self.max_order {
+        let budget = match self.kept {
             true => String::new(),
-            false => format!(" They err by {} against order {}.", percent(self.costs[self.order - 1]), self.max_order),
+            false => format!(", which does not keep the budget of {}", percent(self.budget)),
         };
-        Constants {
-            name: self.name.clone(),
-            doc: format!("The {what} of `{}`: RGB coefficients of {which}.{error} {}", self.map, self.axes()),
-            values: self.values.clone(),
-        }
+        let error = format!("{} errs by {} against all bands{budget}.", capital(&self.seen()), percent(self.error()));
+        format!("The {what} of `{}`: RGB coefficients of {which}. {error} {}", self.map, self.axes())
+    }
+
+    pub(super) fn constants(&self) -> Constants {
+        Constants { name: self.name.clone(), doc: self.constants_doc(), values: self.values.clone() }
     }
 
     /// The axes and the convention of the values, in a sentence.
-    fn axes(&self) -> String {
+    pub(super) fn axes(&self) -> String {
         let others = match self.convention == ZONAL {
             true => "; for normals of three.js: `axes = \"three_js\"`, for its shader: `convention = \"three_js\"`",
             false => "",
@@ -186,76 +211,12 @@ impl EnvironmentPlan {
         format!("Axes: {}{others}.", self.convention.sentence())
     }
 
-    /// What was decided, in a few sentences.
-    pub fn summary(&self) -> String {
-        let cost = |order: usize| percent(self.costs[order - 1]);
-        let (order, budget) = (self.order, percent(self.budget));
-        let mut text = match order == self.max_order {
-            true => format!(
-                "order {order}, all that the scene affords: one order less would err by {} against it, and the budget is \
-                 {budget}.",
-                cost(order - 1)
-            ),
-            false => format!(
-                "order {order}: it errs by {} against order {}, within the budget of {budget}; one order less would err \
-                 by {}.",
-                cost(order),
-                self.max_order,
-                cost(order - 1)
-            ),
-        };
-        let missing: Vec<String> =
-            self.vanishing.iter().filter(|l| !self.bands.contains(l)).map(usize::to_string).collect();
-        if !missing.is_empty() {
-            let (bands, hold) = if missing.len() == 1 { ("Band", "holds") } else { ("Bands", "hold") };
-            text += &format!(" {bands} {} {hold} nothing.", missing.join(", "));
+    /// What is seen, in a few words.
+    pub fn seen(&self) -> String {
+        match (self.signal, &self.brdf) {
+            (Light::Irradiance, _) => "diffuse light".to_owned(),
+            (Light::Radiance, Some(brdf)) => format!("what `{brdf}` reflects"),
+            (Light::Radiance, None) => "the light itself, as a mirror shows it,".to_owned(),
         }
-        let ([coefficients, all], [operations, whole]) = (self.coefficients, self.operations);
-        if coefficients < all {
-            text += &format!(
-                " That saves {} of {all} coefficients and {} of {whole} operations of an RGB evaluation.",
-                all - coefficients,
-                whole.saturating_sub(operations)
-            );
-        }
-        text += &format!(" Order {} holds {} of the energy of the whole map", self.max_order, percent(self.held));
-        text += match self.held < 0.5 {
-            true => "; the rest is light too small for it.",
-            false => ".",
-        };
-        text
-    }
-}
-
-impl fmt::Display for EnvironmentPlan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [width, height] = self.size;
-        writeln!(f, "## Environment `{}`\n", self.name)?;
-        let signal = match self.signal {
-            Light::Radiance => "radiance",
-            Light::Irradiance => "irradiance",
-        };
-        writeln!(f, "`{}`, {width} x {height}, {signal}. Chosen: {} {}\n", self.map, self.summary(), self.axes())?;
-        let mut rows = vec![row(["band", "energy", "error if it is the last", "error against the whole map", ""])];
-        for l in 0..self.max_order {
-            rows.push(vec![
-                l.to_string(),
-                percent(self.energy[l]),
-                percent(self.costs[l]),
-                percent(self.errors[l]),
-                match (l < self.order, self.bands.contains(&l)) {
-                    _ if self.vanishing.contains(&l) => "holds nothing",
-                    (true, true) if l + 1 == self.order => "the last that is kept",
-                    (true, _) => "kept",
-                    (false, _) => "left out",
-                }
-                .to_owned(),
-            ]);
-        }
-        f.write_str(&table(&rows))?;
-        if let Some(requirement) = &self.requirement {
-            write!(f, "\n{requirement}")?;
-        }
-        Ok(())
     }
 }

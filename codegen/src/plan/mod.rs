@@ -1,11 +1,13 @@
 //! From a scene to specs, and why. Kernels that the scene names are taken as they are; for a rotation that it bounds, a
-//! [contest] chooses among the methods; for an environment, the smallest order whose missing bands cost less than the
+//! [contest] chooses among the methods; for an environment, the smallest [order] by which what is seen of it keeps the
 //! budget. All figures are the kernels' own.
 
 mod check;
 pub mod contest;
 pub mod environment;
+pub mod light;
 pub mod mixtures;
+pub mod order;
 mod report;
 pub mod text;
 
@@ -153,6 +155,7 @@ impl Plan {
                 method_error: max_angle.map(error),
                 max_error: None,
                 norm: None,
+                seen_error: None,
                 reason: match wanted.spec.value.split(':').nth(1) {
                     Some("environment") => "named by the scene, at the order of its environment".to_owned(),
                     _ => "named by the scene".to_owned(),
@@ -180,6 +183,9 @@ impl Plan {
                 (_, environment) => environment.map_or(&[][..], |environment| &environment.energy),
             };
             let (function, set_up, mut chosen) = Contest::new(rotation, order, energy).decide()?;
+            if let (Order::Environment, Some(environment)) = (rotation.order.value, &self.environment) {
+                chosen.seen_error = Some(environment.added_by(&function.spec, rotation.max_angle.value.to_radians()));
+            }
             let place = rotation.name.as_ref().map_or(&rotation.order.place, |name| &name.place);
             if let Some(set_up) = set_up {
                 let chosen = Chosen {

@@ -18,8 +18,15 @@ pub fn percent(share: f64) -> String {
         p if p < 0.001 => "< 0.001 %".to_owned(),
         p if p < 0.1 => format!("{p:.3} %"),
         p if p < 10.0 => format!("{p:.2} %"),
+        p if p > 99.9 && p < 100.0 => format!("{:.2} %", (100.0 * p).floor() / 100.0),
         p => format!("{p:.1} %"),
     }
+}
+
+/// A text with a capital first letter.
+pub(super) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Rows as a Markdown table with aligned columns, the first row its head; columns of numbers are set right.
@@ -28,8 +35,11 @@ pub fn table(rows: &[Vec<String>]) -> String {
     let cell = |row: &Vec<String>, i: usize| row.get(i).cloned().unwrap_or_default();
     let widths: Vec<usize> =
         (0..columns).map(|i| rows.iter().map(|row| cell(row, i).chars().count()).max().unwrap_or(0).max(2)).collect();
-    let is_number =
-        |i: usize| rows[1..].iter().all(|row| cell(row, i).starts_with(|c: char| c.is_ascii_digit() || c == '<'));
+    let is_number = |i: usize| {
+        rows[1..]
+            .iter()
+            .all(|row| cell(row, i).starts_with(|c: char| c.is_ascii_digit() || matches!(c, '<' | '>' | '-')))
+    };
     let mut text = String::new();
     for (line, row) in rows.iter().enumerate() {
         for (i, &width) in widths.iter().enumerate() {

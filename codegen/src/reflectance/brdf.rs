@@ -24,7 +24,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::environment::project::{basis, cosine_lobe};
+use crate::environment::harmonics::{basis, cosine_lobe};
 use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::fault::Fault;
 use crate::math::index::band_degree;

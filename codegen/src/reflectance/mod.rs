@@ -3,3 +3,4 @@
 
 pub mod brdf;
 pub mod requirement;
+pub mod seen;

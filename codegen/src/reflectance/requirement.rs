@@ -1,93 +1,95 @@
-//! What a scene requires of its harmonics, and nothing more: from its map, its reflectance and the error it may have, the
-//! order, the bands, the symmetries, the channels and the precision that are enough, and what leaving out the rest saves.
+//! What a scene requires of its harmonics besides its order, and nothing more: from its map, its reflectance and the error
+//! that its order leaves room for, the bands, the symmetries, the channels and the precision that are enough, and what
+//! leaving out the rest saves.
 //!
 //! Reflected light is Σ_i b_i(view) (D(R) L)_i. For a frame R that may be any, band l of it has the energy
 //! |b_l|² |L_l|² / (2l + 1), which falls with l much faster than the light's own where the reflectance is smooth; that is
 //! what decides. Each thing that is left out adds its squared error, and is left out while the sum keeps the budget
-//! (docs/MATH.md#the-order-that-a-budget-asks-for).
+//! (docs/MATH.md#the-order-that-a-budget-asks-for). These errors are integrals over all frames and need no samples; that of
+//! f16 is measured.
 
 use crate::environment::project::Projection;
 use crate::families::Spec;
-use crate::families::family::{MAX_HALF_ORDER, MIN_ORDER};
+use crate::families::family::MAX_HALF_ORDER;
 use crate::ir::eval::{Contraction, Number, Program};
 use crate::ir::listing::Listing;
 use crate::math::half::Half;
-use crate::math::index::{band, band_degree};
-use crate::math::quadrature::gauss_legendre;
+use crate::math::index::band_degree;
 use crate::promise::samples::Random;
 use crate::reflectance::brdf::{Brdf, Table};
+use crate::reflectance::seen::views;
 use serde::Serialize;
-use std::fmt;
 
-/// Elevations and azimuths of the views that a reflectance is averaged over.
-const VIEWS: [usize; 2] = [6, 4];
 /// How many frames each view is measured in.
-const FRAMES: usize = 300;
-/// A band whose share of the energy is below this holds nothing: f64's rounding.
+const FRAMES: usize = 100;
+/// A share of the energy below this is nothing: f64's rounding.
 const NOTHING: f64 = 1e-20;
+
+/// What an order leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room<'a> {
+    /// The order.
+    pub order: usize,
+    /// The most bands that could be afforded.
+    pub max_order: usize,
+    /// The relative rms error that everything left out may cost together.
+    pub budget: f64,
+    /// The relative rms error of the order alone.
+    pub error: f64,
+    /// How much of each band of the light is seen, for `max_order` bands at least.
+    pub weights: &'a [f64],
+    /// The energy of what is seen that errors are relative to.
+    pub energy: f64,
+}
+
+/// Something of the light that may be left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Left {
+    /// What happens, in words.
+    pub what: String,
+    /// The relative rms error that it costs by itself.
+    pub error: f64,
+}
 
 /// What is needed, and what it costs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Requirement {
     /// The reflectance.
     pub brdf: String,
-    /// The relative rms error that everything left out may cost together, against all of `max_order` in f32.
-    pub budget: f64,
-    /// The most bands that could be afforded.
-    pub max_order: usize,
     /// How many bands are enough.
     pub order: usize,
     /// Those of them that hold anything.
     pub bands: Vec<usize>,
-    /// The share of each band below `max_order` in the energy of the reflected light.
-    pub energy: Vec<f64>,
-    /// 1 if the light is grey, else 3.
+    /// 1 if the light may be grey, else 3.
     pub channels: usize,
-    /// Whether the light is the same all around z.
+    /// Whether the light may be the same all around z.
     pub zonal: bool,
-    /// Whether the light is its own mirror image at the plane of x and z.
+    /// Whether the light may be its own mirror image at the plane of x and z.
     pub mirror: bool,
     /// Whether turning view and frame about the normal changes nothing: a table of one azimuth, without the terms of
     /// negative degree.
     pub isotropic: bool,
     /// Whether f16 is enough.
     pub half: bool,
-    /// The relative rms error that all this should cost.
-    pub predicted: f64,
-    /// What it does cost, over seeded frames.
-    pub measured: f64,
+    /// What may be left out of the light besides bands, in this order.
+    pub left: Vec<Left>,
+    /// The relative rms error of the order and all of that together.
+    pub error: f64,
     /// Operations a pixel, of a rotation and the product with the light: what is needed, and all.
     pub operations: [usize; 2],
     /// Bytes of the light's coefficients and of the reflectance's table: what is needed, and all.
     pub bytes: [usize; 2],
 }
 
-/// The views a reflectance is averaged over, with weights that add up to one.
-fn views(brdf: &Brdf, shift: f64) -> Vec<([f64; 3], f64)> {
-    let azimuths = if brdf.is_isotropic() { 1 } else { VIEWS[1] };
-    let elevations: Vec<(f64, f64)> = gauss_legendre(VIEWS[0], 0.0, 1.0).collect();
-    let mut views = Vec::new();
-    for (cos, weight) in elevations {
-        for i in 0..azimuths {
-            let azimuth = std::f64::consts::PI * (i as f64 + 0.5 + shift) / azimuths as f64;
-            let sin = (1.0 - cos * cos).sqrt();
-            views.push(([sin * azimuth.cos(), sin * azimuth.sin(), cos], weight / azimuths as f64));
-        }
-    }
-    views
-}
-
-/// The share of the reflected energy that a change of the light takes away.
-fn share(light: &[[f64; 3]], weights: &[f64], changed: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> f64 {
-    let (mut lost, mut all) = (0.0, 0.0);
+/// The share of what is seen that a change of the light takes away.
+fn share(light: &[[f64; 3]], room: &Room, changed: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> f64 {
+    let mut lost = 0.0;
     for (i, &own) in light.iter().enumerate() {
-        let (other, weight) = (changed(i, own), weights[band_degree(i).0]);
-        for c in 0..3 {
-            lost += weight * (own[c] - other[c]).powi(2);
-            all += weight * own[c] * own[c];
-        }
+        let other = changed(i, own);
+        let square: f64 = (0..3).map(|c| (own[c] - other[c]).powi(2)).sum();
+        lost += room.weights[band_degree(i).0] * square;
     }
-    lost / all
+    lost / room.energy
 }
 
 fn grey(_: usize, [r, g, b]: [f64; 3]) -> [f64; 3] {
@@ -108,68 +110,61 @@ fn is_even(m: isize) -> bool {
 }
 
 impl Requirement {
-    /// What a map's radiance seen by `brdf` requires for a relative rms error of `budget` against all of `max_order`; `half` says
-    /// whether f16 may be taken.
+    /// What a light seen by `brdf` requires in the bands below an order; `half` says whether f16 may be taken, and `empty`
+    /// which bands hold nothing.
     ///
     /// # Panics
     ///
-    /// If `max_order` is not one of a kernel's or beyond that of `radiance`, or `budget` is below 0.
-    pub fn new(radiance: &Projection, brdf: &Brdf, budget: f64, max_order: usize, half: bool) -> Self {
-        assert!(budget >= 0.0, "budget {budget}");
-        let light = &radiance.coefficients[..max_order * max_order];
-        let mut weights = vec![0.0; max_order];
-        for (view, share) in views(brdf, 0.0) {
-            let b = brdf.coefficients(view, max_order);
-            for (l, weight) in weights.iter_mut().enumerate() {
-                *weight += share * b[band(l)].iter().map(|x| x * x).sum::<f64>() / (2 * l + 1) as f64;
-            }
-        }
-        let of_band = |l: usize| weights[l] * light[band(l)].iter().flatten().map(|x| x * x).sum::<f64>();
-        let mut energy: Vec<f64> = (0..max_order).map(of_band).collect();
-        let all: f64 = energy.iter().sum();
-        energy.iter_mut().for_each(|share| *share /= all);
-        let beyond = |order: usize| energy[order..].iter().sum::<f64>();
-        let room = budget * budget;
-        let order = (MIN_ORDER..max_order).find(|&order| beyond(order) <= room).unwrap_or(max_order);
-        let mut spent = beyond(order);
-        // Whatever else keeps the sum below the budget goes too, the cheapest to miss first.
-        let mut take = |share: f64| {
-            let fits = spent + share <= room;
-            spent += if fits { share } else { 0.0 };
-            fits
-        };
-        let zonal = take(share(light, &weights, only(is_zonal)));
-        let mirror = zonal || take(share(light, &weights, only(is_even)));
-        let channels = if take(share(light, &weights, grey)) { 1 } else { 3 };
-        // Light and reflectance rounded to 2⁻¹¹ at worst, and as many sums as the root of the products, each as much.
-        let rounding = (order as f64 + 2.0) / 2048.0;
-        let half = half && order <= MAX_HALF_ORDER && take(rounding * rounding);
-        let bands: Vec<usize> = (0..order).filter(|&l| energy[l] > NOTHING).collect();
+    /// If the orders are not ones of a kernel's, or the light or the weights have fewer bands.
+    pub fn new(light: &Projection, brdf: &Brdf, room: &Room, empty: &[usize], half: bool) -> Self {
+        let kept = &light.coefficients[..room.order * room.order];
         let mut requirement = Self {
             brdf: brdf.to_string(),
-            budget,
-            max_order,
-            order,
-            bands,
-            channels,
-            zonal,
-            mirror,
+            order: room.order,
+            bands: (0..room.order).filter(|l| !empty.contains(l)).collect(),
+            channels: 3,
+            zonal: false,
+            mirror: false,
             isotropic: brdf.is_isotropic(),
-            half,
-            predicted: spent.sqrt(),
-            measured: 0.0,
+            half: false,
+            left: vec![],
+            error: room.error,
             operations: [0, 0],
             bytes: [0, 0],
-            energy,
         };
-        requirement.count(brdf);
-        requirement.measured = requirement.measure(light, brdf);
+        requirement.zonal =
+            requirement.takes("it is made the same all around the vertical", share(kept, room, only(is_zonal)), room);
+        requirement.mirror = requirement.zonal
+            || requirement.takes(
+                "its two sides, left and right of the map's centre, are made alike",
+                share(kept, room, only(is_even)),
+                room,
+            );
+        if requirement.takes(
+            "its light is made grey: one channel is stored instead of three",
+            share(kept, room, grey),
+            room,
+        ) {
+            requirement.channels = 1;
+        }
+        if half && room.order <= MAX_HALF_ORDER && room.error < room.budget {
+            let rounding = requirement.rounding(kept, brdf);
+            requirement.half =
+                requirement.takes("it is stored and summed in f16 instead of f32", rounding * rounding, room);
+        }
+        requirement.count(brdf, room.max_order);
         requirement
     }
 
-    /// Whether a band below `max_order` holds anything.
-    pub fn holds(&self, l: usize) -> bool {
-        self.energy[l] > NOTHING
+    /// Leaves something out if the budget has room for the share of what is seen that it takes away.
+    fn takes(&mut self, what: &str, share: f64, room: &Room) -> bool {
+        let error = (self.error * self.error + share).sqrt();
+        let fits = error <= room.budget || share <= NOTHING;
+        if fits {
+            self.error = error;
+            self.left.push(Left { what: what.to_owned(), error: share.sqrt() });
+        }
+        fits
     }
 
     /// How many coefficients of the light are stored.
@@ -182,17 +177,17 @@ impl Requirement {
         self.bands.iter().map(of_band).sum()
     }
 
-    fn count(&mut self, brdf: &Brdf) {
+    fn count(&mut self, brdf: &Brdf, max_order: usize) {
         let rotation = |order: usize| {
             // Names a family: the exact rotation is what a renderer that turns the light does.
             let spec: Spec = format!("rotate:{order}").parse().expect("is a spec");
             spec.code().cost(1).total
         };
-        let all = self.max_order * self.max_order;
+        let all = max_order * max_order;
         let kept = self.coefficients();
-        self.operations = [rotation(self.order) + self.channels * kept, rotation(self.max_order) + 3 * all];
+        self.operations = [rotation(self.order) + self.channels * kept, rotation(max_order) + 3 * all];
         let [elevations, azimuths] = Table::shape(brdf, self.order);
-        let [all_elevations, all_azimuths] = Table::shape(brdf, self.max_order);
+        let [all_elevations, all_azimuths] = Table::shape(brdf, max_order);
         // A table that knows nothing of symmetry has as many azimuths as one of a reflectance without it.
         let all_azimuths = if self.isotropic { 2 * (all_elevations - 1) } else { all_azimuths };
         let columns = |l: &usize| if self.isotropic { l + 1 } else { 2 * l + 1 };
@@ -201,104 +196,30 @@ impl Requirement {
         self.bytes = [(self.channels * kept + entries) * bytes, (3 + all_elevations * all_azimuths) * all * 4];
     }
 
-    /// The relative rms error over views and frames.
-    fn measure(&self, light: &[[f64; 3]], brdf: &Brdf) -> f64 {
+    /// The relative rms error of storing and summing in f16, over views and seeded frames.
+    fn rounding(&self, light: &[[f64; 3]], brdf: &Brdf) -> f64 {
         // Names a family: z, y, z turns what is asked whether it is symmetric.
-        let spec: Spec = format!("rotate:{}:zyz", self.max_order).parse().expect("is a spec");
+        let spec: Spec = format!("rotate:{}:zyz", self.order).parse().expect("is a spec");
         let rotate = Program::<f64>::new(&Listing::new(&spec.kernel()));
-        let channel = |c: usize| -> Vec<f64> { light.iter().map(|value| value[c]).collect() };
-        let lights = [channel(0), channel(1), channel(2)];
-        let kept: Vec<[f64; 3]> = light
-            .iter()
-            .enumerate()
-            .map(|(i, &value)| {
-                let (l, m) = band_degree(i);
-                let stays = self.bands.contains(&l) && (!self.zonal || is_zonal(m)) && (!self.mirror || is_even(m));
-                match (stays, self.channels) {
-                    (false, _) => [0.0; 3],
-                    (true, 1) => grey(i, value),
-                    (true, _) => value,
-                }
-            })
-            .collect();
         let mut random = Random::new(0x5ce);
         let (mut error, mut size) = (0.0, 0.0);
-        for (view, weight) in views(brdf, 0.25) {
-            let b = brdf.coefficients(view, self.max_order);
+        for (view, weight) in views(brdf) {
+            let b = brdf.coefficients(view, self.order);
             for _ in 0..FRAMES {
                 let q = random.unit::<4>();
                 // The inverse turn of the light is the turn of the reflectance: b stays where it is looked up.
                 let turned = rotate.run(&[&q, &b], Contraction::Separate);
                 for c in 0..3 {
-                    let want: f64 = turned.iter().zip(&lights[c]).map(|(x, y)| x * y).sum();
-                    let got = match self.half {
-                        false => turned.iter().zip(&kept).map(|(x, y)| x * y[c]).sum(),
-                        true => {
-                            let narrow = |x: f64| Half::round(x);
-                            let products = turned.iter().zip(&kept).filter(|(_, y)| y[c] != 0.0);
-                            products
-                                .fold(Half::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum))
-                                .to_f64()
-                        }
-                    };
+                    let want: f64 = turned.iter().zip(light).map(|(x, y)| x * y[c]).sum();
+                    let narrow = |x: f64| Half::round(x);
+                    let products = turned.iter().zip(light).filter(|(_, y)| y[c] != 0.0);
+                    let got =
+                        products.fold(Half::ZERO, |sum, (x, y)| Number::fused(narrow(*x), narrow(y[c]), sum)).to_f64();
                     error += weight * (got - want) * (got - want);
                     size += weight * want * want;
                 }
             }
         }
         (error / size).sqrt()
-    }
-
-    /// What is left out, in words, one thing a line.
-    pub fn left_out(&self) -> Vec<String> {
-        let mut list = Vec::new();
-        if self.order < self.max_order {
-            list.push(format!("bands {} to {}", self.order, self.max_order - 1));
-        }
-        let missing: Vec<String> = (0..self.order)
-            .filter(|l| !self.bands.contains(l))
-            .map(|l| format!("band {l}, which holds nothing"))
-            .collect();
-        list.extend(missing);
-        if self.isotropic {
-            list.push("the azimuths of the view, and the terms of negative degree with them".to_owned());
-        }
-        match (self.zonal, self.mirror) {
-            (true, _) => list.push("all of the light but its zonal part".to_owned()),
-            (false, true) => list.push("the light's terms of negative degree".to_owned()),
-            _ => {}
-        }
-        if self.channels == 1 {
-            list.push("two of three channels".to_owned());
-        }
-        if self.half {
-            list.push("f32: f16 is enough".to_owned());
-        }
-        list
-    }
-}
-
-impl fmt::Display for Requirement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |x: f64| format!("{:.2} %", 100.0 * x);
-        writeln!(f, "## What `{}` requires of this light\n", self.brdf)?;
-        writeln!(
-            f,
-            "Order {} of {}, for an error of {} (predicted {}, measured {}). Left out: {}.",
-            self.order,
-            self.max_order,
-            percent(self.budget),
-            percent(self.predicted),
-            percent(self.measured),
-            match &self.left_out()[..] {
-                [] => "nothing".to_owned(),
-                list => list.join("; "),
-            }
-        )?;
-        writeln!(
-            f,
-            "\nA pixel costs {} operations instead of {}, light and reflectance {} bytes instead of {}.",
-            self.operations[0], self.operations[1], self.bytes[0], self.bytes[1]
-        )
     }
 }

@@ -1,4 +1,5 @@
-//! How a scene says what error a rotation may have: of which signal, and in which precision.
+//! How a scene says what an error may be: a rotation's, of which signal and in which precision; and an environment's,
+//! relative to what.
 
 use serde::{Deserialize, Serialize};
 
@@ -39,4 +40,16 @@ impl Norm {
             Self::Signal => "of the norm of a signal with the environment's energies",
         }
     }
+}
+
+/// What the error of an environment's order is relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum RelativeTo {
+    /// What is seen of the light with all of its bands.
+    #[default]
+    AllBands,
+    /// What is seen of the bands that the scene can afford at most: what lies beyond is lost in any case.
+    MaxOrder,
 }

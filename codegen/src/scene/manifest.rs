@@ -6,7 +6,7 @@ use crate::families::text::hint;
 use crate::files;
 use crate::input;
 use crate::math::convention::{Convention, ZONAL};
-use crate::scene::budget::{Norm, Precision};
+use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use crate::scene::frame;
 #[cfg(feature = "schema")]
@@ -60,9 +60,13 @@ struct EnvironmentTable {
     map: Placed<String>,
     /// What the kernels need of it.
     signal: Light,
-    /// The relative error that leaving out bands may cost, in the root mean square: a share of the whole, as in 0.05.
+    /// The relative error, in the root mean square, of what is seen that leaving out bands may cost, as in 0.05: of what the
+    /// reflectance gives, over all normals and views; of irradiance, over all normals; or of the light itself.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0)))]
     budget: Placed<f64>,
+    /// What the error is relative to; `all_bands` if it is left out.
+    #[serde(default)]
+    relative_to: RelativeTo,
     /// The most bands that the scene can afford; 10 if it is left out, or as many as the convention has.
     max_order: Option<Placed<Order>>,
     /// What the constants are called; the scene's name and `_environment` if it is left out.
@@ -356,6 +360,7 @@ fn environment(locate: &Locator, table: EnvironmentTable, scene: &Located<String
         map: locate.at(table.map),
         signal: table.signal,
         budget: budget.value,
+        relative_to: table.relative_to,
         max_order,
         name: table.name.map_or_else(
             || Located { value: format!("{}_environment", scene.value), place: scene.place.clone() },

@@ -3,9 +3,9 @@
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::Job;
 use crate::input;
-use crate::math::convention::Convention;
+use crate::math::convention::{Axes, Convention};
 use crate::reflectance::brdf::Brdf;
-use crate::scene::budget::{Norm, Precision};
+use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Order};
 use crate::scene::picture::Picture;
@@ -31,8 +31,10 @@ pub struct Environment {
     pub map: Located<String>,
     /// What is wanted of it.
     pub signal: Light,
-    /// The relative rms error against `max_order` that leaving out orders below it may cost.
+    /// The relative rms error of what is seen that leaving bands out may cost.
     pub budget: f64,
+    /// What that error is relative to.
+    pub relative_to: RelativeTo,
     /// The most bands that the scene can afford.
     pub max_order: usize,
     /// What the constants are called.
@@ -124,6 +126,13 @@ impl Scene {
             picture: None,
             maps: Maps::Folder(PathBuf::new()),
         }
+    }
+
+    /// Returns the axes that the scene says of its environment, if they are not zonal's: those of the program in which its
+    /// coefficients are used, and in which its mesh is.
+    pub fn axes(&self) -> Option<Axes> {
+        let axes = self.environment.as_ref()?.convention.value.axes;
+        (axes != Axes::default()).then_some(axes)
     }
 
     /// Returns the bytes of a file that the scene names, beside the scene or in memory.

@@ -364,7 +364,13 @@ fn generating_twice_touches_nothing() {
     assert!(second.out.contains("0 of them changed"), "{}", second.out);
     assert_eq!(state(), before, "the embedded scene is the one in scenes/, and unchanged files stay");
     assert_eq!(std::fs::read_dir(folder.path("zonal-out/glossy")).expect("readable").count(), names.len());
-    for part in ["city: order 5", "tilt:5:rgb as `sh5_tilt_rgb`", "glossy.wgsl (", "all validated"] {
+    for part in [
+        "The light `city`",
+        "order 7: what `phong:8` reflects errs by",
+        "`sh7_rotate_rgb`",
+        "glossy.wgsl (",
+        "all validated",
+    ] {
         assert!(first.out.contains(part), "`{part}` is not in\n{}", first.out);
     }
 }

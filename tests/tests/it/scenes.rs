@@ -1,4 +1,4 @@
-//! Scenes as the library plans them: the two that the project ships, and rotations chosen by their errors.
+//! Scenes as the library plans them: two that the project ships, budgets of light, and rotations chosen by their errors.
 
 use std::path::Path;
 use zonal_codegen::builder::Builder;
@@ -35,7 +35,8 @@ fn diffuse_finds_that_three_bands_suffice() {
     assert_eq!((environment.order, environment.max_order), (3, 8));
     assert_eq!(environment.vanishing, [3, 5, 7]);
     assert_eq!(environment.values.len(), 9);
-    assert!(environment.costs[2] <= environment.budget && environment.costs[1] > environment.budget);
+    assert!(environment.errors[2] <= environment.budget && environment.errors[1] > environment.budget);
+    assert!(environment.kept && environment.requirement.is_none());
     assert_eq!(environment.coefficients, [9, 64]);
     assert!(environment.operations[0] < environment.operations[1] / 4);
     assert!((environment.energy.iter().sum::<f64>() - 1.0).abs() < 1e-12);
@@ -43,16 +44,52 @@ fn diffuse_finds_that_three_bands_suffice() {
 }
 
 #[test]
-fn glossy_picks_the_tilt() {
+fn glossy_finds_its_order_and_picks_the_tilt() {
     let plan = shipped("glossy.toml");
-    assert_eq!(specs(&plan), ["eval:5:rgb", "rotate:5:rgb", "tilt:5:rgb"]);
-    assert_eq!(plan.environment.as_ref().expect("has one").order, 5);
-    let tilt = &plan.kernels[2];
-    assert!(tilt.method_error.expect("approximate") <= 0.05);
+    assert_eq!(specs(&plan)[0], "rotate:7:rgb");
+    let environment = plan.environment.as_ref().expect("has one");
+    assert_eq!((environment.order, environment.max_order, environment.kept), (7, 10, true));
+    assert!(environment.error() <= 0.05 && environment.errors[5] > 0.05);
+    let tilt = &plan.kernels[1];
+    assert!(tilt.row.spec.starts_with("tilt:7") && tilt.method_error.expect("approximate") <= 0.05);
+    // What the method adds is told apart from what the order leaves out.
+    let seen = tilt.seen_error.expect("is of the environment's order");
+    assert!(seen > 1e-4 && seen < tilt.method_error.expect("approximate"), "{seen}");
     assert!(tilt.rivals.len() >= 6);
     for verdict in ["chosen", "keeps the error too, but costs more", "leaves the spin about the normal open"] {
         assert!(tilt.rivals.iter().any(|rival| rival.verdict == verdict), "{verdict}");
     }
+}
+
+#[test]
+fn a_budget_is_against_all_bands_unless_it_says_otherwise() {
+    let with = |more: &str| {
+        let plan = plan(&format!(
+            "name = \"a\"\n[environment]\nmap = \"maps/courtyard_256x128.hdr\"\nsignal = \"radiance\"\nmax_order = 5\n\
+             budget = 0.05\n{more}\n[brdf]\nkind = \"ward\"\nalpha = [0.3, 0.6]\n"
+        ));
+        plan.unwrap_or_else(|error| panic!("{error}")).environment.expect("has one")
+    };
+    let all = with("");
+    assert!(!all.kept && all.order == 5 && all.error() > 0.1);
+    let warning = all.warning().expect("is not kept");
+    for part in
+        ["order 5, the most that the scene affords, does not keep the budget of 5.00 %", "order 8 would keep it"]
+    {
+        assert!(warning.contains(part), "{warning}");
+    }
+    assert!(all.constants_doc().contains("does not keep the budget"), "{}", all.constants_doc());
+    assert_eq!(with("relative_to = \"all_bands\""), all);
+    let own = with("relative_to = \"max_order\"");
+    assert!(own.kept && own.order == 5 && own.warning().is_none() && own.costs[4] == 0.0);
+    assert!(own.summary().contains("Against all bands"), "{}", own.summary());
+    // The same figures, whatever the budget is relative to.
+    assert_eq!(own.errors, all.errors);
+    let refused = plan(
+        "name = \"a\"\n[environment]\nmap = \"a.hdr\"\nsignal = \"radiance\"\nbudget = 0\nrelative_to = \"all\"\n",
+    );
+    let refused = refused.expect_err("is no such thing").to_string();
+    assert!(refused.starts_with("scene.toml:6:15") && refused.contains("max_order"), "{refused}");
 }
 
 #[test]

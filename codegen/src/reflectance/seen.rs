@@ -1,0 +1,124 @@
+//! How much of each band of a light a reflectance shows, in the mean over all normals and views.
+//!
+//! What is seen are the pixels of a sphere under the light: views weigh by the area that they see of the surface, which is
+//! the cosine of their angle to the normal.
+
+use crate::environment::harmonics::basis;
+use crate::environment::spectrum::Weights;
+use crate::math::index::band;
+use crate::math::quadrature::gauss_legendre;
+use crate::reflectance::brdf::Brdf;
+use crate::threads;
+use std::f64::consts::PI;
+
+/// Elevations, and azimuths of a quarter turn, of the views that a reflectance is averaged over.
+const VIEWS: [usize; 2] = [8, 2];
+/// Elevations and azimuths of the lights at which a reflectance is integrated: three for a wave of band 32.
+const LIGHTS: [usize; 2] = [96, 384];
+
+/// Views that stand for all of the hemisphere, each with its weight; the weights add up to one. A reflectance is its own
+/// mirror image at both planes of its tangent, so that the azimuths of a quarter are enough; one that is the same all
+/// around needs a single one.
+pub fn views(brdf: &Brdf) -> Vec<([f64; 3], f64)> {
+    let azimuths = if brdf.is_isotropic() { 1 } else { VIEWS[1] };
+    let mut views = Vec::new();
+    for (cos, weight) in gauss_legendre(VIEWS[0], 0.0, 1.0) {
+        let sin = (1.0 - cos * cos).sqrt();
+        for i in 0..azimuths {
+            let azimuth = 0.5 * PI * (i as f64 + 0.5) / azimuths as f64;
+            views.push(([sin * azimuth.cos(), sin * azimuth.sin(), cos], 2.0 * cos * weight / azimuths as f64));
+        }
+    }
+    views
+}
+
+/// How much of the first bands of a light a reflectance shows. Averaged over all frames of the surface, band l of what is
+/// reflected has the energy |b_l|² |L_l|² / (2l + 1) (docs/MATH.md#the-order-that-a-budget-asks-for), so that the weight is
+/// the mean of |b_l|² / (2l + 1) over the views.
+pub fn weights(brdf: &Brdf, order: usize) -> Weights {
+    if let Brdf::Lambert = brdf {
+        // |b_l|² is (2l + 1) / 4π times the square of the cosine lobe over π.
+        let irradiance = Weights::irradiance(order);
+        let factor = 1.0 / (4.0 * PI * PI * PI);
+        return Weights {
+            of_band: irradiance.of_band.iter().map(|weight| factor * weight).collect(),
+            most: factor * irradiance.most,
+            rest: factor * irradiance.rest,
+        };
+    }
+    let grid = Grid::new(order);
+    let (mut of_band, mut rest) = (vec![0.0; order], 0.0);
+    for (found, share) in threads::map(views(brdf), |(view, share)| (grid.energies(brdf, view), share)) {
+        let (bands, all) = found;
+        for (l, (weight, energy)) in of_band.iter_mut().zip(&bands).enumerate() {
+            *weight += share * energy / (2 * l + 1) as f64;
+        }
+        rest += share * (all - bands.iter().sum::<f64>()).max(0.0);
+    }
+    // Of a sum of terms that are not negative none is larger than the whole.
+    Weights { of_band, most: rest / (2 * order + 1) as f64, rest }
+}
+
+/// Lights above a surface at which a function of them is integrated.
+struct Grid {
+    order: usize,
+    /// The cosine of the elevation's angle to the normal, its sine and its weight, and the basis there at azimuth 0.
+    rows: Vec<([f64; 2], f64, Vec<f64>)>,
+    /// The cosines of all azimuths.
+    cosines: Vec<f64>,
+}
+
+impl Grid {
+    fn new(order: usize) -> Self {
+        let scale = order.div_ceil(64).max(1);
+        let azimuths = scale * LIGHTS[1];
+        let row = |(cos, weight): (f64, f64)| {
+            let sin = (1.0 - cos * cos).sqrt();
+            let mut values = vec![0.0; order * order];
+            basis(order, [sin, 0.0, cos], &mut values);
+            ([cos, sin], weight * 2.0 * PI / azimuths as f64, values)
+        };
+        Self {
+            order,
+            rows: gauss_legendre(scale * LIGHTS[0], 0.0, 1.0).map(row).collect(),
+            cosines: (0..azimuths).map(|i| (2.0 * PI * i as f64 / azimuths as f64).cos()).collect(),
+        }
+    }
+
+    /// The energy of each band of [`Brdf::value`] as a function of the light, and that of all bands: the integral of its
+    /// square.
+    fn energies(&self, brdf: &Brdf, view: [f64; 3]) -> (Vec<f64>, f64) {
+        let cosines = self.cosines.as_slice();
+        let count = cosines.len();
+        let mut coefficients = vec![0.0; self.order * self.order];
+        let mut all = 0.0;
+        let mut values = vec![0.0; count];
+        for ([cos, sin], weight, basis) in &self.rows {
+            for i in 0..count {
+                // A quarter turn is a quarter of the azimuths: their count is a multiple of 4.
+                let light = [sin * cosines[i], sin * cosines[(i + 3 * count / 4) % count], *cos];
+                values[i] = brdf.value(view, light);
+                all += weight * values[i] * values[i];
+            }
+            for m in 0..self.order {
+                let (mut even, mut odd) = (0.0, 0.0);
+                let (mut place, mut sine) = (0, 3 * count / 4);
+                for value in values.as_slice() {
+                    even += value * cosines[place];
+                    odd += value * cosines[sine];
+                    place = if place + m < count { place + m } else { place + m - count };
+                    sine = if sine + m < count { sine + m } else { sine + m - count };
+                }
+                for l in m..self.order {
+                    let centre = l * (l + 1);
+                    coefficients[centre + m] += weight * basis[centre + m] * even;
+                    if m > 0 {
+                        coefficients[centre - m] += weight * basis[centre + m] * odd;
+                    }
+                }
+            }
+        }
+        let energy = |l: usize| coefficients[band(l)].iter().map(|x| x * x).sum();
+        ((0..self.order).map(energy).collect(), all)
+    }
+}
