@@ -61,7 +61,7 @@ impl Lit<'_> {
         };
         let error = seen.map_or_else(String::new, |curve| format!(": errs by {}", percent(curve.errors[order - 1])));
         sheet.picture(HALF + HALF / 2 - 110, [220; 2], &series, &format!("under its order {order}{error}"));
-        sheet.down(270);
+        sheet.down(258);
         Ok(())
     }
 
@@ -85,17 +85,17 @@ impl Lit<'_> {
             .draw()?;
         if let Some(budget) = self.budget.filter(|budget| *budget >= LEAST[0]) {
             let line = LineSeries::new(vec![(0.5, budget), (last as f64 + 0.5, budget)], BLACK.stroke_width(1));
-            chart.draw_series(line)?.label(format!("budget, {}", percent(budget))).legend(|(x, y)| {
-                PathElement::new(vec![(x, y), (x + 18, y)], BLACK.stroke_width(1))
-            });
+            chart
+                .draw_series(line)?
+                .label(format!("budget, {}", percent(budget)))
+                .legend(|(x, y)| PathElement::new(vec![(x, y), (x + 18, y)], BLACK.stroke_width(1)));
         }
         let order = self.projected.order as f64;
         let at = RGBColor(120, 120, 120).stroke_width(1);
         chart.draw_series(LineSeries::new(vec![(order, LEAST[0]), (order, 1.0)], at))?;
         for (curve, colour) in self.projected.curves.iter().zip(COLOURS) {
-            let points: Vec<(f64, f64)> = (1..=last)
-                .map(|order| (order as f64, curve.errors[order - 1].clamp(LEAST[0], 1.0)))
-                .collect();
+            let points: Vec<(f64, f64)> =
+                (1..=last).map(|order| (order as f64, curve.errors[order - 1].clamp(LEAST[0], 1.0))).collect();
             let style = colour.stroke_width(2);
             chart.draw_series(points.iter().map(|point| Circle::new(*point, 3, colour.filled())))?;
             chart
@@ -116,7 +116,7 @@ impl Lit<'_> {
     fn energies(&self, area: &Area<'_>) -> Result<(), Box<dyn Error>> {
         let last = self.orders();
         let mut chart = ChartBuilder::on(area)
-            .caption("energy by band", ("sans-serif", 15))
+            .caption(format!("energy by band; pale: left out by order {}", self.projected.order), ("sans-serif", 15))
             .margin(12)
             .x_label_area_size(36)
             .y_label_area_size(64)

@@ -31,7 +31,8 @@ pub fn plan(path: Option<&Path>, json: bool, plot: &Path, replace: Replace) -> R
     if let Some(projected) = lit(&scene, &plan)? {
         let brdf = scene.brdf.filter(|_| projected.signal == Light::Radiance).unwrap_or(Brdf::Lambert);
         let budget = scene.environment.as_ref().map(|environment| environment.budget);
-        let name = plan.environment.as_ref().map_or_else(String::new, |light| format!("{} of {}", light.name, light.map));
+        let name =
+            plan.environment.as_ref().map_or_else(String::new, |light| format!("{} of {}", light.name, light.map));
         Lit { name, projected: &projected, brdf, budget }.draw(&mut sheet).map_err(|error| undrawn(plot, error))?;
         is_empty = false;
     }

@@ -41,8 +41,7 @@ fn triangles_look_where_their_normals_do_and_texture_coordinates_grow_with_the_t
             let p = corners.map(|i| wide(mesh.positions[i as usize]));
             let uv = corners.map(|i| wide(mesh.uvs[i as usize]));
             let area = cross(add(p[1], -1.0, p[0]), add(p[2], -1.0, p[0]));
-            let (n, [x, y, z, w]) =
-                (wide(mesh.normals[corners[0] as usize]), wide(mesh.tangents[corners[0] as usize]));
+            let (n, [x, y, z, w]) = (wide(mesh.normals[corners[0] as usize]), wide(mesh.tangents[corners[0] as usize]));
             let bitangent = cross(n, [x, y, z]).map(|b| b * w);
             // One step along each side, in the frame and in texture coordinates, agrees in sign on the whole.
             let agrees = [1, 2].iter().all(|&k| {
