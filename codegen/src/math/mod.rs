@@ -2,6 +2,7 @@
 
 pub mod convention;
 pub mod exact;
+pub mod fourier;
 pub mod half;
 pub mod index;
 pub mod linear;

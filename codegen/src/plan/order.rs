@@ -9,8 +9,11 @@ use crate::scene::budget::RelativeTo;
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::{Environment, Light, Maps, Scene};
 
-/// How far maps are projected, one after the other while it is in doubt which order keeps the budget.
+/// How far maps are projected, one after the other while it is in doubt which order keeps the budget, or by how much.
 const DEPTHS: [usize; 3] = [32, 64, 128];
+
+/// How much of an error may be doubt.
+const DOUBT: f64 = 0.02;
 
 /// The share of the energy that a band's rounding is of.
 const NOTHING: f64 = 1e-26;
@@ -78,13 +81,17 @@ pub(super) fn find(scene: &Scene, wanted: &Environment) -> Result<Found, Diagnos
             RelativeTo::MaxOrder => smallest(&costs, wanted.budget),
             RelativeTo::AllBands => smallest(&errors[..most], wanted.budget),
         };
-        let is_sure = match wanted.relative_to {
+        let least = seen.least_errors();
+        let own = order.unwrap_or(most);
+        let is_close = errors[own - 1] - least[own - 1] <= (DOUBT * errors[own - 1]).max(ROUNDING);
+        let is_same = match wanted.relative_to {
             RelativeTo::MaxOrder => true,
-            RelativeTo::AllBands => smallest(&seen.least_errors()[..most], wanted.budget) == order,
+            RelativeTo::AllBands => smallest(&least[..most], wanted.budget) == order,
         };
+        let is_sure = is_close && is_same;
         if is_sure || depth == DEPTHS[DEPTHS.len() - 1] {
             let kept = order.is_some();
-            return Ok(Found { survey, weights, seen, order: order.unwrap_or(most), kept, errors, costs });
+            return Ok(Found { survey, weights, seen, order: own, kept, errors, costs });
         }
     }
 }

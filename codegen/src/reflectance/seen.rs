@@ -5,6 +5,7 @@
 
 use crate::environment::harmonics::basis;
 use crate::environment::spectrum::Weights;
+use crate::math::fourier;
 use crate::math::index::band;
 use crate::math::quadrature::gauss_legendre;
 use crate::reflectance::brdf::Brdf;
@@ -13,8 +14,9 @@ use std::f64::consts::PI;
 
 /// Elevations, and azimuths of a quarter turn, of the views that a reflectance is averaged over.
 const VIEWS: [usize; 2] = [8, 2];
-/// Elevations and azimuths of the lights at which a reflectance is integrated: three for a wave of band 32.
-const LIGHTS: [usize; 2] = [96, 384];
+/// Elevations and azimuths of the lights at which a reflectance is integrated, for up to 64 bands. The azimuths are a power
+/// of two.
+const LIGHTS: [usize; 2] = [96, 512];
 
 /// Views that stand for all of the hemisphere, each with its weight; the weights add up to one. A reflectance is its own
 /// mirror image at both planes of its tangent, so that the azimuths of a quarter are enough; one that is the same all
@@ -62,58 +64,54 @@ pub fn weights(brdf: &Brdf, order: usize) -> Weights {
 /// Lights above a surface at which a function of them is integrated.
 struct Grid {
     order: usize,
-    /// The cosine of the elevation's angle to the normal, its sine and its weight, and the basis there at azimuth 0.
+    /// The cosine of the angle to the normal, its sine and its weight, and the basis there at azimuth 0.
     rows: Vec<([f64; 2], f64, Vec<f64>)>,
-    /// The cosines of all azimuths.
-    cosines: Vec<f64>,
+    /// The cosine and the sine of each azimuth.
+    azimuths: Vec<[f64; 2]>,
 }
 
 impl Grid {
     fn new(order: usize) -> Self {
-        let scale = order.div_ceil(64).max(1);
-        let azimuths = scale * LIGHTS[1];
+        let scale = order.div_ceil(64).next_power_of_two();
+        let count = scale * LIGHTS[1];
         let row = |(cos, weight): (f64, f64)| {
             let sin = (1.0 - cos * cos).sqrt();
             let mut values = vec![0.0; order * order];
             basis(order, [sin, 0.0, cos], &mut values);
-            ([cos, sin], weight * 2.0 * PI / azimuths as f64, values)
+            ([cos, sin], weight * 2.0 * PI / count as f64, values)
+        };
+        let azimuth = |i: usize| {
+            let (sin, cos) = (2.0 * PI * i as f64 / count as f64).sin_cos();
+            [cos, sin]
         };
         Self {
             order,
             rows: gauss_legendre(scale * LIGHTS[0], 0.0, 1.0).map(row).collect(),
-            cosines: (0..azimuths).map(|i| (2.0 * PI * i as f64 / azimuths as f64).cos()).collect(),
+            azimuths: (0..count).map(azimuth).collect(),
         }
     }
 
     /// The energy of each band of [`Brdf::value`] as a function of the light, and that of all bands: the integral of its
     /// square.
     fn energies(&self, brdf: &Brdf, view: [f64; 3]) -> (Vec<f64>, f64) {
-        let cosines = self.cosines.as_slice();
-        let count = cosines.len();
+        let azimuths = self.azimuths.as_slice();
         let mut coefficients = vec![0.0; self.order * self.order];
         let mut all = 0.0;
-        let mut values = vec![0.0; count];
+        let mut waves = vec![[0.0; 2]; azimuths.len()];
         for ([cos, sin], weight, basis) in &self.rows {
-            for i in 0..count {
-                // A quarter turn is a quarter of the azimuths: their count is a multiple of 4.
-                let light = [sin * cosines[i], sin * cosines[(i + 3 * count / 4) % count], *cos];
-                values[i] = brdf.value(view, light);
-                all += weight * values[i] * values[i];
+            for i in 0..azimuths.len() {
+                let value = brdf.value(view, [sin * azimuths[i][0], sin * azimuths[i][1], *cos]);
+                waves[i] = [value, 0.0];
+                all += weight * value * value;
             }
+            fourier::transform(&mut waves);
             for m in 0..self.order {
-                let (mut even, mut odd) = (0.0, 0.0);
-                let (mut place, mut sine) = (0, 3 * count / 4);
-                for value in values.as_slice() {
-                    even += value * cosines[place];
-                    odd += value * cosines[sine];
-                    place = if place + m < count { place + m } else { place + m - count };
-                    sine = if sine + m < count { sine + m } else { sine + m - count };
-                }
+                let [even, odd] = waves[m].map(|sum| weight * sum);
                 for l in m..self.order {
                     let centre = l * (l + 1);
-                    coefficients[centre + m] += weight * basis[centre + m] * even;
+                    coefficients[centre + m] += basis[centre + m] * even;
                     if m > 0 {
-                        coefficients[centre - m] += weight * basis[centre + m] * odd;
+                        coefficients[centre - m] += basis[centre + m] * odd;
                     }
                 }
             }

@@ -61,7 +61,7 @@ impl Lit<'_> {
         };
         let error = seen.map_or_else(String::new, |curve| format!(": errs by {}", percent(curve.errors[order - 1])));
         sheet.picture(HALF + HALF / 2 - 110, [220; 2], &series, &format!("under its order {order}{error}"));
-        sheet.down(270);
+        sheet.down(258);
         Ok(())
     }
 
@@ -116,7 +116,7 @@ impl Lit<'_> {
     fn energies(&self, area: &Area<'_>) -> Result<(), Box<dyn Error>> {
         let last = self.orders();
         let mut chart = ChartBuilder::on(area)
-            .caption("energy by band", ("sans-serif", 15))
+            .caption(format!("energy by band; pale: left out by order {}", self.projected.order), ("sans-serif", 15))
             .margin(12)
             .x_label_area_size(36)
             .y_label_area_size(64)

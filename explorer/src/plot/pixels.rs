@@ -12,7 +12,7 @@ use zonal_picture::vector::{across, add, cross, dot};
 /// The columns and rows of a map's picture.
 const MAP: [usize; 2] = [256, 128];
 /// The columns and rows of a sphere's picture.
-const SPHERE: usize = 96;
+const SPHERE: usize = 128;
 /// How many lights stand for a map, and the rows of those that stand for a series.
 const LIGHTS: usize = 1024;
 const ROWS: usize = 32;

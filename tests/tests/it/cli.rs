@@ -505,19 +505,6 @@ fn vectors_say_what_is_wrong_with_inputs() {
 }
 
 #[test]
-fn project_tells_the_energy_of_each_band() {
-    let folder = Folder::new();
-    let studio = repository("scenes/maps/studio_256x128.hdr");
-    let studio = studio.to_str().expect("a path");
-    let run = folder.run(["project", studio, "--order", "4", "--irradiance", "--json"]);
-    let found: Value = serde_json::from_str(&run.out).expect("JSON");
-    assert_eq!(found["coefficients"].as_array().map(Vec::len), Some(16));
-    assert_eq!(found["bands"][3]["energy"].as_f64(), Some(0.0), "irradiance has no band 3");
-    assert!(found["bands"][2]["error"].as_f64().expect("a number") < 0.1);
-    assert!(folder.run(["project", studio]).out.contains("256 x 128, radiance"));
-}
-
-#[test]
 fn a_closed_pipe_ends_in_silence() {
     let mut child = command()
         .args(["vectors", "rotate:5", "--count", "2000"])

@@ -25,6 +25,7 @@ mod operations;
 mod orders;
 mod packages;
 mod plans;
+mod projects;
 mod proofs;
 mod properties;
 mod readme;

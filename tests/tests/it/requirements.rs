@@ -104,7 +104,7 @@ fn f16_is_taken_where_the_budget_has_room_only() {
     let light = light("sunset");
     let of = |budget: f64, half: bool| required(&light, "lambert", budget, 5, half);
     assert!(of(0.05, true).half && !of(0.05, false).half);
-    assert!(!of(0.001, true).half, "2⁻¹¹ times a few is above a thousandth");
+    assert!(!of(1e-4, true).half, "2⁻¹¹ is above a ten-thousandth");
     assert!(of(0.05, true).bytes[0] * 2 == of(0.05, false).bytes[0]);
 }
 

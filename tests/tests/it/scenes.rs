@@ -89,7 +89,7 @@ fn a_budget_is_against_all_bands_unless_it_says_otherwise() {
         "name = \"a\"\n[environment]\nmap = \"a.hdr\"\nsignal = \"radiance\"\nbudget = 0\nrelative_to = \"all\"\n",
     );
     let refused = refused.expect_err("is no such thing").to_string();
-    assert!(refused.starts_with("scene.toml:6:15") && refused.contains("max_order"), "{refused}");
+    assert!(refused.starts_with("scene.toml:6:15") && refused.contains("did you mean `all_bands`?"), "{refused}");
 }
 
 #[test]
