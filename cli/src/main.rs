@@ -78,7 +78,8 @@ enum Command {
     },
     /// Projects an environment map and says what each order leaves out.
     Project {
-        /// The map, .hdr or .exr, twice as wide as high.
+        /// The map, .hdr, .exr or .png: latitude and longitude, or a cubemap in a strip, a cross or six files, which their
+        /// folder names or a pattern, as in `sky/day_*.png`.
         map: PathBuf,
         /// How many bands; 5 if left out, or as many as the convention has.
         #[arg(long, value_parser = clap::value_parser!(u64).range(1..=64))]
