@@ -208,7 +208,9 @@ fn understood<'a>(head: &str, own: IpAddr, site: &'a impl Site) -> Outcome<'a> {
             let lengths: Vec<&str> = all("content-length").collect();
             let (length, most) = (lengths.first().and_then(|length| length.parse::<usize>().ok()), site.takes(path));
             match (length, most) {
-                (Some(length), Some(most)) if length <= most && lengths.len() == 1 => Outcome::Body(path.to_owned(), length),
+                (Some(length), Some(most)) if length <= most && lengths.len() == 1 => {
+                    Outcome::Body(path.to_owned(), length)
+                }
                 (Some(_), Some(most)) if lengths.len() == 1 => {
                     let line = format!(
                         "the files are larger than {} MB together; name them on the command line of `zonal explore`\n",
@@ -220,7 +222,8 @@ fn understood<'a>(head: &str, own: IpAddr, site: &'a impl Site) -> Outcome<'a> {
             }
         }
         _ => {
-            let refusal = Answer::line("405 Method Not Allowed", "GET and HEAD are answered, and POST where maps are taken\n");
+            let refusal =
+                Answer::line("405 Method Not Allowed", "GET and HEAD are answered, and POST where maps are taken\n");
             Outcome::Answer(Answer { headers: refusal.headers + "Allow: GET, HEAD\r\n", ..refusal }, true)
         }
     }

@@ -58,7 +58,10 @@ impl Own {
         if let Some(path) = mesh {
             let name = path.display().to_string();
             let bytes = input::read(path, mesh::MAX_BYTES).map_err(|error| {
-                Fault::new(format!("{name}: cannot be read ({error})"), "check the path: a mesh is a Wavefront OBJ file")
+                Fault::new(
+                    format!("{name}: cannot be read ({error})"),
+                    "check the path: a mesh is a Wavefront OBJ file",
+                )
             })?;
             own.add_mesh(&name, Mesh::from_obj(&name, &bytes)?);
         }
@@ -153,4 +156,3 @@ pub fn dropped(number: usize, files: &[(String, Vec<u8>)]) -> Result<Lit, Fault>
     };
     Ok(Lit { id: format!("{ID}dropped-{number}"), label, loaded })
 }
-

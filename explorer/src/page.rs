@@ -242,7 +242,8 @@ fn choices<T>(own: &[(String, T)], all: Vec<(String, String, T)>) -> Vec<(String
 where
     T: Clone,
 {
-    let brought = own.iter().enumerate().map(|(i, (label, made))| (format!("{}{}", own::ID, i + 1), label.clone(), made.clone()));
+    let brought =
+        own.iter().enumerate().map(|(i, (label, made))| (format!("{}{}", own::ID, i + 1), label.clone(), made.clone()));
     brought.chain(all).collect()
 }
 

@@ -28,13 +28,7 @@ const TYPES: [(&str, &str); 7] = [
 ];
 
 /// Writes the page, and serves it if asked to.
-pub fn explore(
-    own: &Own,
-    folder: Option<PathBuf>,
-    port: u16,
-    serves: bool,
-    replace: Replace,
-) -> Result<(), Failure> {
+pub fn explore(own: &Own, folder: Option<PathBuf>, port: u16, serves: bool, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     // A port that is taken is known before anything is made.
     let listener = serves.then(|| listen(port)).transpose()?;

@@ -62,7 +62,8 @@ impl Uploads {
 /// The files in a body.
 fn files(body: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Fault> {
     let wrong = |what: &str| Fault::new(format!("the request is none of this page: {what}"), "load the page again");
-    let end = body.windows(2).take(MAX_HEAD).position(|window| window == b"\n\n").ok_or_else(|| wrong("it has no head"))?;
+    let end =
+        body.windows(2).take(MAX_HEAD).position(|window| window == b"\n\n").ok_or_else(|| wrong("it has no head"))?;
     let head = std::str::from_utf8(&body[..end]).map_err(|_| wrong("its head is no text"))?;
     let mut rest = &body[end + 2..];
     let mut files = Vec::new();

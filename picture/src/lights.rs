@@ -55,7 +55,9 @@ impl Lights {
         for (first, y) in bands {
             for x in (0..map.width).step_by(side) {
                 let mut block = Gathered::default();
-                for (x, y) in (y..(y + side).min(face)).flat_map(|y| (x..(x + side).min(map.width)).map(move |x| (x, y))) {
+                for (x, y) in
+                    (y..(y + side).min(face)).flat_map(|y| (x..(x + side).min(map.width)).map(move |x| (x, y)))
+                {
                     let (row, solid_angle) = (first + y, map.solid_angle(x, first + y));
                     let power = map.texels[row * map.width + x].map(|v| v * solid_angle);
                     block.add(&Light { direction: map.direction(x, row), power });
@@ -233,7 +235,8 @@ mod tests {
         for name in ["city", "sunrise", "interior"] {
             let lights = Lights::of(&carried(name));
             let few = lights.gathered(4096);
-            for brdf in ["lambert", "phong:30", "ward:0.2:0.6"].map(|text| text.parse::<Brdf>().expect("a reflectance")) {
+            for brdf in ["lambert", "phong:30", "ward:0.2:0.6"].map(|text| text.parse::<Brdf>().expect("a reflectance"))
+            {
                 let (mut apart, mut mean) = (0.0, 0.0);
                 for _ in 0..24 {
                     let z = random.unit::<3>();

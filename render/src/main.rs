@@ -114,8 +114,9 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
         text += &told;
         rows = found;
     }
-    let json = serde_json::to_string_pretty(&Beside { origin: format!("{MARK} render"), figures: &figures, reference: rows })
-        .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    let json =
+        serde_json::to_string_pretty(&Beside { origin: format!("{MARK} render"), figures: &figures, reference: rows })
+            .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
     let json = json + "\n";
     let sidecar = output.with_extension("json");
     let ((folder, picture), (_, beside)) = (files::split(&output), files::split(&sidecar));

@@ -92,10 +92,9 @@ impl Subject {
             &environment.map,
             match &scene.maps {
                 Maps::Folder(folder) => Map::read(&folder.join(&environment.map.value)),
-                Maps::Embedded(_) => Map::from_bytes(
-                    &environment.map.value,
-                    &scene.bytes(&environment.map, environment::MAX_BYTES)?,
-                ),
+                Maps::Embedded(_) => {
+                    Map::from_bytes(&environment.map.value, &scene.bytes(&environment.map, environment::MAX_BYTES)?)
+                }
             },
         )?;
         let number = match picture.order.as_ref().map(|order| order.value) {

@@ -148,7 +148,9 @@ impl From<&MapError> for Fault {
             }
             Unsupported { name, format, feature } => Self::new(
                 format!("{name}: is in {format}, and zonal-codegen was built without its feature `{feature}`"),
-                format!("write `features = [\"{feature}\"]` where you depend on zonal-codegen, or save the map as .hdr"),
+                format!(
+                    "write `features = [\"{feature}\"]` where you depend on zonal-codegen, or save the map as .hdr"
+                ),
             ),
             Empty { name, width, height } => {
                 Self::new(format!("{name}: is empty, {width}×{height} texels"), "save a map of at least 2×1 texels")
@@ -160,16 +162,22 @@ impl From<&MapError> for Fault {
             Shape { name, width, height, is_face: false } => Self::new(
                 format!("{name}: is {width}×{height} texels, the size of no map"),
                 match width == height {
-                    true => "a map is twice as wide as high, or a cubemap in a strip (6:1, 1:6) or a cross (4:3, 3:4); \
-                             if this is one of six faces, name the folder that holds them all",
-                    false => "convert it to latitude and longitude, twice as wide as high and uncropped, or to a cubemap in \
-                              a strip (6:1, 1:6) or a cross (4:3, 3:4)",
+                    true => {
+                        "a map is twice as wide as high, or a cubemap in a strip (6:1, 1:6) or a cross (4:3, 3:4); \
+                             if this is one of six faces, name the folder that holds them all"
+                    }
+                    false => {
+                        "convert it to latitude and longitude, twice as wide as high and uncropped, or to a cubemap in \
+                              a strip (6:1, 1:6) or a cross (4:3, 3:4)"
+                    }
                 },
             ),
             TooLarge { name, width, height } => Self::new(
                 match *width == 2 * *height {
                     true => format!("{name}: is {width}×{height} texels, above the limit of {MAX_WIDTH} columns"),
-                    false => format!("{name}: is {width}×{height} texels, above the limit of {MAX_SIDE} for a face's side"),
+                    false => {
+                        format!("{name}: is {width}×{height} texels, above the limit of {MAX_SIDE} for a face's side")
+                    }
                 },
                 "reduce it and save it again: 256×128 texels, or faces of 64×64, serve order 10",
             ),

@@ -121,10 +121,8 @@ impl Loaded {
             match &mut all {
                 None => all = Some(image),
                 Some(first) if first.width != image.width => {
-                    let message = format!(
-                        "is {0}×{0} texels, and the face before it {1}×{1}",
-                        image.width, first.width
-                    );
+                    let message =
+                        format!("is {0}×{0} texels, and the face before it {1}×{1}", image.width, first.width);
                     return Err(MapError::refused(name, message, "save all six faces at one size"));
                 }
                 Some(first) => first.texels.extend(image.texels),
@@ -215,9 +213,7 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Result<Format, MapError> {
 fn decoded(name: &str, bytes: &[u8], expected: Expected) -> Result<Decoded, MapError> {
     match format(name, bytes)? {
         Format::Radiance => Radiance::new(name, bytes, expected)?.image(),
-        Format::OpenExr => {
-            openexr::read(name, bytes, &|width, height| check_size(name, width, height, expected))
-        }
+        Format::OpenExr => openexr::read(name, bytes, &|width, height| check_size(name, width, height, expected)),
         Format::Png => png::read(name, bytes, &|width, height| check_size(name, width, height, expected)),
     }
 }

@@ -19,7 +19,8 @@ const SAMPLED: f64 = 5e-4;
 /// A sky of four bands that is nowhere negative and nowhere above 1, with no symmetry.
 fn sky() -> Projection {
     let mut random = Random::new(7);
-    let mut coefficients: Vec<[f64; 3]> = (0..ORDER * ORDER).map(|_| [(); 3].map(|()| 0.08 * random.signed())).collect();
+    let mut coefficients: Vec<[f64; 3]> =
+        (0..ORDER * ORDER).map(|_| [(); 3].map(|()| 0.08 * random.signed())).collect();
     coefficients[0] = [1.6, 1.7, 1.5];
     Projection { order: ORDER, coefficients, beyond: 0.0 }
 }
@@ -284,7 +285,8 @@ fn layers_and_luminance_of_openexr_are_read_or_refused_with_a_hint() {
         let samples = image.texels.iter().map(|texel| texel[k] as f32).collect();
         AnyChannel::new(name, FlatSamples::F32(samples))
     };
-    let layer = |name: &str| ["R", "G", "B"].iter().enumerate().map(|(k, c)| channel(&format!("{name}.{c}"), k)).collect();
+    let layer =
+        |name: &str| ["R", "G", "B"].iter().enumerate().map(|(k, c)| channel(&format!("{name}.{c}"), k)).collect();
     let layers = |names: &[&str]| -> Vec<AnyChannel<FlatSamples>> {
         names.iter().flat_map(|name| -> Vec<AnyChannel<FlatSamples>> { layer(name) }).collect()
     };
@@ -293,7 +295,10 @@ fn layers_and_luminance_of_openexr_are_read_or_refused_with_a_hint() {
     assert_eq!(found.encoding, "OpenEXR, layer `View Layer.Combined`");
     assert!(distance(&found.map.project(ORDER)) < SAMPLED);
     let text = message(&written(size, layers(&["key", "fill"])));
-    assert!(text.contains("`fill`, `key`") && text.ends_with("save the one that you want as channels R, G and B"), "{text}");
+    assert!(
+        text.contains("`fill`, `key`") && text.ends_with("save the one that you want as channels R, G and B"),
+        "{text}"
+    );
     let grey = loaded(&written(size, vec![channel("Y", 1)]));
     assert_eq!(grey.encoding, "OpenEXR, luminance alone: grey");
     assert!(grey.map.texels.iter().all(|[r, g, b]| r == g && g == b));
@@ -318,7 +323,8 @@ fn six_files_are_a_cube() {
         let below = folder.path(&format!("sky{at}"));
         fs::create_dir(&below).expect("created");
         for (face, name) in faces.iter().zip(names) {
-            fs::write(below.join(format!("Day_{name}.png")), png(face, png::BitDepth::Sixteen, false)).expect("written");
+            fs::write(below.join(format!("Day_{name}.png")), png(face, png::BitDepth::Sixteen, false))
+                .expect("written");
         }
         // What is no face does not disturb.
         fs::write(below.join("preview.png"), "a preview").expect("written");
@@ -331,12 +337,19 @@ fn six_files_are_a_cube() {
             assert!(error < SAMPLED, "{names:?}: {error}");
             assert_eq!(Projection::read(path, ORDER).expect("a map").0, found.map.project(ORDER));
         }
-        let files: Vec<(String, Vec<u8>)> = faces.iter().zip(names).rev()
-            .map(|(face, name)| (format!("{name}.exr"), exr(face, ["R", "G", "B"]))).collect();
+        let files: Vec<(String, Vec<u8>)> = faces
+            .iter()
+            .zip(names)
+            .rev()
+            .map(|(face, name)| (format!("{name}.exr"), exr(face, ["R", "G", "B"])))
+            .collect();
         let dropped = Loaded::from_files(&files).unwrap_or_else(|error| panic!("{error}"));
         assert!(distance(&dropped.map.project(ORDER)) < SAMPLED);
         let few = Loaded::from_files(&files[1..]).expect_err("one is missing").to_string();
-        assert!(few.contains("hold only 5 faces of a cube") && few.contains(&format!("{} is missing", names[5])), "{few}");
+        assert!(
+            few.contains("hold only 5 faces of a cube") && few.contains(&format!("{} is missing", names[5])),
+            "{few}"
+        );
     }
     let refused = |path: &Path| Loaded::read(path).expect_err("it is refused").to_string();
     let empty = folder.path("empty");
@@ -357,24 +370,36 @@ fn six_files_are_a_cube() {
     assert!(refused(&first).contains("a face of a cube is square"), "{}", refused(&first));
     let mut dark = small[3].clone();
     dark.texels[5] = [-1.0, 0.0, 0.0];
-    let files: Vec<(String, Vec<u8>)> = sets[0].iter().enumerate()
-        .map(|(i, name)| (format!("{name}.exr"), exr(if i == 3 { &dark } else { &small[i] }, ["R", "G", "B"]))).collect();
+    let files: Vec<(String, Vec<u8>)> = sets[0]
+        .iter()
+        .enumerate()
+        .map(|(i, name)| (format!("{name}.exr"), exr(if i == 3 { &dark } else { &small[i] }, ["R", "G", "B"])))
+        .collect();
     let text = Loaded::from_files(&files).expect_err("it is refused").to_string();
-    assert!(text.contains("face -y: 1 of its texels hold negative radiance, down to -1, the first at column 5, row 0"), "{text}");
+    assert!(
+        text.contains("face -y: 1 of its texels hold negative radiance, down to -1, the first at column 5, row 0"),
+        "{text}"
+    );
 }
 
 #[test]
 fn what_is_no_map_is_refused_with_a_hint_that_helps() {
     let faces = faces(8);
     let text = message(&png(&faces[0], png::BitDepth::Eight, false));
-    assert!(text.contains("is 8×8 texels, the size of no map") && text.contains("name the folder that holds them all"), "{text}");
+    assert!(
+        text.contains("is 8×8 texels, the size of no map") && text.contains("name the folder that holds them all"),
+        "{text}"
+    );
     let narrow = Image { width: 10, texels: vec![[0.5; 3]; 30] };
     let text = message(&png(&narrow, png::BitDepth::Eight, false));
     assert!(text.contains("convert it to latitude and longitude"), "{text}");
     let text = message(b"\xff\xd8\xff\xe0\0\x10JFIF");
     assert!(text.contains("holds a Jpeg image") && text.contains("nothing brighter than white"), "{text}");
     let text = message(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8192 +X 16384\n");
-    assert!(text.contains("16384×8192 texels, above the limit of 8192 columns") && text.contains("reduce it"), "{text}");
+    assert!(
+        text.contains("16384×8192 texels, above the limit of 8192 columns") && text.contains("reduce it"),
+        "{text}"
+    );
     let text = message(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4096 +X 24576\n");
     assert!(text.contains("above the limit of 2048 for a face's side"), "{text}");
     let text = message(b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 8 +X 16\n");

@@ -152,7 +152,7 @@ fn what_one_brings_along_is_shown_and_measured_as_brute_force_measures_it() {
     let scene = |size: usize| {
         format!(
             "name = \"own\"\n[environment]\nmap = \"light.hdr\"\nsignal = \"radiance\"\nmax_order = 5\nbudget = 0.05\n\
-             [brdf]\nkind = \"ward\"\nalpha = [0.3, 0.6]\n[picture]\nmesh = \"teapot.obj\"\nnormals = \"relief.webp\"\n\
+             [brdf]\nkind = \"ward\"\nalpha = [0.3, 0.6]\n[picture]\nmesh = \"bunny.obj\"\nnormals = \"relief.webp\"\n\
              strength = 0.25\nsize = [{size}, {size}]\nmethod = \"tilt\"\norder = 5\nazimuth = -100\nelevation = 25\n\
              distance = 4\nfield = 26\n"
         )
@@ -160,15 +160,18 @@ fn what_one_brings_along_is_shown_and_measured_as_brute_force_measures_it() {
     work.put("scene.toml", scene(100));
     for (from, to) in [
         ("maps/courtyard_256x128.hdr", "light.hdr"),
-        ("meshes/teapot.obj", "teapot.obj"),
+        ("meshes/bunny.obj", "bunny.obj"),
         ("normals/0003.webp", "relief.webp"),
     ] {
         work.put(to, std::fs::read(repository("scenes").join(from)).expect("a file of the scenes"));
     }
-    work.put("sky.hdr", hdr(256, 128, |x, y| {
-        let (azimuth, polar) = (PI - 2.0 * PI * (x as f64 + 0.5) / 256.0, PI * (y as f64 + 0.5) / 128.0);
-        [polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]
-    }));
+    work.put(
+        "sky.hdr",
+        hdr(256, 128, |x, y| {
+            let (azimuth, polar) = (PI - 2.0 * PI * (x as f64 + 0.5) / 256.0, PI * (y as f64 + 0.5) / 128.0);
+            [polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]
+        }),
+    );
     for (face, name) in ["px", "nx", "py", "ny", "pz", "nz"].iter().enumerate() {
         work.put(&format!("{name}.hdr"), hdr(64, 64, |x, y| face_direction(face, 64, x, y)));
     }
@@ -203,8 +206,8 @@ fn what_one_brings_along_is_shown_and_measured_as_brute_force_measures_it() {
     work.put("again.toml", scene(side));
     let run = work.run(["render", "again.toml", "--reference", "--samples", "1", "-o", "again.png"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
-    let beside: Value =
-        serde_json::from_slice(&std::fs::read(work.path("again.json")).expect("written")).expect("the figures are JSON");
+    let beside: Value = serde_json::from_slice(&std::fs::read(work.path("again.json")).expect("written"))
+        .expect("the figures are JSON");
     let pixels = number(&figures["pixels"]);
     assert!((500.0..4000.0).contains(&pixels), "brute force does not look at each of {pixels} pixels");
     for order in [2, 5, 10] {
@@ -212,8 +215,8 @@ fn what_one_brings_along_is_shown_and_measured_as_brute_force_measures_it() {
         let page = &facts["orders"][order.to_string()];
         let (wanted, found) = (number(&row["errors"]["mean"]), number(&page["left"]["mean"]));
         // Two drivers draw edges and filter the normal map by rules of their own, and a browser's device adds up 4096
-        // lights for 32,768 texels, within 0.3 %.
-        assert!((found / wanted - 1.0).abs() < 0.03, "order {order}: {found} on the page, {wanted} by brute force");
+        // lights for 32,768 texels, within 0.3 %: 0.1, 0.6 and 0.4 % were found.
+        assert!((found / wanted - 1.0).abs() < 0.02, "order {order}: {found} on the page, {wanted} by brute force");
         println!("order {order}: left out {found:.4} on the page, {wanted:.4} by brute force");
         let verdict = page["verdict"].as_str().unwrap_or_default();
         assert!(verdict.contains(&format!("Left out by order {order}: ")) && verdict.contains("added by the method: "));
