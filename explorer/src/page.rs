@@ -86,8 +86,8 @@ pub fn reflectances(own: &Own) -> Result<Vec<Brdf>, Fault> {
     Ok(all)
 }
 
-/// Every file of the page. `takes_maps` says whether it is served by a program that reads maps that are dropped on it.
-pub fn assets(own: &Own, takes_maps: bool, bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
+/// Every file of the page.
+pub fn assets(own: &Own, bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
     let reflectances = reflectances(own)?;
     let mut all: Vec<Asset> =
         zonal_templates::EXPLORER.iter().map(|&(path, text)| (path.to_owned(), text.as_bytes().to_vec())).collect();
@@ -121,7 +121,7 @@ pub fn assets(own: &Own, takes_maps: bool, bar: &ProgressBar) -> Result<Vec<Asse
         "bands": lighting::BANDS,
         "lightsARow": shade::LIGHTS_A_ROW,
         "first": own.first,
-        "drop": takes_maps.then(|| json!({"path": upload::PATH, "most": upload::MAX_BODY})),
+        "drop": {"path": upload::PATH, "most": upload::MAX_BODY},
     });
     all.push(("data/index.json".to_owned(), index.to_string().into_bytes()));
     Ok(all)

@@ -56,7 +56,8 @@ struct Manifest {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct EnvironmentTable {
-    /// The file of the environment map, relative to the scene: latitude and longitude, Radiance HDR or OpenEXR.
+    /// The environment map, relative to the scene: latitude and longitude, or a cubemap in a strip or a cross, as Radiance
+    /// HDR, OpenEXR or PNG; or six faces, `sky` for their folder or `sky/day_*.png`.
     map: Placed<String>,
     /// What the kernels need of it.
     signal: Light,
@@ -72,7 +73,8 @@ struct EnvironmentTable {
     /// What the constants are called; the scene's name and `_environment` if it is left out.
     name: Option<Placed<String>>,
     /// Where the directions of the coefficients lie: the name of a convention of docs/ENGINES.md, whose axes are taken, or the
-    /// axes to the centre of the map, to the left of it and up, as in `x,-z,y`. If it is left out, those of the convention.
+    /// axes to the centre of the map, to the left of it and up, as in `x,-z,y`. If it is left out, those of the convention. A picture's
+    /// mesh lies in these axes too.
     axes: Option<Placed<String>>,
     /// In whose convention the coefficients are held: a name of docs/ENGINES.md; zonal's own if it is left out.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::ConventionName>"))]
@@ -144,7 +146,10 @@ fn values(field: &str, table: &str) -> Option<String> {
         "kind" if table.starts_with("[brdf]") => words::<Kind>(),
         "kind" => words::<Job>(),
         "name" => Some("the stem of the files, as in `name = \"probe\"`".to_owned()),
-        "map" => Some("the file of an environment map, .hdr or .exr".to_owned()),
+        "map" => Some(
+            "the file of an environment map, .hdr, .exr or .png; or six faces of a cube, as in \"sky/*.png\""
+                .to_owned(),
+        ),
         "budget" => Some(BUDGET.to_owned()),
         // Names a family: it is an example of a spec.
         "spec" => Some("what to print, as in `spec = \"rotate:5:rgb\"`".to_owned()),
