@@ -97,7 +97,11 @@ fn rotations_are_the_golden_ones_by_every_way_in() {
             let (order, c) = (N.isqrt(), signal::<N>(&mut random));
             let want = turned(&bands, &c);
             let m = DMat3::from_quat(q);
-            let ways = [zonal::rotate(q, &c), zonal::rotate_matrix(m, &c), Rotation::<[f64; N]>::new(q).apply(&c)];
+            let ways = [
+                zonal::rotate(q, &c),
+                zonal::rotate_matrix(m.to_cols_array_2d(), &c),
+                Rotation::<[f64; N]>::new(q).apply(&c),
+            ];
             for got in ways {
                 assert!(band_error(&got, &want) <= 2e-14, "order {order} by {q}");
             }
@@ -107,7 +111,7 @@ fn rotations_are_the_golden_ones_by_every_way_in() {
             let ready = Rotation::<[f32; N]>::new(q).apply(&c);
             assert!(band_error(&wide(&ready), &want) <= bound, "order {order} by {q} in f32, made ready");
             // glam's matrix and its quaternion are rounded once more.
-            let by_matrix = zonal::rotate_matrix(m, &c);
+            let by_matrix = zonal::rotate_matrix(m.to_cols_array_2d(), &c);
             assert!(band_error(&wide(&by_matrix), &want) <= 2.0 * bound, "order {order} by {m} in f32");
         });
     }
