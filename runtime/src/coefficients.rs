@@ -20,21 +20,30 @@ pub struct Angles<const ORDER: usize, P>(pub(crate) P);
 /// `[f64; 25]` one in double precision. Each order is a feature; there is no order 1, whose one coefficient is a constant
 /// times 2√π that no rotation changes.
 ///
-/// What is generic over the order takes coefficients as a slice, and makes them from a function of the index:
+/// What is generic over the order takes coefficients as a slice, and makes them from a function of the index. A bound
+/// says the precision, `Coefficients<Scalar = f32>` of any channels, or with it the element:
 ///
 /// ```
 /// use zonal::Coefficients;
 ///
-/// /// The energy of each band, and the signal in the other direction of time.
-/// fn energies<C: Coefficients<Element = f32>>(c: &C) -> Vec<f32> {
+/// /// The energy of each band.
+/// fn energies<C: Coefficients<Element = f32, Scalar = f32>>(c: &C) -> Vec<f32> {
 ///     c.bands().map(|band| band.iter().map(|x| x * x).sum()).collect()
 /// }
-/// fn negated<C: Coefficients<Element = f32>>(c: &C) -> C {
-///     C::from_fn(|i| -c.as_ref()[i])
+/// /// The mean of a signal and its mirror image, up side down.
+/// fn without_height<C: Coefficients<Scalar = f32>>(c: &C) -> C {
+///     let [x, y] = [zonal::conventions::Axis::X, zonal::conventions::Axis::Y];
+///     let mirrored = zonal::to_axes(c, [x, y, zonal::conventions::Axis::MinusZ]).expect("three axes");
+///     zonal::lerp(c, &mirrored, 0.5)
+/// }
+/// /// A signal that is weaker from coefficient to coefficient.
+/// fn falling<C: Coefficients<Element = f32, Scalar = f32>>() -> C {
+///     C::from_fn(|i| 1.0 / (1.0 + i as f32))
 /// }
 ///
-/// let c: [f32; 9] = zonal::evaluate_basis([0.0, 0.6, 0.8]);
-/// assert_eq!(energies(&negated(&c)).len(), 3);
+/// let c: [f32; 9] = falling();
+/// assert_eq!(energies(&c).len(), 3);
+/// assert_eq!(without_height(&c)[2], 0.0);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no array of coefficients of an order that zonal was compiled with",
