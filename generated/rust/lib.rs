@@ -9,6 +9,7 @@
 compile_error!("square roots are needed: turn on the feature `std`, or `libm` where there is no standard library");
 
 #[rustfmt::skip]
+#[allow(clippy::approx_constant)]
 pub mod conventions;
 #[rustfmt::skip]
 pub mod real;

@@ -41,7 +41,7 @@ fn root(orders: &BTreeSet<usize>) -> String {
          #![cfg_attr(not(feature = \"std\"), no_std)]\n\n\
          #[cfg(not(any(feature = \"std\", feature = \"libm\")))]\n\
          compile_error!(\"square roots are needed: turn on the feature `std`, or `libm` where there is no standard library\");\n\n\
-         #[rustfmt::skip]\npub mod conventions;\n\
+         #[rustfmt::skip]\n#[allow(clippy::approx_constant)]\npub mod conventions;\n\
          #[rustfmt::skip]\npub mod real;\n\
          #[cfg(feature = \"shaders\")]\n#[rustfmt::skip]\npub mod shaders;\n"
     );
