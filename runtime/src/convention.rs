@@ -1,5 +1,5 @@
 //! Coefficients in the frames, with the signs and factors and at the places of other programs. What a program has is read
-//! from the generated table; here is how a signed permutation of the axes acts on harmonics.
+//! from the generated table; here is how a signed permutation of the axes acts on harmonics (docs/MATH.md#frames).
 
 use zonal_kernels::conventions::{Axis, Convention};
 use zonal_kernels::real::Real;

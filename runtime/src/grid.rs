@@ -1,5 +1,5 @@
 //! Directions of the texels of images, with the solid angles that they see, and a grid of directions that integrates
-//! exactly. All in f64.
+//! exactly (docs/MATH.md#grids-and-cubemaps). All in f64.
 
 use core::f64::consts::PI;
 

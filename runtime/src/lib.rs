@@ -268,3 +268,8 @@ type Rotated<Z> = <Z as Zonal>::Coefficients;
 pub fn rotate_zonal<Z: Zonal>(dir: impl Into<[<Rotated<Z> as Coefficients>::Scalar; 3]>, g: &Z) -> Rotated<Z> {
     Z::rotate_zonal(dir.into(), g)
 }
+
+/// The README, whose code runs.
+#[cfg(all(doctest, feature = "glam034"))]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -1,5 +1,5 @@
-//! What light needs of coefficients: irradiance, convolution with zonal functions, windows against ringing, and how
-//! negative a signal is.
+//! What light needs of coefficients: irradiance (docs/MATH.md#the-clamped-cosine), convolution with zonal functions
+//! (docs/MATH.md#zonal-functions), windows against ringing (docs/MATH.md#ringing), and how negative a signal is.
 
 use core::f64::consts::PI;
 
