@@ -275,7 +275,7 @@ macro_rules! orders {
         zonal_kernels::$module::rotate_matrix(&$columns, &$c.map($element::signal)).map($element::element)
     };
     (@ quaternion $module:ident $columns:ident $c:ident $element:ident) => {
-        Self::rotate(crate::rotation::quaternion($columns), $c)
+        Self::rotate(crate::matrix::quaternion($columns), $c)
     };
 }
 

@@ -84,6 +84,19 @@
 //! They are always inlined, however long, so that one that works on `Lanes` is compiled for the vectors of the function
 //! that it stands in (`#[target_feature]`): a rotation of order 6 of 16 lanes takes a quarter of the time there. Who calls
 //! one in many places had better put it into a function.
+//!
+//! ```
+//! use zonal::real::Lanes;
+//!
+//! // Sixteen signals of order 3, each in a lane, and a rotation for each: about z by angles of 0, 0.1, 0.2 and so on.
+//! let half = std::array::from_fn(|lane| 0.05 * lane as f32);
+//! let q = [Lanes([0.0; 16]), Lanes([0.0; 16]), Lanes(half.map(f32::sin)), Lanes(half.map(f32::cos))];
+//! let c = [Lanes([1.0_f32; 16]); 9];
+//! let turned = zonal::sh3::rotate(q, &c);
+//! let alone = zonal::sh3::rotate([0.0, 0.0, half[7].sin(), half[7].cos()], &[1.0; 9]);
+//! assert_eq!(turned.map(|lanes| lanes.0[7]), alone);
+//! ```
+//!
 //! `shaders` holds their WGSL and GLSL.
 //!
 //! # Features
@@ -108,6 +121,7 @@ mod convention;
 mod error;
 mod grid;
 mod light;
+mod matrix;
 pub mod project;
 mod rotation;
 mod scalar;
@@ -122,6 +136,30 @@ pub use light::{convolve, cosine_factor, hann, irradiance, irradiance_at, lanczo
 pub use rotation::Rotation;
 pub use scalar::{Element, Scalar};
 pub use zonal_kernels::*;
+
+/// Modules of this crate, so that rustc knows of those that are left out, and by which feature.
+macro_rules! kernels {
+    ($($feature:literal $module:ident: $about:literal;)*) => { $(
+        #[doc = $about]
+        #[cfg(feature = $feature)]
+        pub mod $module {
+            #[doc(inline)]
+            pub use zonal_kernels::$module::*;
+        }
+    )* };
+}
+
+kernels! {
+    "order2" sh2: "Kernels of order 2: bands 0 to 1, 4 coefficients.";
+    "order3" sh3: "Kernels of order 3: bands 0 to 2, 9 coefficients.";
+    "order4" sh4: "Kernels of order 4: bands 0 to 3, 16 coefficients.";
+    "order5" sh5: "Kernels of order 5: bands 0 to 4, 25 coefficients.";
+    "order6" sh6: "Kernels of order 6: bands 0 to 5, 36 coefficients.";
+    "order7" sh7: "Kernels of order 7: bands 0 to 6, 49 coefficients.";
+    "order8" sh8: "Kernels of order 8: bands 0 to 7, 64 coefficients.";
+    "order9" sh9: "Kernels of order 9: bands 0 to 8, 81 coefficients.";
+    "order10" sh10: "Kernels of order 10: bands 0 to 9, 100 coefficients.";
+}
 
 /// Returns all n² harmonics at a direction of unit length, bands ascending, m from −l to l.
 ///

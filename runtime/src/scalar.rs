@@ -41,6 +41,16 @@ pub trait Element: Copy + Debug + PartialEq + Send + Sync + 'static + Sealed {
     type Signal: Signal<Self::Scalar>;
 
     /// Returns the coefficient that has `value(i)` in channel i, for i from 0 to [`CHANNELS`](Self::CHANNELS) − 1.
+    ///
+    /// ```
+    /// use zonal::{Coefficients, Element};
+    ///
+    /// // An array a channel, as DirectXMath has them, and back.
+    /// let [red, green, blue] = [[0.25_f32; 9], [0.5; 9], [1.0; 9]];
+    /// let planes = [red, green, blue];
+    /// let rgb = <[[f32; 3]; 9]>::from_fn(|i| Element::from_channels(|channel| planes[channel][i]));
+    /// assert_eq!([0, 1, 2].map(|channel| rgb.map(|c| c.channels()[channel])), planes);
+    /// ```
     fn from_channels(value: impl FnMut(usize) -> Self::Scalar) -> Self;
 
     /// Returns its numbers, one a channel.
