@@ -53,7 +53,8 @@ whole() {
     part "packages" tests/install.sh
     part "format" cargo fmt --all --check
     part "lints" cargo clippy --quiet --workspace --all-targets -- -D warnings
-    part "runtime without std" cargo check --quiet -p zonal --no-default-features --features libm
+    part "runtime without std" cargo check --quiet -p zonal --no-default-features \
+        --features libm,all-orders,mint,serde,bytemuck
     part "generator without its checkers" cargo check --quiet -p zonal-codegen --no-default-features
     # Twice as many tests at once as there are processors: some wait for a compiler or a browser.
     part "tests" env RUST_TEST_THREADS="${RUST_TEST_THREADS:-$((2 * $(nproc)))}" cargo test --workspace --no-fail-fast

@@ -208,6 +208,7 @@ impl Real for f64 {
 /// parameters of `f64`, so that a rotation's set-up is done in f64 and only its bands in f32: from a quaternion
 /// that is normalised in f64 its error is then the same at every order.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(transparent)]
 pub struct Channels<T, const N: usize>(pub [T; N]);
 impl<T: Real, const N: usize> Add for Channels<T, N> {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:10`: The spherical harmonics of order 10 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 199 (130 mul, 0 add, 69 fma); 114 constants, 107 live values.
-/// Error: f32 rounding at most 6.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 7.8e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 199 (130 mul, 0 add, 69 fma); 114 constants, 107 live values.
+/// - Error: f32 rounding at most 6.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 100] {
@@ -240,11 +241,12 @@ static BASIS_LOOP_SECTORAL: [f64; 9] = [
 
 /// `basis:10:loop`: The spherical harmonics of order 10 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 261 (162 mul, 0 add, 99 fma); 99 constants, 100 live values.
-/// Error: f32 rounding at most 1.2e-5 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.9e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 261 (162 mul, 0 add, 99 fma); 99 constants, 100 live values.
+/// - Error: f32 rounding at most 1.2e-5 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 8.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 100] {
@@ -291,13 +293,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 100] {
 }
 
 /// `eval:10`: The sum of c_i y_i(dir) over the harmonics of order 10, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 221 (51 mul, 0 add, 170 fma); 116 constants, 15 live values.
-/// Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     9.4e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 221 (51 mul, 0 add, 170 fma); 116 constants, 15 live values.
+/// - Error: f32 rounding at most 3.5e-5 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   9.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 100]) -> V {
@@ -392,13 +395,14 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 100]) -> [T; 3] {
 
 /// `eval_monomial:10`: The sum of c_i y_i(dir) over the harmonics of order 10, from the coefficients
 /// that `to_monomial:10` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 131 (16 mul, 1 add, 114 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 1.8e-5 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     8.3e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 131 (16 mul, 1 add, 114 fma); 0 constants, 5 live values.
+/// - Error: f32 rounding at most 1.8e-5 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   8.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 100]) -> V {
@@ -445,11 +449,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 100]) -> [T; 3] {
 
 /// `to_monomial:10`: From the coefficients of the harmonics of order 10 to those of the monomials that
 /// `eval_monomial:10` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 218 (98 mul, 0 add, 120 fma); 122 constants, 100 live values.
-/// Error: f32 rounding at most 4.6e-5 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.1e-5).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 218 (98 mul, 0 add, 120 fma); 122 constants, 100 live values.
+/// - Error: f32 rounding at most 4.6e-5 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.1e-5).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -1137,13 +1142,14 @@ fn rotate_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100], [t9, t11, t13, 
 
 /// `rotate:10`: Rotates order 10 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1166 (329 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 204 constants,
-///     149 live values.
-/// Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1166 (329 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 204 constants,
+///   149 live values.
+/// - Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -1339,13 +1345,14 @@ static ROTATE_LOOP_J: [f64; 339] = [
 
 /// `rotate:10:loop`: Rotates order 10 exactly, by z, y, z from a quaternion: no trigonometry, no
 /// branch, every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1334 (527 mul, 7 add, 800 fma) and 1 inverse square root or reciprocal; 339 constants,
-///     179 live values.
-/// Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1334 (527 mul, 7 add, 800 fma) and 1 inverse square root or reciprocal; 339 constants,
+///   179 live values.
+/// - Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -1946,12 +1953,13 @@ fn rotate_euler_part_1<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 100], [t
 }
 
 /// `rotate:10:euler`: Rotates order 10 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
-/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
+/// - Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 100]) -> [V; 100] {
@@ -2069,13 +2077,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 100]) -> [[T; 3]
 
 /// `angles:10`: The multiples of the three angles of a rotation that `rotate:10:angles` takes; done
 /// once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 115 (59 mul, 5 add, 51 fma) and 1 inverse square root or reciprocal; 2 constants, 56
-///     live values.
-/// Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.9e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 115 (59 mul, 5 add, 51 fma) and 1 inverse square root or reciprocal; 2 constants, 56
+///   live values.
+/// - Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.9e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 28] {
@@ -2640,13 +2649,14 @@ fn rotate_angles_part_1<T: Real, V: Signal<T>>(cs: &[[T; 2]; 28], c: &[V; 100], 
 }
 
 /// `rotate:10:angles`: Rotates order 10 exactly, by z, y, z from the multiples that `angles:10` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
-/// Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
+/// - Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 28], c: &[V; 100]) -> [V; 100] {
@@ -2764,14 +2774,15 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 28], c: &[[T; 3]; 100]) -> [[T; 
 
 /// `lifted:10`: The multiples of the two z angles of a rotation and the shears of its y rotation that
 /// `rotate:10:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 1275 (387 mul, 6 add, 882 fma) and 9 inverse square roots or reciprocals; 604 constants,
-///     372 live values.
-/// Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta)
+///   Rz(gamma); then for each band from 1 and each pair of an even and an odd order of one sign what
+///   couples them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - Operations: 1275 (387 mul, 6 add, 882 fma) and 9 inverse square roots or reciprocals; 604
+///   constants, 372 live values.
+/// - Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 183] {
@@ -3303,14 +3314,15 @@ pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 183] {
 
 /// `rotate:10:lifted`: Rotates order 10 exactly, by z, y, z with the y rotation as shears, from what
 /// `lifted:10` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
-/// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///   then for each band from 1 and each pair of an even and an odd order of one sign what couples them
+///   in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
+/// - Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 183], c: &[V; 100]) -> [V; 100] {
@@ -4196,13 +4208,14 @@ fn rotate_zxzxz_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100], [t9, t11,
 
 /// `rotate:10:zxzxz`: Rotates order 10 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et
 /// al. 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1314 (511 mul, 6 add, 797 fma) and 1 inverse square root or reciprocal; 150 constants,
-///     150 live values.
-/// Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1314 (511 mul, 6 add, 797 fma) and 1 inverse square root or reciprocal; 150 constants,
+///   150 live values.
+/// - Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -4765,13 +4778,14 @@ fn rotate_align_part_1<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100], [t4, t27,
 }
 
 /// `rotate:10:align`: Rotates order 10 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 942 (218 mul, 3 add, 721 fma) and 1 inverse square root or reciprocal; 204 constants,
-///     144 live values.
-/// Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 942 (218 mul, 3 add, 721 fma) and 1 inverse square root or reciprocal; 204 constants,
+///   144 live values.
+/// - Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100]) -> [V; 100] {
@@ -4889,12 +4903,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] 
 
 /// `rotate:10:zonal`: Rotates a zonal signal of order 10 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
-/// Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
+/// - Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 10]) -> [V; 100] {
@@ -5092,15 +5107,16 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 10]) -> [[T; 3]; 100]
 /// `tilt:10`: Tilts order 10: the shortest rotation from z to a normal, with no trigonometry; bands 1
 /// and 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 613 (108 mul, 2 add, 503 fma) and 1 inverse square root or reciprocal; 96 constants, 112
-///     live values.
-/// Error: f32 rounding at most 1.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6). Method error, the
-///     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 613 (108 mul, 2 add, 503 fma) and 1 inverse square root or reciprocal; 96 constants,
+///   112 live values.
+/// - Error: f32 rounding at most 1.6e-4 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6). Method error, the
+///   worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100]) -> [V; 100] {
@@ -5465,15 +5481,16 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 /// `tilt:10:lf5`: Tilts order 10: the shortest rotation from z to a normal, with no trigonometry; bands
 /// 1 and 2 exactly, the others by shears that are regular at n = z (lf5). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 980 (160 mul, 2 add, 818 fma) and 1 inverse square root or reciprocal; 112 constants,
-///     119 live values.
-/// Error: f32 rounding at most 4.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 980 (160 mul, 2 add, 818 fma) and 1 inverse square root or reciprocal; 112 constants,
+///   119 live values.
+/// - Error: f32 rounding at most 4.4e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100]) -> [V; 100] {
@@ -5988,15 +6005,16 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 /// `tilt_prescaled:10`: Tilts order 10 as `tilt` does (lf3), on coefficients that `tilt_scale:10` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:10`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:10` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 557 (52 mul, 10 add, 495 fma) and 1 inverse square root or reciprocal; 50 constants, 104
-///     live values.
-/// Error: f32 rounding at most 1.4e-4 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-6). Method error, the
-///     worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:10` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 557 (52 mul, 10 add, 495 fma) and 1 inverse square root or reciprocal; 50 constants,
+///   104 live values.
+/// - Error: f32 rounding at most 1.4e-4 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-6). Method error, the
+///   worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100]) -> [V; 100] {
@@ -6293,15 +6311,16 @@ pub fn tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100
 /// `tilt_prescaled:10:lf5`: Tilts order 10 as `tilt` does (lf5), on coefficients that `tilt_scale:10`
 /// has divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as
 /// a light, is scaled the other way, by `tilt_unscale:10`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:10` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 892 (72 mul, 18 add, 802 fma) and 1 inverse square root or reciprocal; 64 constants, 107
-///     live values.
-/// Error: f32 rounding at most 4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.1e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:10` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 892 (72 mul, 18 add, 802 fma) and 1 inverse square root or reciprocal; 64 constants,
+///   107 live values.
+/// - Error: f32 rounding at most 4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.1e-7). Method error, the worst
+///   band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 6.6e-2 at 15, 4.7e-1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 100]) -> [V; 100] {
@@ -6715,11 +6734,12 @@ pub fn lf5_tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 100]) -> [[T; 3];
 
 /// `tilt_scale:10`: Divides the coefficients of order 10 as `tilt_prescaled:10` takes them; done once,
 /// when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients as `tilt_prescaled` takes them.
-/// Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
-/// Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients as `tilt_prescaled` takes them.
+/// - Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
+/// - Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_scale<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -6835,11 +6855,12 @@ pub fn tilt_scale_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `tilt_unscale:10`: The inverse of `tilt_scale:10`: for tilted coefficients, or for a light that they
 /// are multiplied with.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
-/// Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
-/// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
+/// - Operations: 84 (84 mul, 0 add, 0 fma); 38 constants, 84 live values.
+/// - Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_unscale<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -6955,14 +6976,15 @@ pub fn tilt_unscale_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `taylor1:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor1;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
-///     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
+/// - Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+///   worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -7108,14 +7130,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `taylor15:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 336 (129 mul, 1 add, 206 fma); 73 constants, 108 live values.
-/// Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
-///     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 336 (129 mul, 1 add, 206 fma); 73 constants, 108 live values.
+/// - Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
+///   worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -7295,14 +7318,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `taylor2:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: taylor2;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 378 (54 mul, 0 add, 324 fma); 54 constants, 108 live values.
-/// Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
-///     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 378 (54 mul, 0 add, 324 fma); 54 constants, 108 live values.
+/// - Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the worst
+///   band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows without
+///   bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -7536,14 +7560,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `lf3:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
-/// Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
-///     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
+/// - Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
+///   worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -7853,14 +7878,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `lf5:10`: Rotates order 10 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 589 (157 mul, 0 add, 432 fma); 60 constants, 118 live values.
-/// Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 589 (157 mul, 0 add, 432 fma); 60 constants, 118 live values.
+/// - Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -8355,14 +8381,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 100] = [
 
 /// `taylor15:10:loop`: Rotates order 10 about y by a small angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 496 (200 mul, 0 add, 296 fma); 200 constants, 100 live values.
-/// Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
-///     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 496 (200 mul, 0 add, 296 fma); 200 constants, 100 live values.
+/// - Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the
+///   worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 100]) -> [V; 100] {
@@ -8384,15 +8411,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 100]) -> [[T; 3]; 100]
 
 /// `rotate:10:taylor1`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 616 (242 mul, 2 add, 372 fma); 30 constants, 126 live values.
-/// Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
-///     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 616 (242 mul, 2 add, 372 fma); 30 constants, 126 live values.
+/// - Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the
+///   worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]) -> [V; 100] {
@@ -8751,15 +8779,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 100]) ->
 
 /// `rotate:10:taylor15`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 760 (341 mul, 3 add, 416 fma); 73 constants, 129 live values.
-/// Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
-///     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 760 (341 mul, 3 add, 416 fma); 73 constants, 129 live values.
+/// - Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the worst
+///   band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]) -> [V; 100] {
@@ -9152,15 +9181,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 100]) -
 
 /// `rotate:10:taylor2`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 802 (266 mul, 2 add, 534 fma); 54 constants, 132 live values.
-/// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
-///     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 802 (266 mul, 2 add, 534 fma); 54 constants, 132 live values.
+/// - Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
+///   worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]) -> [V; 100] {
@@ -9607,15 +9637,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 100]) ->
 
 /// `rotate:10:lf3`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 790 (317 mul, 2 add, 471 fma); 46 constants, 127 live values.
-/// Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
-///     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 790 (317 mul, 2 add, 471 fma); 46 constants, 127 live values.
+/// - Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
+///   worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]) -> [V; 100] {
@@ -10529,15 +10560,16 @@ fn lf5_zyz_part_1<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]
 
 /// `rotate:10:lf5`: Rotates order 10 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1013 (369 mul, 2 add, 642 fma); 60 constants, 132 live values.
-/// Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1013 (369 mul, 2 add, 642 fma); 60 constants, 132 live values.
+/// - Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 100]) -> [V; 100] {
@@ -10656,15 +10688,16 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 100]) -> [[T
 /// `rotate_small:10`: Rotates order 10 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants, 131
-///     live values.
-/// Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
-///     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants,
+///   131 live values.
+/// - Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
+///   worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -11599,15 +11632,16 @@ fn lf5_rotate_small_part_1<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100], [t9, 
 /// `rotate_small:10:lf5`: Rotates order 10 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf5; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1018 (379 mul, 6 add, 633 fma) and 1 inverse square root or reciprocal; 57 constants,
-///     136 live values.
-/// Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
-///     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1018 (379 mul, 6 add, 633 fma) and 1 inverse square root or reciprocal; 57 constants,
+///   136 live values.
+/// - Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
+///   worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 100]) -> [V; 100] {
@@ -12260,18 +12294,19 @@ fn rotate_adaptive_above_1<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 1
 /// `rotate_adaptive:10`: Rotates order 10 from a quaternion: approximately where the y angle is below a
 /// limit (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears), exactly above it.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (sqrt2
-///     + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
-///     distance r.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1169 (331 mul, 6 add, 832 fma) and 1 inverse square root or reciprocal above the limit,
-///     811 below it; 246 constants, 149 live values.
-/// Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
-///     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
-///     25 degrees; it grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a /
+///   (sqrt2 + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
+///   distance r.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1169 (331 mul, 6 add, 832 fma) and 1 inverse square root or reciprocal above the
+///   limit, 811 below it; 246 constants, 149 live values.
+/// - Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
+///   degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
+///   Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25
+///   degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 100]) -> [V; 100] {
@@ -14988,12 +15023,13 @@ fn zhf_part_5<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 100], [t1, t3, t5,
 
 /// `zhf:10`: Rotates order 10 by sparse zonal factorisation over 19 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 5571 (2410 mul, 20 add, 3141 fma); 616 constants, 932 live values.
-/// Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 5571 (2410 mul, 20 add, 3141 fma); 616 constants, 932 live values.
+/// - Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 100]) -> [V; 100] {
@@ -15115,11 +15151,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `zhf_weights:10`: The weights of the zonal lobes of order 10, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 662 (76 mul, 5 add, 581 fma); 490 constants, 100 live values.
-/// Error: f32 rounding at most 9.2e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2e-6).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 662 (76 mul, 5 add, 581 fma); 490 constants, 100 live values.
+/// - Error: f32 rounding at most 9.2e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -15429,11 +15466,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 
 /// `zhf_tailored:10`: Rotates order 10 from samples at the lobes, the sparse product A^ f
 /// (Nowrouzezahrai et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 686 (93 mul, 3 add, 590 fma); 490 constants, 101 live values.
-/// Error: f32 rounding at most 1.1e-5 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.3e-6).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 686 (93 mul, 3 add, 590 fma); 490 constants, 101 live values.
+/// - Error: f32 rounding at most 1.1e-5 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.3e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 100]) -> [V; 100] {
@@ -15747,12 +15785,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 }
 
 /// `rotate_z:10`: Rotates order 10 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 212 (106 mul, 1 add, 105 fma); 0 constants, 98 live values.
-/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 212 (106 mul, 1 add, 105 fma); 0 constants, 98 live values.
+/// - Error: f32 rounding at most 1.2e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 100]) -> [V; 100] {
@@ -15884,12 +15923,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 }
 
 /// `rotate_y:10`: Rotates order 10 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 724 (108 mul, 1 add, 615 fma); 204 constants, 113 live values.
-/// Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 724 (108 mul, 1 add, 615 fma); 204 constants, 113 live values.
+/// - Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 100]) -> [V; 100] {
@@ -16349,11 +16389,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 }
 
 /// `swap_yz:10`: Exchanges y and z of order 10: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
-/// Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -16544,11 +16585,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 }
 
 /// `rotate_x_plus_90:10`: Rotates order 10 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
-/// Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {
@@ -16739,11 +16781,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 }
 
 /// `rotate_x_minus_90:10`: Rotates order 10 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
-/// Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 330 (92 mul, 0 add, 238 fma); 149 constants, 96 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 100]) -> [V; 100] {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:2`: The spherical harmonics of order 2 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 3.9e-8 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.2e-8).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 3 (3 mul, 0 add, 0 fma); 2 constants, 3 live values.
+/// - Error: f32 rounding at most 3.9e-8 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 2.2e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 4] {
@@ -41,11 +42,12 @@ static BASIS_LOOP_SECTORAL: [f64; 1] = [
 
 /// `basis:2:loop`: The spherical harmonics of order 2 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 9 (6 mul, 0 add, 3 fma); 3 constants, 4 live values.
-/// Error: f32 rounding at most 1e-7 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 4.4e-8).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 9 (6 mul, 0 add, 3 fma); 3 constants, 4 live values.
+/// - Error: f32 rounding at most 1e-7 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 4.4e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 4] {
@@ -92,13 +94,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 4] {
 }
 
 /// `eval:2`: The sum of c_i y_i(dir) over the harmonics of order 2, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 7 (4 mul, 0 add, 3 fma); 2 constants, 2 live values.
-/// Error: f32 rounding at most 2.6e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     9.3e-8).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 7 (4 mul, 0 add, 3 fma); 2 constants, 2 live values.
+/// - Error: f32 rounding at most 2.6e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   9.3e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
@@ -114,13 +117,14 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 
 /// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
 /// `to_monomial:2` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
-/// Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     1.8e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
@@ -135,11 +139,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 
 /// `to_monomial:2`: From the coefficients of the harmonics of order 2 to those of the monomials that
 /// `eval_monomial:2` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+/// - Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
@@ -159,13 +164,14 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `rotate:2:zyz`: Rotates order 2 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
-///     values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12
+///   live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zyz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
@@ -211,13 +217,14 @@ static ROTATE_ZYZ_LOOP_J: [f64; 3] = [
 
 /// `rotate:2:zyz:loop`: Rotates order 2 exactly, by z, y, z from a quaternion: no trigonometry, no
 /// branch, every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
-///     values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19
+///   live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zyz_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
@@ -300,12 +307,13 @@ pub fn rotate_zyz_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate:2`: Rotates order 2 exactly, as vector and tensor from a quaternion: products and sums only.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
-/// Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
+/// - Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
@@ -331,12 +339,13 @@ pub fn rotate_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `rotate:2:matrix`: Rotates order 2 exactly, as vector and tensor from a 3x3 matrix: products and
 /// sums only.
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
-/// Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
+/// - Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_matrix<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 4]) -> [V; 4] {
@@ -355,12 +364,13 @@ pub fn rotate_matrix_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 
 }
 
 /// `rotate:2:euler`: Rotates order 2 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 1.1e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 4]) -> [V; 4] {
@@ -383,13 +393,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 
 
 /// `angles:2`: The multiples of the three angles of a rotation that `rotate:2:angles` takes; done once
 /// for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11 live
-///     values.
-/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11
+///   live values.
+/// - Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 4] {
@@ -414,13 +425,14 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 4] {
 }
 
 /// `rotate:2:angles`: Rotates order 2 exactly, by z, y, z from the multiples that `angles:2` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 1.2e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 4], c: &[V; 4]) -> [V; 4] {
@@ -443,13 +455,14 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 4], c: &[[T; 3]; 4]) -> [[T; 3];
 
 /// `rotate:2:zxzxz`: Rotates order 2 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.
 /// 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
-///     values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12
+///   live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
@@ -487,13 +500,14 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate:2:align`: Rotates order 2 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 14 (8 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
-///     values.
-/// Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 14 (8 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
+///   values.
+/// - Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 4]) -> [V; 4] {
@@ -520,12 +534,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `rotate:2:zonal`: Rotates a zonal signal of order 2 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
-/// Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
+/// - Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 2]) -> [V; 4] {
@@ -544,13 +559,14 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 2]) -> [[T; 3]; 4] {
 }
 
 /// `tilt:2`: Tilts order 2: the shortest rotation from z to a normal, exactly, with no trigonometry.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 7 (1 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 1 constants, 3 live
-///     values.
-/// Error: f32 rounding at most 5.7e-7 of the norm of a band, for every n of unit length with n.z >= 0
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 7 (1 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 1 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 5.7e-7 of the norm of a band, for every n of unit length with n.z >= 0
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 4]) -> [V; 4] {
@@ -572,14 +588,15 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `taylor1:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 2 (0 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
-///     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 2 (0 mul, 0 add, 2 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
+///   worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -599,14 +616,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `taylor15:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 6 (3 mul, 0 add, 3 fma); 2 constants, 3 live values.
-/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
-///     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 6 (3 mul, 0 add, 3 fma); 2 constants, 3 live values.
+/// - Error: f32 rounding at most 2.1e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
+///   worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -627,14 +645,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `taylor2:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor2; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 5 (1 mul, 0 add, 4 fma); 1 constants, 2 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
-///     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 5 (1 mul, 0 add, 4 fma); 1 constants, 2 live values.
+/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the
+///   worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -655,14 +674,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `lf3:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 8 (3 mul, 0 add, 5 fma); 4 constants, 3 live values.
-/// Error: f32 rounding at most 2.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
-///     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 8 (3 mul, 0 add, 5 fma); 4 constants, 3 live values.
+/// - Error: f32 rounding at most 2.7e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
+///   worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -686,14 +706,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `lf5:2`: Rotates order 2 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 12 (4 mul, 0 add, 8 fma); 6 constants, 5 live values.
-/// Error: f32 rounding at most 3.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
-///     band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 6 constants, 5 live values.
+/// - Error: f32 rounding at most 3.7e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the
+///   worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -732,14 +753,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 4] = [
 
 /// `taylor15:2:loop`: Rotates order 2 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 16 (8 mul, 0 add, 8 fma); 8 constants, 4 live values.
-/// Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
-///     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 16 (8 mul, 0 add, 8 fma); 8 constants, 4 live values.
+/// - Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
+///   worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 4]) -> [V; 4] {
@@ -761,15 +783,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `rotate:2:taylor1`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 3.9e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
-///     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
+/// - Error: f32 rounding at most 3.9e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+///   worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 4]) -> [V; 4] {
@@ -792,15 +815,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [
 
 /// `rotate:2:taylor15`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 5 live values.
-/// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
-///     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 5 live values.
+/// - Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
+///   worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 4]) -> [V; 4] {
@@ -824,15 +848,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> 
 
 /// `rotate:2:taylor2`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 13 (5 mul, 0 add, 8 fma); 1 constants, 5 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
-///     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 13 (5 mul, 0 add, 8 fma); 1 constants, 5 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the worst
+///   band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 4]) -> [V; 4] {
@@ -856,15 +881,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [
 
 /// `rotate:2:lf3`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 16 (7 mul, 0 add, 9 fma); 4 constants, 5 live values.
-/// Error: f32 rounding at most 5.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
-///     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 16 (7 mul, 0 add, 9 fma); 4 constants, 5 live values.
+/// - Error: f32 rounding at most 5.4e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+///   worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 4]) -> [V; 4] {
@@ -890,15 +916,16 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [[T; 
 
 /// `rotate:2:lf5`: Rotates order 2 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 20 (8 mul, 0 add, 12 fma); 6 constants, 6 live values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
-///     worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 20 (8 mul, 0 add, 12 fma); 6 constants, 6 live values.
+/// - Error: f32 rounding at most 6.4e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
+///   worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 4]) -> [V; 4] {
@@ -928,13 +955,14 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 4]) -> [[T; 
 /// `rotate_small:2`: Rotates order 2 by z, y, z from a quaternion whose y angle is small, approximately
 /// (bands from 1: exact; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity
 /// shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
-///     values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12
+///   live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 4]) -> [V; 4] {
@@ -973,12 +1001,13 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `zhf:2`: Rotates order 2 by sparse zonal factorisation over 3 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 21 (15 mul, 0 add, 6 fma); 2 constants, 7 live values.
-/// Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 21 (15 mul, 0 add, 6 fma); 2 constants, 7 live values.
+/// - Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 4]) -> [V; 4] {
@@ -1004,11 +1033,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `zhf_weights:2`: The weights of the zonal lobes of order 2, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
@@ -1028,11 +1058,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `zhf_tailored:2`: Rotates order 2 from samples at the lobes, the sparse product A^ f (Nowrouzezahrai
 /// et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 4]) -> [V; 4] {
@@ -1051,12 +1082,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate_z:2`: Rotates order 2 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 4]) -> [V; 4] {
@@ -1075,12 +1107,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate_y:2`: Rotates order 2 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 4]) -> [V; 4] {
@@ -1099,11 +1132,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `swap_yz:2`: Exchanges y and z of order 2: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 0e0).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 0e0).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
@@ -1122,11 +1156,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate_x_plus_90:2`: Rotates order 2 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 0e0).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 0e0).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
@@ -1145,11 +1180,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 }
 
 /// `rotate_x_minus_90:2`: Rotates order 2 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
-/// Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 0e0).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 0e0).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:4`: The spherical harmonics of order 4 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
-/// Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 9.7e-8).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
+/// - Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 9.7e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 16] {
@@ -65,11 +66,12 @@ static BASIS_LOOP_SECTORAL: [f64; 3] = [
 
 /// `basis:4:loop`: The spherical harmonics of order 4 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 42 (27 mul, 0 add, 15 fma); 15 constants, 16 live values.
-/// Error: f32 rounding at most 9.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 1.5e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 42 (27 mul, 0 add, 15 fma); 15 constants, 16 live values.
+/// - Error: f32 rounding at most 9.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 1.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 16] {
@@ -116,13 +118,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 16] {
 }
 
 /// `eval:4`: The sum of c_i y_i(dir) over the harmonics of order 4, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 34 (11 mul, 0 add, 23 fma); 14 constants, 6 live values.
-/// Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     2.1e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 34 (11 mul, 0 add, 23 fma); 14 constants, 6 live values.
+/// - Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
@@ -148,13 +151,14 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 16]) -> [T; 3] {
 
 /// `eval_monomial:4`: The sum of c_i y_i(dir) over the harmonics of order 4, from the coefficients that
 /// `to_monomial:4` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 23 (4 mul, 1 add, 18 fma); 0 constants, 4 live values.
-/// Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     3.5e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 23 (4 mul, 1 add, 18 fma); 0 constants, 4 live values.
+/// - Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   3.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
@@ -175,11 +179,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 16]) -> [T; 3] {
 
 /// `to_monomial:4`: From the coefficients of the harmonics of order 4 to those of the monomials that
 /// `eval_monomial:4` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 20 (16 mul, 0 add, 4 fma); 12 constants, 16 live values.
-/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 20 (16 mul, 0 add, 4 fma); 12 constants, 16 live values.
+/// - Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -211,13 +216,14 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `rotate:4`: Rotates order 4 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 /// angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
-///     live values.
-/// Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
+///   live values.
+/// - Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -328,13 +334,14 @@ static ROTATE_LOOP_J: [f64; 23] = [
 
 /// `rotate:4:loop`: Rotates order 4 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
-///     live values.
-/// Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
+///   live values.
+/// - Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -417,12 +424,13 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate:4:euler`: Rotates order 4 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 116 (50 mul, 3 add, 63 fma); 8 constants, 28 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 116 (50 mul, 3 add, 63 fma); 8 constants, 28 live values.
+/// - Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 16]) -> [V; 16] {
@@ -507,13 +515,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 16]) -> [[T; 3];
 
 /// `angles:4`: The multiples of the three angles of a rotation that `rotate:4:angles` takes; done once
 /// for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 43 (23 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 20 live
-///     values.
-/// Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 43 (23 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 20
+///   live values.
+/// - Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 10] {
@@ -558,13 +567,14 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 10] {
 }
 
 /// `rotate:4:angles`: Rotates order 4 exactly, by z, y, z from the multiples that `angles:4` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 91 (36 mul, 1 add, 54 fma); 6 constants, 20 live values.
-/// Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 91 (36 mul, 1 add, 54 fma); 6 constants, 20 live values.
+/// - Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 10], c: &[V; 16]) -> [V; 16] {
@@ -633,14 +643,15 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 10], c: &[[T; 3]; 16]) -> [[T; 3
 
 /// `lifted:4`: The multiples of the two z angles of a rotation and the shears of its y rotation that
 /// `rotate:4:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
-///     live values.
-/// Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 40 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta)
+///   Rz(gamma); then for each band from 1 and each pair of an even and an odd order of one sign what
+///   couples them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
+///   live values.
+/// - Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 40 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
@@ -695,14 +706,15 @@ pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
 
 /// `rotate:4:lifted`: Rotates order 4 exactly, by z, y, z with the y rotation as shears, from what
 /// `lifted:4` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///   then for each band from 1 and each pair of an even and an odd order of one sign what couples them
+///   in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
+/// - Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 16], c: &[V; 16]) -> [V; 16] {
@@ -760,13 +772,14 @@ pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 16], c: &[[T; 3]; 16]) -> [[T; 3
 
 /// `rotate:4:zxzxz`: Rotates order 4 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.
 /// 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 146 (73 mul, 6 add, 67 fma) and 1 inverse square root or reciprocal; 7 constants, 33
-///     live values.
-/// Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 146 (73 mul, 6 add, 67 fma) and 1 inverse square root or reciprocal; 7 constants, 33
+///   live values.
+/// - Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -865,13 +878,14 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate:4:align`: Rotates order 4 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 90 (38 mul, 3 add, 49 fma) and 1 inverse square root or reciprocal; 8 constants, 29 live
-///     values.
-/// Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 90 (38 mul, 3 add, 49 fma) and 1 inverse square root or reciprocal; 8 constants, 29
+///   live values.
+/// - Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 16]) -> [V; 16] {
@@ -946,12 +960,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `rotate:4:zonal`: Rotates a zonal signal of order 4 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 39 (33 mul, 0 add, 6 fma); 9 constants, 18 live values.
-/// Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 39 (33 mul, 0 add, 6 fma); 9 constants, 18 live values.
+/// - Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> [V; 16] {
@@ -992,15 +1007,16 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 16] {
 /// `tilt:4`: Tilts order 4: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 /// 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
 /// -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 79 (18 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 10 constants, 22
-///     live values.
-/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
-///     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 79 (18 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 10 constants, 22
+///   live values.
+/// - Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
+///   worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 16]) -> [V; 16] {
@@ -1065,15 +1081,16 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// `tilt:4:lf5`: Tilts order 4: the shortest rotation from z to a normal, with no trigonometry; bands 1
 /// and 2 exactly, the others by shears that are regular at n = z (lf5). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 104 (22 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 13 constants, 29
-///     live values.
-/// Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
-///     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 104 (22 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 13 constants, 29
+///   live values.
+/// - Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+///   worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 16]) -> [V; 16] {
@@ -1150,15 +1167,16 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// `tilt_prescaled:4`: Tilts order 4 as `tilt` does (lf3), on coefficients that `tilt_scale:4` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:4`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:4` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 77 (16 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 8 constants, 20 live
-///     values.
-/// Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:4` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 77 (16 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 8 constants, 20
+///   live values.
+/// - Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 16]) -> [V; 16] {
@@ -1219,15 +1237,16 @@ pub fn tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] 
 /// `tilt_prescaled:4:lf5`: Tilts order 4 as `tilt` does (lf5), on coefficients that `tilt_scale:4` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:4`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:4` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 100 (18 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 12 constants, 25
-///     live values.
-/// Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:4` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 100 (18 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 12 constants, 25
+///   live values.
+/// - Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 16]) -> [V; 16] {
@@ -1297,11 +1316,12 @@ pub fn lf5_tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 
 
 /// `tilt_scale:4`: Divides the coefficients of order 4 as `tilt_prescaled:4` takes them; done once,
 /// when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients as `tilt_prescaled` takes them.
-/// Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
-/// Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients as `tilt_prescaled` takes them.
+/// - Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
+/// - Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_scale<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -1333,11 +1353,12 @@ pub fn tilt_scale_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `tilt_unscale:4`: The inverse of `tilt_scale:4`: for tilted coefficients, or for a light that they
 /// are multiplied with.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
-/// Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
+/// - Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
+/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_unscale<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -1369,14 +1390,15 @@ pub fn tilt_unscale_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `taylor1:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 22 (4 mul, 0 add, 18 fma); 4 constants, 14 live values.
-/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
-///     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 22 (4 mul, 0 add, 18 fma); 4 constants, 14 live values.
+/// - Error: f32 rounding at most 4.2e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+///   worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1412,14 +1434,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `taylor15:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 44 (19 mul, 0 add, 25 fma); 12 constants, 18 live values.
-/// Error: f32 rounding at most 4.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 44 (19 mul, 0 add, 25 fma); 12 constants, 18 live values.
+/// - Error: f32 rounding at most 4.7e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1459,14 +1482,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `taylor2:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor2; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 44 (8 mul, 0 add, 36 fma); 8 constants, 18 live values.
-/// Error: f32 rounding at most 8.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
-///     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 44 (8 mul, 0 add, 36 fma); 8 constants, 18 live values.
+/// - Error: f32 rounding at most 8.5e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+///   worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1510,14 +1534,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `lf3:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 48 (15 mul, 0 add, 33 fma); 11 constants, 18 live values.
-/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
-///     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 48 (15 mul, 0 add, 33 fma); 11 constants, 18 live values.
+/// - Error: f32 rounding at most 1.4e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
+///   worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1575,14 +1600,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `lf5:4`: Rotates order 4 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 76 (22 mul, 0 add, 54 fma); 16 constants, 22 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
-///     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 76 (22 mul, 0 add, 54 fma); 16 constants, 22 live values.
+/// - Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
+///   worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1674,14 +1700,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 16] = [
 
 /// `taylor15:4:loop`: Rotates order 4 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 76 (32 mul, 0 add, 44 fma); 32 constants, 16 live values.
-/// Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 76 (32 mul, 0 add, 44 fma); 32 constants, 16 live values.
+/// - Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1703,15 +1730,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `rotate:4:taylor1`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 86 (36 mul, 2 add, 48 fma); 4 constants, 24 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
-///     worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 86 (36 mul, 2 add, 48 fma); 4 constants, 24 live values.
+/// - Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+///   worst band's in spectral norm: 3.5e-2 at 5, 1.4e-1 at 10, 3.1e-1 at 15, 8.2e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1780,15 +1808,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 16]) -> 
 
 /// `rotate:4:taylor15`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 108 (51 mul, 2 add, 55 fma); 12 constants, 26 live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
-///     worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 108 (51 mul, 2 add, 55 fma); 12 constants, 26 live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+///   worst band's in spectral norm: 1.6e-2 at 5, 6.5e-2 at 10, 1.6e-1 at 15, 5.3e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1861,15 +1890,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 16]) ->
 
 /// `rotate:4:taylor2`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 108 (40 mul, 2 add, 66 fma); 8 constants, 28 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
-///     worst band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 108 (40 mul, 2 add, 66 fma); 8 constants, 28 live values.
+/// - Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the worst
+///   band's in spectral norm: 3e-3 at 5, 2.4e-2 at 10, 8e-2 at 15, 3.7e-1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 16]) -> [V; 16] {
@@ -1946,15 +1976,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 16]) -> 
 
 /// `rotate:4:lf3`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 112 (47 mul, 2 add, 63 fma); 11 constants, 25 live values.
-/// Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
-///     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 112 (47 mul, 2 add, 63 fma); 11 constants, 25 live values.
+/// - Error: f32 rounding at most 2.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+///   worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 16]) -> [V; 16] {
@@ -2034,15 +2065,16 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 16]) -> [[T;
 
 /// `rotate:4:lf5`: Rotates order 4 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 140 (54 mul, 2 add, 84 fma); 16 constants, 27 live values.
-/// Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
-///     worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 140 (54 mul, 2 add, 84 fma); 16 constants, 27 live values.
+/// - Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+///   worst band's in spectral norm: 5e-5 at 5, 4.2e-4 at 10, 1.5e-3 at 15, 8.4e-3 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 16]) -> [V; 16] {
@@ -2144,15 +2176,16 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 16]) -> [[T;
 /// `rotate_small:4`: Rotates order 4 by z, y, z from a quaternion whose y angle is small, approximately
 /// (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five
 /// parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 130 (60 mul, 6 add, 64 fma) and 1 inverse square root or reciprocal; 11 constants, 27
-///     live values.
-/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7). Method error, the
-///     worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 130 (60 mul, 6 add, 64 fma) and 1 inverse square root or reciprocal; 11 constants, 27
+///   live values.
+/// - Error: f32 rounding at most 8.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7). Method error, the
+///   worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -2248,15 +2281,16 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 /// `rotate_small:4:lf5`: Rotates order 4 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf5; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 145 (64 mul, 6 add, 75 fma) and 1 inverse square root or reciprocal; 14 constants, 31
-///     live values.
-/// Error: f32 rounding at most 9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
-///     band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 145 (64 mul, 6 add, 75 fma) and 1 inverse square root or reciprocal; 14 constants, 31
+///   live values.
+/// - Error: f32 rounding at most 9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7). Method error, the worst
+///   band's in spectral norm: 5e-5 at 5, 4.4e-4 at 10, 1.7e-3 at 15, 1.1e-2 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 16]) -> [V; 16] {
@@ -2363,18 +2397,19 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 16]) -> [[T; 3]; 16
 /// `rotate_adaptive:4`: Rotates order 4 from a quaternion: approximately where the y angle is below a
 /// limit (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears), exactly above it.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (sqrt2
-///     + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
-///     distance r.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 137 (61 mul, 6 add, 70 fma) and 1 inverse square root or reciprocal above the limit, 133
-///     below it; 16 constants, 32 live values.
-/// Error: f32 rounding at most 8.3e-6 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
-///     Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1
-///     at 25 degrees; it grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a /
+///   (sqrt2 + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
+///   distance r.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 137 (61 mul, 6 add, 70 fma) and 1 inverse square root or reciprocal above the limit,
+///   133 below it; 16 constants, 32 live values.
+/// - Error: f32 rounding at most 8.3e-6 of the norm of a band, for every unit q, with a limit up to 25
+///   degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
+///   Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.5e-3 at 10, 2e-2 at 15, 1.1e-1 at
+///   25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 16]) -> [V; 16] {
@@ -2558,12 +2593,13 @@ pub fn rotate_adaptive_rgb<T: Real>(q: [T; 4], limit: T, c: &[[T; 3]; 16]) -> [[
 
 /// `zhf:4`: Rotates order 4 by sparse zonal factorisation over 7 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 321 (173 mul, 2 add, 146 fma); 33 constants, 82 live values.
-/// Error: f32 rounding at most 1.9e-5 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 321 (173 mul, 2 add, 146 fma); 33 constants, 82 live values.
+/// - Error: f32 rounding at most 1.9e-5 of the norm of a band, for every rotation matrix (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 16]) -> [V; 16] {
@@ -2728,11 +2764,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `zhf_weights:4`: The weights of the zonal lobes of order 4, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 28 (12 mul, 2 add, 14 fma); 19 constants, 16 live values.
-/// Error: f32 rounding at most 7.5e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.7e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 28 (12 mul, 2 add, 14 fma); 19 constants, 16 live values.
+/// - Error: f32 rounding at most 7.5e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -2771,11 +2808,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 
 /// `zhf_tailored:4`: Rotates order 4 from samples at the lobes, the sparse product A^ f (Nowrouzezahrai
 /// et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 32 (15 mul, 1 add, 16 fma); 19 constants, 16 live values.
-/// Error: f32 rounding at most 8e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 3e-7).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 32 (15 mul, 1 add, 16 fma); 19 constants, 16 live values.
+/// - Error: f32 rounding at most 8e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 16]) -> [V; 16] {
@@ -2811,12 +2849,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate_z:4`: Rotates order 4 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 32 (16 mul, 1 add, 15 fma); 0 constants, 14 live values.
-/// Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 9.3e-8).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 32 (16 mul, 1 add, 15 fma); 0 constants, 14 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.3e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 16]) -> [V; 16] {
@@ -2852,12 +2891,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate_y:4`: Rotates order 4 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 52 (18 mul, 1 add, 33 fma); 8 constants, 18 live values.
-/// Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 52 (18 mul, 1 add, 33 fma); 8 constants, 18 live values.
+/// - Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 16]) -> [V; 16] {
@@ -2910,11 +2950,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `swap_yz:4`: Exchanges y and z of order 4: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
-/// Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.6e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -2945,11 +2986,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate_x_plus_90:4`: Rotates order 4 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
-/// Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+/// - Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {
@@ -2980,11 +3022,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 }
 
 /// `rotate_x_minus_90:4`: Rotates order 4 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
-/// Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.6e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 16] {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:5`: The spherical harmonics of order 5 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 24 live values.
-/// Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.1e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 24 live values.
+/// - Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 2.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 25] {
@@ -85,11 +86,12 @@ static BASIS_LOOP_SECTORAL: [f64; 4] = [
 
 /// `basis:5:loop`: The spherical harmonics of order 5 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 66 (42 mul, 0 add, 24 fma); 24 constants, 25 live values.
-/// Error: f32 rounding at most 1.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 3.3e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 66 (42 mul, 0 add, 24 fma); 24 constants, 25 live values.
+/// - Error: f32 rounding at most 1.8e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 25] {
@@ -136,13 +138,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 25] {
 }
 
 /// `eval:5`: The sum of c_i y_i(dir) over the harmonics of order 5, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 53 (16 mul, 0 add, 37 fma); 24 constants, 7 live values.
-/// Error: f32 rounding at most 3.9e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     2.8e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 53 (16 mul, 0 add, 37 fma); 24 constants, 7 live values.
+/// - Error: f32 rounding at most 3.9e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 25]) -> V {
@@ -176,13 +179,14 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 25]) -> [T; 3] {
 
 /// `eval:5:bands=0+1+2+4`: The sum of c_i y_i(dir) over the harmonics of the bands 0, 1, 2, 4, without
 /// storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
-/// Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
-///     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     1.9e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+/// - Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   1.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn bands_0_1_2_4_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 18]) -> V {
@@ -212,13 +216,14 @@ pub fn bands_0_1_2_4_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 18]) -> [T; 3] 
 
 /// `eval_monomial:5`: The sum of c_i y_i(dir) over the harmonics of order 5, from the coefficients that
 /// `to_monomial:5` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 36 (6 mul, 1 add, 29 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     4.3e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 36 (6 mul, 1 add, 29 fma); 0 constants, 5 live values.
+/// - Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   4.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 25]) -> V {
@@ -241,11 +246,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 25]) -> [T; 3] {
 
 /// `to_monomial:5`: From the coefficients of the harmonics of order 5 to those of the monomials that
 /// `eval_monomial:5` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
-/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
+/// - Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -287,13 +293,14 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `rotate:5`: Rotates order 5 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 /// angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
-///     live values.
-/// Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
+///   live values.
+/// - Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -455,13 +462,14 @@ static ROTATE_LOOP_J: [f64; 44] = [
 
 /// `rotate:5:loop`: Rotates order 5 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
-///     live values.
-/// Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants,
+///   64 live values.
+/// - Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -544,12 +552,13 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate:5:euler`: Rotates order 5 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
-/// Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 3.1e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
+/// - Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 25]) -> [V; 25] {
@@ -681,13 +690,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 25]) -> [[T; 3];
 
 /// `angles:5`: The multiples of the three angles of a rotation that `rotate:5:angles` takes; done once
 /// for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 26 live
-///     values.
-/// Error: f32 rounding at most 6.3e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.5e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 26
+///   live values.
+/// - Error: f32 rounding at most 6.3e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 13] {
@@ -741,13 +751,14 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 13] {
 }
 
 /// `rotate:5:angles`: Rotates order 5 exactly, by z, y, z from the multiples that `angles:5` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
+/// - Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 13], c: &[V; 25]) -> [V; 25] {
@@ -857,14 +868,15 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 13], c: &[[T; 3]; 25]) -> [[T; 3
 
 /// `lifted:5`: The multiples of the two z angles of a rotation and the shears of its y rotation that
 /// `rotate:5:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 122 (66 mul, 6 add, 50 fma) and 4 inverse square roots or reciprocals; 27 constants, 57
-///     live values.
-/// Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 30 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta)
+///   Rz(gamma); then for each band from 1 and each pair of an even and an odd order of one sign what
+///   couples them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - Operations: 122 (66 mul, 6 add, 50 fma) and 4 inverse square roots or reciprocals; 27 constants,
+///   57 live values.
+/// - Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 30 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 28] {
@@ -938,14 +950,15 @@ pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 28] {
 
 /// `rotate:5:lifted`: Rotates order 5 exactly, by z, y, z with the y rotation as shears, from what
 /// `lifted:5` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
-/// Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///   then for each band from 1 and each pair of an even and an odd order of one sign what couples them
+///   in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
+/// - Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 28], c: &[V; 25]) -> [V; 25] {
@@ -1029,13 +1042,14 @@ pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 28], c: &[[T; 3]; 25]) -> [[T; 3
 
 /// `rotate:5:zxzxz`: Rotates order 5 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.
 /// 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 248 (121 mul, 6 add, 121 fma) and 1 inverse square root or reciprocal; 15 constants, 47
-///     live values.
-/// Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 248 (121 mul, 6 add, 121 fma) and 1 inverse square root or reciprocal; 15 constants,
+///   47 live values.
+/// - Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -1183,13 +1197,14 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate:5:align`: Rotates order 5 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
-///     live values.
-/// Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
+///   live values.
+/// - Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1304,12 +1319,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `rotate:5:zonal`: Rotates a zonal signal of order 5 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
-/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
+/// - Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 5]) -> [V; 25] {
@@ -1369,15 +1385,16 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 5]) -> [[T; 3]; 25] {
 /// `tilt:5`: Tilts order 5: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 /// 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
 /// -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 133 (28 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 19 constants, 33
-///     live values.
-/// Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
-///     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 133 (28 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 19 constants, 33
+///   live values.
+/// - Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the
+///   worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1474,15 +1491,16 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// `tilt:5:lf5`: Tilts order 5: the shortest rotation from z to a normal, with no trigonometry; bands 1
 /// and 2 exactly, the others by shears that are regular at n = z (lf5). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 193 (38 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 25 constants, 41
-///     live values.
-/// Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 193 (38 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 25 constants, 41
+///   live values.
+/// - Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1607,15 +1625,16 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// `tilt_prescaled:5`: Tilts order 5 as `tilt` does (lf3), on coefficients that `tilt_scale:5` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:5`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:5` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 127 (22 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 13 constants, 31
-///     live values.
-/// Error: f32 rounding at most 3.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
-///     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:5` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 127 (22 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 13 constants, 31
+///   live values.
+/// - Error: f32 rounding at most 3.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
+///   worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1702,15 +1721,16 @@ pub fn tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] 
 /// `tilt_prescaled:5:lf5`: Tilts order 5 as `tilt` does (lf5), on coefficients that `tilt_scale:5` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:5`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:5` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 183 (28 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 18 constants, 35
-///     live values.
-/// Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:5` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 183 (28 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 18 constants, 35
+///   live values.
+/// - Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 25]) -> [V; 25] {
@@ -1820,11 +1840,12 @@ pub fn lf5_tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 
 
 /// `tilt_scale:5`: Divides the coefficients of order 5 as `tilt_prescaled:5` takes them; done once,
 /// when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients as `tilt_prescaled` takes them.
-/// Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
-/// Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients as `tilt_prescaled` takes them.
+/// - Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
+/// - Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_scale<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -1865,11 +1886,12 @@ pub fn tilt_scale_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `tilt_unscale:5`: The inverse of `tilt_scale:5`: for tilted coefficients, or for a light that they
 /// are multiplied with.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
-/// Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
+/// - Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
+/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_unscale<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -1910,14 +1932,15 @@ pub fn tilt_unscale_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `taylor1:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 40 (8 mul, 0 add, 32 fma); 8 constants, 23 live values.
-/// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 40 (8 mul, 0 add, 32 fma); 8 constants, 23 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -1966,14 +1989,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `taylor15:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 77 (32 mul, 1 add, 44 fma); 21 constants, 28 live values.
-/// Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
-///     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 77 (32 mul, 1 add, 44 fma); 21 constants, 28 live values.
+/// - Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
+///   worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2029,14 +2053,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `taylor2:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor2; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 79 (15 mul, 0 add, 64 fma); 15 constants, 28 live values.
-/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
-///     worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 79 (15 mul, 0 add, 64 fma); 15 constants, 28 live values.
+/// - Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+///   worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2101,14 +2126,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `lf3:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 81 (25 mul, 0 add, 56 fma); 16 constants, 28 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
-///     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 81 (25 mul, 0 add, 56 fma); 16 constants, 28 live values.
+/// - Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the worst
+///   band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2193,14 +2219,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `lf5:5`: Rotates order 5 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 129 (37 mul, 0 add, 92 fma); 23 constants, 33 live values.
-/// Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 129 (37 mul, 0 add, 92 fma); 23 constants, 33 live values.
+/// - Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2321,14 +2348,15 @@ pub fn lf5_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// `mix:5:taylor15+taylor15+taylor15+taylor1`: Rotates order 5 about y by a small angle, approximately
 /// (bands from 1: taylor15, taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 62 (23 mul, 0 add, 39 fma); 16 constants, 23 live values.
-/// Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
-///     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 62 (23 mul, 0 add, 39 fma); 16 constants, 23 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
+///   worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_taylor15_taylor15_taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2391,14 +2419,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 25] = [
 
 /// `taylor15:5:loop`: Rotates order 5 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
-/// Error: f32 rounding at most 6.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
-///     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
+/// - Error: f32 rounding at most 6.2e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
+///   worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2420,15 +2449,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `rotate:5:taylor1`: Rotates order 5 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 144 (60 mul, 2 add, 82 fma); 8 constants, 36 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
-///     band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 144 (60 mul, 2 add, 82 fma); 8 constants, 36 live values.
+/// - Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the
+///   worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2530,15 +2560,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> 
 
 /// `rotate:5:taylor15`: Rotates order 5 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 181 (84 mul, 3 add, 94 fma); 21 constants, 38 live values.
-/// Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
-///     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 181 (84 mul, 3 add, 94 fma); 21 constants, 38 live values.
+/// - Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+///   worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2647,15 +2678,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) ->
 
 /// `rotate:5:taylor2`: Rotates order 5 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 183 (67 mul, 2 add, 114 fma); 15 constants, 41 live values.
-/// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
-///     band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 183 (67 mul, 2 add, 114 fma); 15 constants, 41 live values.
+/// - Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the
+///   worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2773,15 +2805,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> 
 
 /// `rotate:5:lf3`: Rotates order 5 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 185 (77 mul, 2 add, 106 fma); 16 constants, 37 live values.
-/// Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
-///     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 185 (77 mul, 2 add, 106 fma); 16 constants, 37 live values.
+/// - Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
+///   worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -2900,15 +2933,16 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> [[T;
 
 /// `rotate:5:lf5`: Rotates order 5 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 233 (89 mul, 2 add, 142 fma); 23 constants, 42 live values.
-/// Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 233 (89 mul, 2 add, 142 fma); 23 constants, 42 live values.
+/// - Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 25]) -> [V; 25] {
@@ -3063,15 +3097,16 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 25]) -> [[T;
 /// `rotate_small:5`: Rotates order 5 by z, y, z from a quaternion whose y angle is small, approximately
 /// (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five
 /// parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 203 (90 mul, 6 add, 107 fma) and 1 inverse square root or reciprocal; 15 constants, 41
-///     live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
-///     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 203 (90 mul, 6 add, 107 fma) and 1 inverse square root or reciprocal; 15 constants, 41
+///   live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
+///   worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -3206,15 +3241,16 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 /// `rotate_small:5:lf5`: Rotates order 5 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf5; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 238 (99 mul, 6 add, 133 fma) and 1 inverse square root or reciprocal; 21 constants, 46
-///     live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 238 (99 mul, 6 add, 133 fma) and 1 inverse square root or reciprocal; 21 constants, 46
+///   live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 25]) -> [V; 25] {
@@ -3374,18 +3410,19 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 25]) -> [[T; 3]; 25
 /// `rotate_adaptive:5`: Rotates order 5 from a quaternion: approximately where the y angle is below a
 /// limit (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears), exactly above it.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (sqrt2
-///     + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
-///     distance r.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 227 (91 mul, 6 add, 130 fma) and 1 inverse square root or reciprocal above the limit,
-///     206 below it; 27 constants, 46 live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
-///     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
-///     at 25 degrees; it grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a /
+///   (sqrt2 + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
+///   distance r.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 227 (91 mul, 6 add, 130 fma) and 1 inverse square root or reciprocal above the limit,
+///   206 below it; 27 constants, 46 live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
+///   degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
+///   Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
+///   at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 25]) -> [V; 25] {
@@ -3655,12 +3692,13 @@ pub fn rotate_adaptive_rgb<T: Real>(q: [T; 4], limit: T, c: &[[T; 3]; 25]) -> [[
 
 /// `zhf:5`: Rotates order 5 by sparse zonal factorisation over 9 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 636 (331 mul, 13 add, 292 fma); 69 constants, 131 live values.
-/// Error: f32 rounding at most 4.2e-5 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.7e-7).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 636 (331 mul, 13 add, 292 fma); 69 constants, 131 live values.
+/// - Error: f32 rounding at most 4.2e-5 of the norm of a band, for every rotation matrix (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 8.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 25]) -> [V; 25] {
@@ -3962,11 +4000,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `zhf_weights:5`: The weights of the zonal lobes of order 5, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 68 (22 mul, 4 add, 42 fma); 43 constants, 27 live values.
-/// Error: f32 rounding at most 1.5e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 68 (22 mul, 4 add, 42 fma); 43 constants, 27 live values.
+/// - Error: f32 rounding at most 1.5e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -4023,11 +4062,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 
 /// `zhf_tailored:5`: Rotates order 5 from samples at the lobes, the sparse product A^ f (Nowrouzezahrai
 /// et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 68 (22 mul, 2 add, 44 fma); 43 constants, 25 live values.
-/// Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 68 (22 mul, 2 add, 44 fma); 43 constants, 25 live values.
+/// - Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 25]) -> [V; 25] {
@@ -4085,12 +4125,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate_z:5`: Rotates order 5 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 52 (26 mul, 1 add, 25 fma); 0 constants, 23 live values.
-/// Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 52 (26 mul, 1 add, 25 fma); 0 constants, 23 live values.
+/// - Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 25]) -> [V; 25] {
@@ -4137,12 +4178,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate_y:5`: Rotates order 5 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.2e-7).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
+/// - Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 25]) -> [V; 25] {
@@ -4228,11 +4270,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `swap_yz:5`: Exchanges y and z of order 5: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.2e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+/// - Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -4275,11 +4318,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate_x_plus_90:5`: Rotates order 5 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.2e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+/// - Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
@@ -4322,11 +4366,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `rotate_x_minus_90:5`: Rotates order 5 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
-/// Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.2e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+/// - Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:6`: The spherical harmonics of order 6 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 39 live values.
-/// Error: f32 rounding at most 1.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.5e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 39 live values.
+/// - Error: f32 rounding at most 1.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 36] {
@@ -111,11 +112,12 @@ static BASIS_LOOP_SECTORAL: [f64; 5] = [
 
 /// `basis:6:loop`: The spherical harmonics of order 6 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 95 (60 mul, 0 add, 35 fma); 35 constants, 36 live values.
-/// Error: f32 rounding at most 2.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 5.4e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 95 (60 mul, 0 add, 35 fma); 35 constants, 36 live values.
+/// - Error: f32 rounding at most 2.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 5.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 36] {
@@ -162,13 +164,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 36] {
 }
 
 /// `eval:6`: The sum of c_i y_i(dir) over the harmonics of order 6, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 77 (21 mul, 0 add, 56 fma); 36 constants, 8 live values.
-/// Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     3.3e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 77 (21 mul, 0 add, 56 fma); 36 constants, 8 live values.
+/// - Error: f32 rounding at most 6.8e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> V {
@@ -213,13 +216,14 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [T; 3] {
 
 /// `eval_monomial:6`: The sum of c_i y_i(dir) over the harmonics of order 6, from the coefficients that
 /// `to_monomial:6` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 51 (8 mul, 1 add, 42 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     5.1e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 51 (8 mul, 1 add, 42 fma); 0 constants, 5 live values.
+/// - Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   5.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> V {
@@ -247,11 +251,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [T; 3] {
 
 /// `to_monomial:6`: From the coefficients of the harmonics of order 6 to those of the monomials that
 /// `eval_monomial:6` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 56 (36 mul, 0 add, 20 fma); 33 constants, 36 live values.
-/// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 56 (36 mul, 0 add, 20 fma); 33 constants, 36 live values.
+/// - Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -307,13 +312,14 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `rotate:6`: Rotates order 6 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 /// angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 342 (125 mul, 6 add, 211 fma) and 1 inverse square root or reciprocal; 33 constants, 63
-///     live values.
-/// Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 342 (125 mul, 6 add, 211 fma) and 1 inverse square root or reciprocal; 33 constants,
+///   63 live values.
+/// - Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -545,13 +551,14 @@ static ROTATE_LOOP_J: [f64; 75] = [
 
 /// `rotate:6:loop`: Rotates order 6 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 398 (195 mul, 7 add, 196 fma) and 1 inverse square root or reciprocal; 75 constants, 83
-///     live values.
-/// Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 398 (195 mul, 7 add, 196 fma) and 1 inverse square root or reciprocal; 75 constants,
+///   83 live values.
+/// - Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -634,12 +641,13 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate:6:euler`: Rotates order 6 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 324 (116 mul, 3 add, 205 fma); 33 constants, 59 live values.
-/// Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 324 (116 mul, 3 add, 205 fma); 33 constants, 59 live values.
+/// - Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 36]) -> [V; 36] {
@@ -835,13 +843,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 36]) -> [[T; 3];
 
 /// `angles:6`: The multiples of the three angles of a rotation that `rotate:6:angles` takes; done once
 /// for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 32 live
-///     values.
-/// Error: f32 rounding at most 8e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 32
+///   live values.
+/// - Error: f32 rounding at most 8e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
@@ -904,13 +913,14 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 16] {
 }
 
 /// `rotate:6:angles`: Rotates order 6 exactly, by z, y, z from the multiples that `angles:6` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
-/// Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.7e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
+/// - Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 16], c: &[V; 36]) -> [V; 36] {
@@ -1078,14 +1088,15 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 16], c: &[[T; 3]; 36]) -> [[T; 3
 
 /// `lifted:6`: The multiples of the two z angles of a rotation and the shears of its y rotation that
 /// `rotate:6:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 215 (103 mul, 6 add, 106 fma) and 5 inverse square roots or reciprocals; 72 constants,
-///     92 live values.
-/// Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 24 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta)
+///   Rz(gamma); then for each band from 1 and each pair of an even and an odd order of one sign what
+///   couples them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - Operations: 215 (103 mul, 6 add, 106 fma) and 5 inverse square roots or reciprocals; 72 constants,
+///   92 live values.
+/// - Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 24 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 45] {
@@ -1201,14 +1212,15 @@ pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 45] {
 
 /// `rotate:6:lifted`: Rotates order 6 exactly, by z, y, z with the y rotation as shears, from what
 /// `lifted:6` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
-/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///   then for each band from 1 and each pair of an even and an odd order of one sign what couples them
+///   in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
+/// - Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 45], c: &[V; 36]) -> [V; 36] {
@@ -1324,13 +1336,14 @@ pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 45], c: &[[T; 3]; 36]) -> [[T; 3
 
 /// `rotate:6:zxzxz`: Rotates order 6 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.
 /// 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 382 (179 mul, 6 add, 197 fma) and 1 inverse square root or reciprocal; 28 constants, 63
-///     live values.
-/// Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 382 (179 mul, 6 add, 197 fma) and 1 inverse square root or reciprocal; 28 constants,
+///   63 live values.
+/// - Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -1537,13 +1550,14 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate:6:align`: Rotates order 6 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 254 (82 mul, 3 add, 169 fma) and 1 inverse square root or reciprocal; 33 constants, 60
-///     live values.
-/// Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 254 (82 mul, 3 add, 169 fma) and 1 inverse square root or reciprocal; 33 constants, 60
+///   live values.
+/// - Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 36]) -> [V; 36] {
@@ -1713,12 +1727,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `rotate:6:zonal`: Rotates a zonal signal of order 6 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 97 (78 mul, 0 add, 19 fma); 31 constants, 41 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 97 (78 mul, 0 add, 19 fma); 31 constants, 41 live values.
+/// - Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> [V; 36] {
@@ -1800,15 +1815,16 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [[T; 3]; 36] {
 /// `tilt:6`: Tilts order 6: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 /// 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
 /// -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 201 (40 mul, 2 add, 159 fma) and 1 inverse square root or reciprocal; 31 constants, 44
-///     live values.
-/// Error: f32 rounding at most 6.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
-///     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 201 (40 mul, 2 add, 159 fma) and 1 inverse square root or reciprocal; 31 constants, 44
+///   live values.
+/// - Error: f32 rounding at most 6.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
+///   worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 36]) -> [V; 36] {
@@ -1945,15 +1961,16 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// `tilt:6:lf5`: Tilts order 6: the shortest rotation from z to a normal, with no trigonometry; bands 1
 /// and 2 exactly, the others by shears that are regular at n = z (lf5). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 304 (56 mul, 2 add, 246 fma) and 1 inverse square root or reciprocal; 38 constants, 53
-///     live values.
-/// Error: f32 rounding at most 8.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
-///     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 304 (56 mul, 2 add, 246 fma) and 1 inverse square root or reciprocal; 38 constants, 53
+///   live values.
+/// - Error: f32 rounding at most 8.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
+///   worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 36]) -> [V; 36] {
@@ -2136,15 +2153,16 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// `tilt_prescaled:6`: Tilts order 6 as `tilt` does (lf3), on coefficients that `tilt_scale:6` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:6`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:6` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 189 (28 mul, 2 add, 159 fma) and 1 inverse square root or reciprocal; 16 constants, 40
-///     live values.
-/// Error: f32 rounding at most 6.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
-///     worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:6` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 189 (28 mul, 2 add, 159 fma) and 1 inverse square root or reciprocal; 16 constants, 40
+///   live values.
+/// - Error: f32 rounding at most 6.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
+///   worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 36]) -> [V; 36] {
@@ -2261,15 +2279,16 @@ pub fn tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] 
 /// `tilt_prescaled:6:lf5`: Tilts order 6 as `tilt` does (lf5), on coefficients that `tilt_scale:6` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:6`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:6` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 284 (36 mul, 2 add, 246 fma) and 1 inverse square root or reciprocal; 23 constants, 45
-///     live values.
-/// Error: f32 rounding at most 9.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
-///     worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:6` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 284 (36 mul, 2 add, 246 fma) and 1 inverse square root or reciprocal; 23 constants, 45
+///   live values.
+/// - Error: f32 rounding at most 9.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.5e-7). Method error, the
+///   worst band's in spectral norm: 2.5e-4 at 5, 2.2e-3 at 10, 8.2e-3 at 15, 4.8e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 36]) -> [V; 36] {
@@ -2423,11 +2442,12 @@ pub fn lf5_tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 
 
 /// `tilt_scale:6`: Divides the coefficients of order 6 as `tilt_prescaled:6` takes them; done once,
 /// when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients as `tilt_prescaled` takes them.
-/// Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
-/// Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients as `tilt_prescaled` takes them.
+/// - Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
+/// - Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_scale<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -2479,11 +2499,12 @@ pub fn tilt_scale_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `tilt_unscale:6`: The inverse of `tilt_scale:6`: for tilted coefficients, or for a light that they
 /// are multiplied with.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
-/// Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
+/// - Operations: 24 (24 mul, 0 add, 0 fma); 12 constants, 24 live values.
+/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_unscale<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -2535,14 +2556,15 @@ pub fn tilt_unscale_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `taylor1:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 60 (10 mul, 0 add, 50 fma); 10 constants, 34 live values.
-/// Error: f32 rounding at most 6.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
-///     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 60 (10 mul, 0 add, 50 fma); 10 constants, 34 live values.
+/// - Error: f32 rounding at most 6.5e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
+///   worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -2604,14 +2626,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `taylor15:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 113 (45 mul, 1 add, 67 fma); 28 constants, 40 live values.
-/// Error: f32 rounding at most 9.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
-///     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 113 (45 mul, 1 add, 67 fma); 28 constants, 40 live values.
+/// - Error: f32 rounding at most 9.1e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
+///   worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -2684,14 +2707,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `taylor2:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor2; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 119 (19 mul, 0 add, 100 fma); 19 constants, 40 live values.
-/// Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 119 (19 mul, 0 add, 100 fma); 19 constants, 40 live values.
+/// - Error: f32 rounding at most 1.9e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -2778,14 +2802,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `lf3:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 122 (37 mul, 0 add, 85 fma); 20 constants, 40 live values.
-/// Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
-///     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 122 (37 mul, 0 add, 85 fma); 20 constants, 40 live values.
+/// - Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
+///   worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -2903,14 +2928,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `lf5:6`: Rotates order 6 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 195 (55 mul, 0 add, 140 fma); 28 constants, 46 live values.
-/// Error: f32 rounding at most 2.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
-///     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 195 (55 mul, 0 add, 140 fma); 28 constants, 46 live values.
+/// - Error: f32 rounding at most 2.9e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
+///   worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3099,14 +3125,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 36] = [
 
 /// `taylor15:6:loop`: Rotates order 6 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 176 (72 mul, 0 add, 104 fma); 72 constants, 36 live values.
-/// Error: f32 rounding at most 9e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
-///     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 176 (72 mul, 0 add, 104 fma); 72 constants, 36 live values.
+/// - Error: f32 rounding at most 9e-7 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the worst
+///   band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3128,15 +3155,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `rotate:6:taylor1`: Rotates order 6 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 212 (86 mul, 2 add, 124 fma); 10 constants, 50 live values.
-/// Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
-///     worst band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 212 (86 mul, 2 add, 124 fma); 10 constants, 50 live values.
+/// - Error: f32 rounding at most 4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the worst
+///   band's in spectral norm: 9.5e-2 at 5, 3.8e-1 at 10, 8.2e-1 at 15, 2.1e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3275,15 +3303,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 36]) -> 
 
 /// `rotate:6:taylor15`: Rotates order 6 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 265 (121 mul, 3 add, 141 fma); 28 constants, 53 live values.
-/// Error: f32 rounding at most 4.5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
-///     worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 265 (121 mul, 3 add, 141 fma); 28 constants, 53 live values.
+/// - Error: f32 rounding at most 4.5e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
+///   worst band's in spectral norm: 4.6e-2 at 5, 2.1e-1 at 10, 5.1e-1 at 15, 1.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3433,15 +3462,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 36]) ->
 
 /// `rotate:6:taylor2`: Rotates order 6 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 271 (95 mul, 2 add, 174 fma); 19 constants, 54 live values.
-/// Error: f32 rounding at most 5.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
-///     worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 271 (95 mul, 2 add, 174 fma); 19 constants, 54 live values.
+/// - Error: f32 rounding at most 5.4e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
+///   worst band's in spectral norm: 1.4e-2 at 5, 1.1e-1 at 10, 3.7e-1 at 15, 1.6e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3605,15 +3635,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 36]) -> 
 
 /// `rotate:6:lf3`: Rotates order 6 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 274 (113 mul, 2 add, 159 fma); 20 constants, 51 live values.
-/// Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
-///     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 274 (113 mul, 2 add, 159 fma); 20 constants, 51 live values.
+/// - Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7). Method error, the
+///   worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.4e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 36]) -> [V; 36] {
@@ -3779,15 +3810,16 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 36]) -> [[T;
 
 /// `rotate:6:lf5`: Rotates order 6 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 347 (131 mul, 2 add, 214 fma); 28 constants, 56 live values.
-/// Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
-///     worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 347 (131 mul, 2 add, 214 fma); 28 constants, 56 live values.
+/// - Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
+///   worst band's in spectral norm: 2.6e-4 at 5, 2.2e-3 at 10, 8.4e-3 at 15, 5.2e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 36]) -> [V; 36] {
@@ -4006,15 +4038,16 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 36]) -> [[T;
 /// `rotate_small:6`: Rotates order 6 by z, y, z from a quaternion whose y angle is small, approximately
 /// (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five
 /// parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 292 (126 mul, 6 add, 160 fma) and 1 inverse square root or reciprocal; 19 constants, 55
-///     live values.
-/// Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
-///     worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 292 (126 mul, 6 add, 160 fma) and 1 inverse square root or reciprocal; 19 constants,
+///   55 live values.
+/// - Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6). Method error, the
+///   worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -4196,15 +4229,16 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// `rotate_small:6:lf5`: Rotates order 6 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf5; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 352 (141 mul, 6 add, 205 fma) and 1 inverse square root or reciprocal; 26 constants, 60
-///     live values.
-/// Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
-///     worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 352 (141 mul, 6 add, 205 fma) and 1 inverse square root or reciprocal; 26 constants,
+///   60 live values.
+/// - Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.8e-7). Method error, the
+///   worst band's in spectral norm: 2.6e-4 at 5, 2.3e-3 at 10, 8.7e-3 at 15, 5.5e-2 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 36]) -> [V; 36] {
@@ -4428,18 +4462,19 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 36]) -> [[T; 3]; 36
 /// `rotate_adaptive:6`: Rotates order 6 from a quaternion: approximately where the y angle is below a
 /// limit (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears), exactly above it.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (sqrt2
-///     + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
-///     distance r.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 345 (127 mul, 6 add, 212 fma) and 1 inverse square root or reciprocal above the limit,
-///     295 below it; 49 constants, 63 live values.
-/// Error: f32 rounding at most 2.4e-5 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
-///     Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
-///     at 25 degrees; it grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a /
+///   (sqrt2 + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
+///   distance r.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 345 (127 mul, 6 add, 212 fma) and 1 inverse square root or reciprocal above the limit,
+///   295 below it; 49 constants, 63 live values.
+/// - Error: f32 rounding at most 2.4e-5 of the norm of a band, for every unit q, with a limit up to 25
+///   degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
+///   Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.9e-2 at 10, 1.1e-1 at 15, 7.3e-1
+///   at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 36]) -> [V; 36] {
@@ -5289,12 +5324,13 @@ fn zhf_part_1<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 36], [t1, t3, t5, 
 
 /// `zhf:6`: Rotates order 6 by sparse zonal factorisation over 11 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 1126 (554 mul, 8 add, 564 fma); 117 constants, 217 live values.
-/// Error: f32 rounding at most 1.7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 3.8e-6).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 1126 (554 mul, 8 add, 564 fma); 117 constants, 217 live values.
+/// - Error: f32 rounding at most 1.7e-4 of the norm of a band, for every rotation matrix (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 36]) -> [V; 36] {
@@ -5348,11 +5384,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `zhf_weights:6`: The weights of the zonal lobes of order 6, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 120 (28 mul, 2 add, 90 fma); 77 constants, 36 live values.
-/// Error: f32 rounding at most 3.8e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 120 (28 mul, 2 add, 90 fma); 77 constants, 36 live values.
+/// - Error: f32 rounding at most 3.8e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -5436,11 +5473,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 
 /// `zhf_tailored:6`: Rotates order 6 from samples at the lobes, the sparse product A^ f (Nowrouzezahrai
 /// et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 122 (30 mul, 4 add, 88 fma); 77 constants, 36 live values.
-/// Error: f32 rounding at most 5.8e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 122 (30 mul, 4 add, 88 fma); 77 constants, 36 live values.
+/// - Error: f32 rounding at most 5.8e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 36]) -> [V; 36] {
@@ -5523,12 +5561,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate_z:6`: Rotates order 6 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 76 (38 mul, 1 add, 37 fma); 0 constants, 34 live values.
-/// Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 76 (38 mul, 1 add, 37 fma); 0 constants, 34 live values.
+/// - Error: f32 rounding at most 6.7e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 36]) -> [V; 36] {
@@ -5588,12 +5627,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate_y:6`: Rotates order 6 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 172 (40 mul, 1 add, 131 fma); 33 constants, 42 live values.
-/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 172 (40 mul, 1 add, 131 fma); 33 constants, 42 live values.
+/// - Error: f32 rounding at most 2.2e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 36]) -> [V; 36] {
@@ -5724,11 +5764,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `swap_yz:6`: Exchanges y and z of order 6: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
-/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -5791,11 +5832,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate_x_plus_90:6`: Rotates order 6 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
-/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -5858,11 +5900,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 }
 
 /// `rotate_x_minus_90:6`: Rotates order 6 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
-/// Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 68 (28 mul, 0 add, 40 fma); 27 constants, 32 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {

@@ -5,11 +5,12 @@
 use super::real::{Channels, Real, Signal};
 /// `basis:8`: The spherical harmonics of order 8 at a direction, accurate also near the poles (Sloan
 /// 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 122 (82 mul, 0 add, 40 fma); 68 constants, 70 live values.
-/// Error: f32 rounding at most 3.6e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 5.5e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 122 (82 mul, 0 add, 40 fma); 68 constants, 70 live values.
+/// - Error: f32 rounding at most 3.6e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 5.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 64] {
@@ -168,11 +169,12 @@ static BASIS_LOOP_SECTORAL: [f64; 7] = [
 
 /// `basis:8:loop`: The spherical harmonics of order 8 at a direction, accurate also near the poles
 /// (Sloan 2013's recurrence, rearranged).
-/// dir: the direction, of unit length.
-/// Returns y_lm(dir), bands ascending, m from -l to l.
-/// Operations: 168 (105 mul, 0 add, 63 fma); 63 constants, 64 live values.
-/// Error: f32 rounding at most 6.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 8.5e-7).
+///
+/// - dir: the direction, of unit length.
+/// - Returns y_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 168 (105 mul, 0 add, 63 fma); 63 constants, 64 live values.
+/// - Error: f32 rounding at most 6.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
+///   contracted or not; the worst of 256 measured is 8.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 64] {
@@ -219,13 +221,14 @@ pub fn basis_loop<T: Real>(dir: [T; 3]) -> [T; 64] {
 }
 
 /// `eval:8`: The sum of c_i y_i(dir) over the harmonics of order 8, without storing the basis.
-/// dir: the direction, of unit length.
-/// c: the coefficients of the bands, ascending.
-/// Returns sum c_i y_i(dir).
-/// Operations: 139 (34 mul, 0 add, 105 fma); 70 constants, 11 live values.
-/// Error: f32 rounding at most 1.7e-5 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     4.9e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the bands, ascending.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 139 (34 mul, 0 add, 105 fma); 70 constants, 11 live values.
+/// - Error: f32 rounding at most 1.7e-5 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   4.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 64]) -> V {
@@ -292,13 +295,13 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 64]) -> [T; 3] {
 
 /// `eval_monomial:8`: The sum of c_i y_i(dir) over the harmonics of order 8, from the coefficients that
 /// `to_monomial:8` makes.
-/// dir: the direction, of unit length.
-/// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Returns sum c_i y_i(dir).
-/// Operations: 87 (12 mul, 1 add, 74 fma); 0 constants, 5 live values.
-/// Error: f32 rounding at most 1.2e-5 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     7e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 87 (12 mul, 1 add, 74 fma); 0 constants, 5 live values.
+/// - Error: f32 rounding at most 1.2e-5 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 64]) -> V {
@@ -335,11 +338,12 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 64]) -> [T; 3] {
 
 /// `to_monomial:8`: From the coefficients of the harmonics of order 8 to those of the monomials that
 /// `eval_monomial:8` takes; done once, when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// Operations: 120 (64 mul, 0 add, 56 fma); 69 constants, 64 live values.
-/// Error: f32 rounding at most 8e-6 of the norm of a band, for every input (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.3e-6).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Operations: 120 (64 mul, 0 add, 56 fma); 69 constants, 64 live values.
+/// - Error: f32 rounding at most 8e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.3e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -435,13 +439,14 @@ pub fn to_monomial_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `rotate:8`: Rotates order 8 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every
 /// angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 676 (215 mul, 6 add, 455 fma) and 1 inverse square root or reciprocal; 96 constants, 102
-///     live values.
-/// Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 676 (215 mul, 6 add, 455 fma) and 1 inverse square root or reciprocal; 96 constants,
+///   102 live values.
+/// - Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -869,13 +874,14 @@ static ROTATE_LOOP_J: [f64; 175] = [
 
 /// `rotate:8:loop`: Rotates order 8 exactly, by z, y, z from a quaternion: no trigonometry, no branch,
 /// every angle.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 778 (341 mul, 7 add, 430 fma) and 1 inverse square root or reciprocal; 175 constants,
-///     127 live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 778 (341 mul, 7 add, 430 fma) and 1 inverse square root or reciprocal; 175 constants,
+///   127 live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_loop<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -958,12 +964,13 @@ pub fn rotate_rgb_loop<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate:8:euler`: Rotates order 8 exactly, by z, y, z from three (cos, sin) pairs.
-/// cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 658 (206 mul, 3 add, 449 fma); 96 constants, 98 live values.
-/// Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
+///
+/// - cs: (cos, sin) of alpha, beta and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 658 (206 mul, 3 add, 449 fma); 96 constants, 98 live values.
+/// - Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_euler<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], c: &[V; 64]) -> [V; 64] {
@@ -1334,13 +1341,14 @@ pub fn rotate_euler_rgb<T: Real>(cs: &[[T; 2]; 3], c: &[[T; 3]; 64]) -> [[T; 3];
 
 /// `angles:8`: The multiples of the three angles of a rotation that `rotate:8:angles` takes; done once
 /// for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
-///     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// Operations: 91 (47 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 2 constants, 44 live
-///     values.
-/// Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - Operations: 91 (47 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 2 constants, 44
+///   live values.
+/// - Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 22] {
@@ -1421,13 +1429,14 @@ pub fn angles<T: Real>(q: [T; 4]) -> [[T; 2]; 22] {
 }
 
 /// `rotate:8:angles`: Rotates order 8 exactly, by z, y, z from the multiples that `angles:8` makes.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha) Ry(beta)
-///     Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 585 (168 mul, 1 add, 416 fma); 95 constants, 74 live values.
-/// Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of beta, then of gamma, in Rz(alpha)
+///   Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 585 (168 mul, 1 add, 416 fma); 95 constants, 74 live values.
+/// - Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 22], c: &[V; 64]) -> [V; 64] {
@@ -1758,14 +1767,15 @@ pub fn rotate_angles_rgb<T: Real>(cs: &[[T; 2]; 22], c: &[[T; 3]; 64]) -> [[T; 3
 
 /// `lifted:8`: The multiples of the two z angles of a rotation and the shears of its y rotation that
 /// `rotate:8:lifted` takes; done once for many signals.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// Operations: 565 (211 mul, 6 add, 348 fma) and 7 inverse square roots or reciprocals; 250 constants,
-///     200 live values.
-/// Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - Returns (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta)
+///   Rz(gamma); then for each band from 1 and each pair of an even and an odd order of one sign what
+///   couples them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - Operations: 565 (211 mul, 6 add, 348 fma) and 7 inverse square roots or reciprocals; 250
+///   constants, 200 live values.
+/// - Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 98] {
@@ -2036,14 +2046,15 @@ pub fn lifted<T: Real>(q: [T; 4]) -> [[T; 2]; 98] {
 
 /// `rotate:8:lifted`: Rotates order 8 exactly, by z, y, z with the y rotation as shears, from what
 /// `lifted:8` makes; the y angle is bounded.
-/// cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
-///     then for each band from 1 and each pair of an even and an odd order of one sign what couples
-///     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
-/// Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
-///     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
+///
+/// - cs: (cos, sin) of alpha, 2alpha, ..., (n-1)alpha, then of the multiples of gamma, in Rz(alpha) Ry(beta) Rz(gamma);
+///   then for each band from 1 and each pair of an even and an odd order of one sign what couples them
+///   in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
+/// - Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
+///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_lifted<T: Real, V: Signal<T>>(cs: &[[T; 2]; 98], c: &[V; 64]) -> [V; 64] {
@@ -2247,13 +2258,14 @@ pub fn rotate_lifted_rgb<T: Real>(cs: &[[T; 2]; 98], c: &[[T; 3]; 64]) -> [[T; 3
 
 /// `rotate:8:zxzxz`: Rotates order 8 exactly, by z, x, z, x, z with sparse x rotations (Krivanek et al.
 /// 2005): the baseline.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 762 (325 mul, 6 add, 431 fma) and 1 inverse square root or reciprocal; 76 constants, 101
-///     live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 762 (325 mul, 6 add, 431 fma) and 1 inverse square root or reciprocal; 76 constants,
+///   101 live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zxzxz<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -2638,13 +2650,14 @@ pub fn rotate_zxzxz_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate:8:align`: Rotates order 8 exactly so that z goes to a normal, the spin about it left open.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 528 (142 mul, 3 add, 383 fma) and 1 inverse square root or reciprocal; 96 constants, 98
-///     live values.
-/// Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 528 (142 mul, 3 add, 383 fma) and 1 inverse square root or reciprocal; 96 constants,
+///   98 live values.
+/// - Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_align<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 64]) -> [V; 64] {
@@ -2970,12 +2983,13 @@ pub fn rotate_align_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `rotate:8:zonal`: Rotates a zonal signal of order 8 exactly so that its axis goes from z to a
 /// direction.
-/// dir: where the axis goes, of unit length.
-/// c: the zonal coefficients, one a band.
-/// Returns the rotated coefficients.
-/// Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
-/// Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+///
+/// - dir: where the axis goes, of unit length.
+/// - c: the zonal coefficients, one a band.
+/// - Returns the rotated coefficients.
+/// - Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
+/// - Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zonal<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 8]) -> [V; 64] {
@@ -3109,15 +3123,16 @@ pub fn rotate_zonal_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 8]) -> [[T; 3]; 64] {
 /// `tilt:8`: Tilts order 8: the shortest rotation from z to a normal, with no trigonometry; bands 1 and
 /// 2 exactly, the others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x,
 /// -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 379 (70 mul, 2 add, 307 fma) and 1 inverse square root or reciprocal; 60 constants, 74
-///     live values.
-/// Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
-///     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 379 (70 mul, 2 add, 307 fma) and 1 inverse square root or reciprocal; 60 constants, 74
+///   live values.
+/// - Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
+///   worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 64]) -> [V; 64] {
@@ -3354,15 +3369,16 @@ pub fn tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// `tilt:8:lf5`: Tilts order 8: the shortest rotation from z to a normal, with no trigonometry; bands 1
 /// and 2 exactly, the others by shears that are regular at n = z (lf5). The inverse is the same with
 /// (-n.x, -n.y, n.z).
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the tilted coefficients.
-/// Operations: 596 (102 mul, 2 add, 492 fma) and 1 inverse square root or reciprocal; 72 constants, 82
-///     live values.
-/// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
-///     band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the tilted coefficients.
+/// - Operations: 596 (102 mul, 2 add, 492 fma) and 1 inverse square root or reciprocal; 72 constants,
+///   82 live values.
+/// - Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the
+///   worst band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 64]) -> [V; 64] {
@@ -3691,15 +3707,16 @@ pub fn lf5_tilt_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// `tilt_prescaled:8`: Tilts order 8 as `tilt` does (lf3), on coefficients that `tilt_scale:8` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:8`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:8` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 349 (40 mul, 10 add, 299 fma) and 1 inverse square root or reciprocal; 31 constants, 68
-///     live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.5e-7). Method error, the
-///     worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:8` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 349 (40 mul, 10 add, 299 fma) and 1 inverse square root or reciprocal; 31 constants,
+///   68 live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.5e-7). Method error, the
+///   worst band's in spectral norm: 9.5e-3 at 5, 8.1e-2 at 10, 3.2e-1 at 15, 6.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 64]) -> [V; 64] {
@@ -3896,15 +3913,16 @@ pub fn tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] 
 /// `tilt_prescaled:8:lf5`: Tilts order 8 as `tilt` does (lf5), on coefficients that `tilt_scale:8` has
 /// divided: the couplings of neighbours are in the stored data. What it is multiplied with, such as a
 /// light, is scaled the other way, by `tilt_unscale:8`.
-/// n: where the z axis goes, of unit length.
-/// c: the coefficients as `tilt_scale:8` stores them.
-/// Returns the tilted coefficients, scaled alike.
-/// Operations: 548 (54 mul, 18 add, 476 fma) and 1 inverse square root or reciprocal; 41 constants, 71
-///     live values.
-/// Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
-///     worst band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - n: where the z axis goes, of unit length.
+/// - c: the coefficients as `tilt_scale:8` stores them.
+/// - Returns the tilted coefficients, scaled alike.
+/// - Operations: 548 (54 mul, 18 add, 476 fma) and 1 inverse square root or reciprocal; 41 constants,
+///   71 live values.
+/// - Error: f32 rounding at most 2.1e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-7). Method error, the
+///   worst band's in spectral norm: 7.2e-4 at 5, 6.5e-3 at 10, 2.6e-2 at 15, 1.9e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_tilt_prescaled<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 64]) -> [V; 64] {
@@ -4174,11 +4192,12 @@ pub fn lf5_tilt_prescaled_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 
 
 /// `tilt_scale:8`: Divides the coefficients of order 8 as `tilt_prescaled:8` takes them; done once,
 /// when they are stored.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients as `tilt_prescaled` takes them.
-/// Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
-/// Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients as `tilt_prescaled` takes them.
+/// - Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
+/// - Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_scale<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -4258,11 +4277,12 @@ pub fn tilt_scale_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `tilt_unscale:8`: The inverse of `tilt_scale:8`: for tilted coefficients, or for a light that they
 /// are multiplied with.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
-/// Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
-/// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
+/// - Operations: 50 (50 mul, 0 add, 0 fma); 23 constants, 50 live values.
+/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn tilt_unscale<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -4342,14 +4362,15 @@ pub fn tilt_unscale_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `taylor1:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor1; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 117 (19 mul, 0 add, 98 fma); 19 constants, 62 live values.
-/// Error: f32 rounding at most 8.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
-///     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 117 (19 mul, 0 add, 98 fma); 19 constants, 62 live values.
+/// - Error: f32 rounding at most 8.2e-7 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
+///   worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -4448,14 +4469,15 @@ pub fn taylor1_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `taylor15:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 210 (82 mul, 1 add, 127 fma); 48 constants, 70 live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
-///     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 210 (82 mul, 1 add, 127 fma); 48 constants, 70 live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7). Method error, the
+///   worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -4575,14 +4597,15 @@ pub fn taylor15_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `taylor2:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor2; Taylor
 /// forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 232 (36 mul, 0 add, 196 fma); 36 constants, 70 live values.
-/// Error: f32 rounding at most 3.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
-///     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 232 (36 mul, 0 add, 196 fma); 36 constants, 70 live values.
+/// - Error: f32 rounding at most 3.1e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the
+///   worst band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -4734,14 +4757,15 @@ pub fn taylor2_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `lf3:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: lf3; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 228 (67 mul, 0 add, 161 fma); 33 constants, 70 live values.
-/// Error: f32 rounding at most 9.9e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
-///     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 228 (67 mul, 0 add, 161 fma); 33 constants, 70 live values.
+/// - Error: f32 rounding at most 9.9e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.1e-7). Method error, the
+///   worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -4943,14 +4967,15 @@ pub fn lf3_y_rgb<T: Real>(beta: T, c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `lf5:8`: Rotates order 8 about y by a small angle, approximately (bands from 1: lf5; Taylor forms
 /// after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 366 (100 mul, 0 add, 266 fma); 43 constants, 78 live values.
-/// Error: f32 rounding at most 4.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
-///     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 366 (100 mul, 0 add, 266 fma); 43 constants, 78 live values.
+/// - Error: f32 rounding at most 4.7e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
+///   worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_y<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -5273,14 +5298,15 @@ static TAYLOR15_Y_LOOP_DDY_DIAG: [f64; 64] = [
 
 /// `taylor15:8:loop`: Rotates order 8 about y by a small angle, approximately (bands from 1: taylor15;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 316 (128 mul, 0 add, 188 fma); 128 constants, 64 live values.
-/// Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
-///     band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 316 (128 mul, 0 add, 188 fma); 128 constants, 64 live values.
+/// - Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the
+///   worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_y_loop<T: Real, V: Signal<T>>(beta: T, c: &[V; 64]) -> [V; 64] {
@@ -5302,15 +5328,16 @@ pub fn taylor15_y_rgb_loop<T: Real>(beta: T, c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `rotate:8:taylor1`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor1; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 389 (155 mul, 2 add, 232 fma); 19 constants, 84 live values.
-/// Error: f32 rounding at most 7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.2e-7). Method error, the
-///     worst band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 389 (155 mul, 2 add, 232 fma); 19 constants, 84 live values.
+/// - Error: f32 rounding at most 7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 3.2e-7). Method error, the worst
+///   band's in spectral norm: 1.9e-1 at 5, 7.2e-1 at 10, 1.6e0 at 15, 3.6e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor1_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 64]) -> [V; 64] {
@@ -5546,15 +5573,16 @@ pub fn taylor1_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 64]) -> 
 
 /// `rotate:8:taylor15`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor15; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 482 (218 mul, 3 add, 261 fma); 48 constants, 86 live values.
-/// Error: f32 rounding at most 1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
-///     worst band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 482 (218 mul, 3 add, 261 fma); 48 constants, 86 live values.
+/// - Error: f32 rounding at most 1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the worst
+///   band's in spectral norm: 9.4e-2 at 5, 4.3e-1 at 10, 1.2e0 at 15, 3.8e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor15_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 64]) -> [V; 64] {
@@ -5811,15 +5839,16 @@ pub fn taylor15_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 64]) ->
 
 /// `rotate:8:taylor2`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from 1:
 /// taylor2; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 504 (172 mul, 2 add, 330 fma); 36 constants, 88 live values.
-/// Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
-///     band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
-///     without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 504 (172 mul, 2 add, 330 fma); 36 constants, 88 live values.
+/// - Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the
+///   worst band's in spectral norm: 3.8e-2 at 5, 3e-1 at 10, 9.7e-1 at 15, 4e0 at 25 degrees; it grows
+///   without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn taylor2_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 64]) -> [V; 64] {
@@ -6108,15 +6137,16 @@ pub fn taylor2_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 64]) -> 
 
 /// `rotate:8:lf3`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from 1: lf3;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 500 (203 mul, 2 add, 295 fma); 33 constants, 85 live values.
-/// Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
-///     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 500 (203 mul, 2 add, 295 fma); 33 constants, 85 live values.
+/// - Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-6). Method error, the
+///   worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9.2e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf3_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 64]) -> [V; 64] {
@@ -6400,15 +6430,16 @@ pub fn lf3_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 64]) -> [[T;
 
 /// `rotate:8:lf5`: Rotates order 8 by z, y, z with a small y angle, approximately (bands from 1: lf5;
 /// Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five parity shears).
-/// cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
-/// beta: the angle about y in radians, small.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 638 (236 mul, 2 add, 400 fma); 43 constants, 90 live values.
-/// Error: f32 rounding at most 6.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
-///     worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - cs: (cos, sin) of alpha and gamma in Rz(alpha) Ry(beta) Rz(gamma).
+/// - beta: the angle about y in radians, small.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 638 (236 mul, 2 add, 400 fma); 43 constants, 90 live values.
+/// - Error: f32 rounding at most 6.8e-6 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
+///   worst band's in spectral norm: 7.2e-4 at 5, 6.6e-3 at 10, 2.7e-2 at 15, 2e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_zyz<T: Real, V: Signal<T>>(cs: &[[T; 2]; 2], beta: T, c: &[V; 64]) -> [V; 64] {
@@ -6788,15 +6819,16 @@ pub fn lf5_zyz_rgb<T: Real>(cs: &[[T; 2]; 2], beta: T, c: &[[T; 3]; 64]) -> [[T;
 /// `rotate_small:8`: Rotates order 8 by z, y, z from a quaternion whose y angle is small, approximately
 /// (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and five
 /// parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 518 (216 mul, 6 add, 296 fma) and 1 inverse square root or reciprocal; 32 constants, 89
-///     live values.
-/// Error: f32 rounding at most 1.5e-4 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
-///     worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 518 (216 mul, 6 add, 296 fma) and 1 inverse square root or reciprocal; 32 constants,
+///   89 live values.
+/// - Error: f32 rounding at most 1.5e-4 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-6). Method error, the
+///   worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -7096,15 +7128,16 @@ pub fn rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 /// `rotate_small:8:lf5`: Rotates order 8 by z, y, z from a quaternion whose y angle is small,
 /// approximately (bands from 1: exact, lf5; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by
 /// three and five parity shears).
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 643 (246 mul, 6 add, 391 fma) and 1 inverse square root or reciprocal; 41 constants, 94
-///     live values.
-/// Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven for
-///     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
-///     worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
-///     grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 643 (246 mul, 6 add, 391 fma) and 1 inverse square root or reciprocal; 41 constants,
+///   94 live values.
+/// - Error: f32 rounding at most 2.7e-5 of the norm of a band, for an angle up to 25 degrees (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-6). Method error, the
+///   worst band's in spectral norm: 7.2e-4 at 5, 6.7e-3 at 10, 2.8e-2 at 15, 2e-1 at 25 degrees; it
+///   grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn lf5_rotate_small<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 64]) -> [V; 64] {
@@ -7489,18 +7522,19 @@ pub fn lf5_rotate_small_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 64]) -> [[T; 3]; 64
 /// `rotate_adaptive:8`: Rotates order 8 from a quaternion: approximately where the y angle is below a
 /// limit (bands from 1: exact, lf3; Taylor forms after Krivanek et al. 2005, lf3 and lf5 by three and
 /// five parity shears), exactly above it.
-/// q: the rotation, a unit quaternion (x, y, z, w).
-/// limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a / (sqrt2
-///     + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
-///     distance r.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 679 (217 mul, 6 add, 456 fma) and 1 inverse square root or reciprocal above the limit,
-///     521 below it; 125 constants, 102 live values.
-/// Error: f32 rounding at most 1.5e-4 of the norm of a band, for every unit q, with a limit up to 25
-///     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
-///     Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
-///     25 degrees; it grows without bound beyond.
+///
+/// - q: the rotation, a unit quaternion (x, y, z, w).
+/// - limit: sin(b/2) of the largest y angle b that may be rotated approximately, not negative; a /
+///   (sqrt2 + 2 r/R) for a radiance cache of error a whose record has the radius R and is used at the
+///   distance r.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 679 (217 mul, 6 add, 456 fma) and 1 inverse square root or reciprocal above the limit,
+///   521 below it; 125 constants, 102 live values.
+/// - Error: f32 rounding at most 1.5e-4 of the norm of a band, for every unit q, with a limit up to 25
+///   degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
+///   Method error, the worst band's in spectral norm: 9.6e-3 at 5, 8.3e-2 at 10, 3.4e-1 at 15, 9e0 at
+///   25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_adaptive<T: Real, V: Signal<T>>(q: [T; 4], limit: T, c: &[V; 64]) -> [V; 64] {
@@ -9262,12 +9296,13 @@ fn zhf_part_2<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 64], [t1, t3, t5, 
 
 /// `zhf:8`: Rotates order 8 by sparse zonal factorisation over 15 shared lobes (Nowrouzezahrai et al.
 /// 2012, the standard rotation).
-/// m: the rotation, a matrix of three columns.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 2753 (1252 mul, 10 add, 1491 fma); 255 constants, 477 live values.
-/// Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 6e-6).
+///
+/// - m: the rotation, a matrix of three columns.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 2753 (1252 mul, 10 add, 1491 fma); 255 constants, 477 live values.
+/// - Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf<T: Real, V: Signal<T>>(m: &[[T; 3]; 3], c: &[V; 64]) -> [V; 64] {
@@ -9350,11 +9385,12 @@ pub fn zhf_rgb<T: Real>(m: &[[T; 3]; 3], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `zhf_weights:8`: The weights of the zonal lobes of order 8, the sparse product A^^T c
 /// (Nowrouzezahrai et al. 2012).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
-/// Operations: 299 (45 mul, 1 add, 253 fma); 179 constants, 65 live values.
-/// Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 8e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
+/// - Operations: 299 (45 mul, 1 add, 253 fma); 179 constants, 65 live values.
+/// - Error: f32 rounding at most 6.7e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_weights<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -9523,11 +9559,12 @@ pub fn zhf_weights_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 
 /// `zhf_tailored:8`: Rotates order 8 from samples at the lobes, the sparse product A^ f (Nowrouzezahrai
 /// et al. 2012, the signal-tailored rotation).
-/// f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
-/// Returns the rotated coefficients.
-/// Operations: 318 (54 mul, 1 add, 263 fma); 179 constants, 64 live values.
-/// Error: f32 rounding at most 9.3e-6 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
+///
+/// - f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
+/// - Returns the rotated coefficients.
+/// - Operations: 318 (54 mul, 1 add, 263 fma); 179 constants, 64 live values.
+/// - Error: f32 rounding at most 9.3e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn zhf_tailored<T: Real, V: Signal<T>>(f: &[V; 64]) -> [V; 64] {
@@ -9699,12 +9736,13 @@ pub fn zhf_tailored_rgb<T: Real>(f: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate_z:8`: Rotates order 8 about z by the angle of (cos, sin).
-/// cs: (cos alpha, sin alpha).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 136 (68 mul, 1 add, 67 fma); 0 constants, 62 live values.
-/// Error: f32 rounding at most 9.4e-7 of the norm of a band, for every angle (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+///
+/// - cs: (cos alpha, sin alpha).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 136 (68 mul, 1 add, 67 fma); 0 constants, 62 live values.
+/// - Error: f32 rounding at most 9.4e-7 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_z<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 64]) -> [V; 64] {
@@ -9796,12 +9834,13 @@ pub fn rotate_z_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate_y:8`: Rotates order 8 about y by the angle of (cos, sin), exactly and at every angle.
-/// cs: (cos beta, sin beta).
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 386 (70 mul, 1 add, 315 fma); 96 constants, 74 live values.
-/// Error: f32 rounding at most 4e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
-///     contracted or not; the worst of 256 measured is 2.6e-7).
+///
+/// - cs: (cos beta, sin beta).
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 386 (70 mul, 1 add, 315 fma); 96 constants, 74 live values.
+/// - Error: f32 rounding at most 4e-6 of the norm of a band, for every angle (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_y<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 64]) -> [V; 64] {
@@ -10067,11 +10106,12 @@ pub fn rotate_y_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `swap_yz:8`: Exchanges y and z of order 8: the sparse symmetric matrix J, a reflection.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
-/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
+/// - Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn swap_yz<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -10190,11 +10230,12 @@ pub fn swap_yz_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate_x_plus_90:8`: Rotates order 8 about x by +90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
-/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
+/// - Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_plus_90deg<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {
@@ -10313,11 +10354,12 @@ pub fn rotate_x_plus_90deg_rgb<T: Real>(c: &[[T; 3]; 64]) -> [[T; 3]; 64] {
 }
 
 /// `rotate_x_minus_90:8`: Rotates order 8 about x by -90 degrees, a sparse matrix.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the rotated coefficients.
-/// Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
-/// Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the rotated coefficients.
+/// - Operations: 168 (56 mul, 0 add, 112 fma); 75 constants, 60 live values.
+/// - Error: f32 rounding at most 4.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_x_minus_90deg<T: Real, V: Signal<T>>(c: &[V; 64]) -> [V; 64] {

@@ -6,8 +6,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use glam::{Quat, Vec3};
 use zonal::Coefficients;
-use zonal::glam::{Quat, Vec3};
 
 /// How many signals are worked on at once: of order 6 and three channels they are 432 KiB, which stay in a cache.
 const COUNT: usize = 1024;
@@ -15,7 +15,7 @@ const COUNT: usize = 1024;
 /// Evaluates, rotates and tilts copies of a signal.
 fn group<C>(criterion: &mut Criterion, channels: &str, signal: C)
 where
-    C: Coefficients<Scalar = f32, Vec3 = Vec3, Quat = Quat> + Copy,
+    C: Coefficients<Scalar = f32>,
 {
     let signals = vec![signal; COUNT];
     let turns: Vec<Quat> =

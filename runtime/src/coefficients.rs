@@ -4,148 +4,148 @@
 
 use core::fmt::Debug;
 
-use zonal_kernels::real::{Channels, Real, Signal};
-use zonal_kernels::{sh2, sh3, sh4, sh5, sh6, sh7, sh8, sh9, sh10};
+use crate::error::Error;
+use crate::scalar::sealed::Sealed;
+use crate::scalar::{Element, Scalar};
+use zonal_kernels::real::Signal;
 
-mod sealed {
-    pub trait Sealed {}
-}
-use sealed::Sealed;
-
-/// A precision: `f32` with glam's `Vec3`, `Quat` and `Mat3`, or `f64` with their `D` twins.
-pub trait Scalar: Real + Element<Scalar = Self> + Debug + PartialEq {
-    /// glam's vector of three.
-    type Vec3: Copy;
-    /// glam's quaternion.
-    type Quat: Copy;
-    /// glam's 3×3 matrix.
-    type Mat3: Copy;
-    #[doc(hidden)]
-    fn vector(v: Self::Vec3) -> [Self; 3];
-    #[doc(hidden)]
-    fn quaternion(q: Self::Quat) -> [Self; 4];
-    #[doc(hidden)]
-    fn columns(m: Self::Mat3) -> [[Self; 3]; 3];
-    #[doc(hidden)]
-    fn of_matrix(m: Self::Mat3) -> Self::Quat;
-    #[doc(hidden)]
-    fn turn(angle: Self) -> [Self; 2];
-}
-
-/// What one coefficient is: a number, or one number a channel, as `[f32; 3]` and glam's `Vec3` are for RGB.
-pub trait Element: Copy + Sealed {
-    /// The precision.
-    type Scalar: Scalar;
-    /// How many channels it has.
-    const CHANNELS: usize;
-    #[doc(hidden)]
-    type Signal: Signal<Self::Scalar>;
-    #[doc(hidden)]
-    fn signal(self) -> Self::Signal;
-    #[doc(hidden)]
-    fn element(signal: Self::Signal) -> Self;
-}
-
-macro_rules! scalars {
-    ($($scalar:ident: $vec2:ident, $vec3:ident, $quat:ident, $mat3:ident;)*) => { $(
-        impl Sealed for $scalar {}
-        impl Scalar for $scalar {
-            type Vec3 = glam::$vec3;
-            type Quat = glam::$quat;
-            type Mat3 = glam::$mat3;
-            #[inline]
-            fn vector(v: glam::$vec3) -> [Self; 3] {
-                v.to_array()
-            }
-            #[inline]
-            fn quaternion(q: glam::$quat) -> [Self; 4] {
-                q.to_array()
-            }
-            #[inline]
-            fn columns(m: glam::$mat3) -> [[Self; 3]; 3] {
-                m.to_cols_array_2d()
-            }
-            #[inline]
-            fn of_matrix(m: glam::$mat3) -> glam::$quat {
-                glam::$quat::from_mat3(&m)
-            }
-            #[inline]
-            fn turn(angle: Self) -> [Self; 2] {
-                glam::$vec2::from_angle(angle).to_array()
-            }
-        }
-        impl Element for $scalar {
-            type Scalar = Self;
-            const CHANNELS: usize = 1;
-            type Signal = Self;
-            #[inline]
-            fn signal(self) -> Self {
-                self
-            }
-            #[inline]
-            fn element(signal: Self) -> Self {
-                signal
-            }
-        }
-        impl Sealed for glam::$vec3 {}
-        impl Element for glam::$vec3 {
-            type Scalar = $scalar;
-            const CHANNELS: usize = 3;
-            type Signal = Channels<$scalar, 3>;
-            #[inline]
-            fn signal(self) -> Self::Signal {
-                Channels(self.to_array())
-            }
-            #[inline]
-            fn element(signal: Self::Signal) -> Self {
-                Self::from_array(signal.0)
-            }
-        }
-    )* };
-}
-
-scalars! {
-    f32: Vec2, Vec3, Quat, Mat3;
-    f64: DVec2, DVec3, DQuat, DMat3;
-}
-
-impl<E: Element, const N: usize> Sealed for [E; N] {}
-impl<T: Scalar, const N: usize> Element for [T; N] {
-    type Scalar = T;
-    const CHANNELS: usize = N;
-    type Signal = Channels<T, N>;
-    #[inline]
-    fn signal(self) -> Self::Signal {
-        Channels(self)
-    }
-    #[inline]
-    fn element(signal: Self::Signal) -> Self {
-        signal.0
-    }
-}
+/// What a [`Rotation`](crate::Rotation) of an order holds: its pairs of a cosine and a sine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angles<const ORDER: usize, P>(pub(crate) P);
 
 /// The coefficients of a signal: `[E; 4]`, `[E; 9]`, … `[E; 100]` for the orders 2 to 10, index l(l+1)+m.
 ///
 /// An order n has the bands 0 to n − 1, which is n² coefficients. The array's length says the order, its [`Element`]
 /// the precision and the channels: `[f32; 25]` is a signal of order 5, `[Vec3; 25]` or `[[f32; 3]; 25]` an RGB one,
-/// `[f64; 25]` one in double precision.
-pub trait Coefficients: Sized + Sealed {
+/// `[f64; 25]` one in double precision. Each order is a feature; there is no order 1, whose one coefficient is a constant
+/// times 2√π that no rotation changes.
+///
+/// What is generic over the order takes coefficients as a slice, and makes them from a function of the index. A bound
+/// says the precision, `Coefficients<Scalar = f32>` of any channels, or with it the element:
+///
+/// ```
+/// use zonal::Coefficients;
+///
+/// /// The energy of each band.
+/// fn energies<C: Coefficients<Element = f32, Scalar = f32>>(c: &C) -> Vec<f32> {
+///     c.bands().map(|band| band.iter().map(|x| x * x).sum()).collect()
+/// }
+/// /// The mean of a signal and its mirror image, up side down.
+/// fn without_height<C: Coefficients<Scalar = f32>>(c: &C) -> C {
+///     let [x, y] = [zonal::conventions::Axis::X, zonal::conventions::Axis::Y];
+///     let mirrored = zonal::to_axes(c, [x, y, zonal::conventions::Axis::MinusZ]).expect("three axes");
+///     zonal::lerp(c, &mirrored, 0.5)
+/// }
+/// /// A signal that is weaker from coefficient to coefficient.
+/// fn falling<C: Coefficients<Element = f32, Scalar = f32>>() -> C {
+///     C::from_fn(|i| 1.0 / (1.0 + i as f32))
+/// }
+///
+/// let c: [f32; 9] = falling();
+/// assert_eq!(energies(&c).len(), 3);
+/// assert_eq!(without_height(&c)[2], 0.0);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no array of coefficients of an order that zonal was compiled with",
+    label = "not `[E; n²]` for an order n whose feature is on",
+    note = "order n is an array of n² coefficients: `[E; 4]` is order 2, `[E; 9]` order 3, and so on to `[E; 100]`, order 10",
+    note = "each order is a feature of zonal, `order2` to `order10`; those above `order5` are off by default",
+    note = "a slice becomes an array by `Coefficients::from_slice`"
+)]
+pub trait Coefficients:
+    Copy
+    + Debug
+    + PartialEq
+    + Send
+    + Sync
+    + AsRef<[<Self as Coefficients>::Element]>
+    + AsMut<[<Self as Coefficients>::Element]>
+    + Sealed
+{
     /// The order n.
     const ORDER: usize;
+    /// How many coefficients there are, n².
+    const COUNT: usize;
     /// One coefficient.
     type Element: Element<Scalar = Self::Scalar>;
     /// The precision.
-    type Scalar: Scalar<Vec3 = Self::Vec3, Quat = Self::Quat, Mat3 = Self::Mat3>;
-    /// glam's vector of three in this precision.
-    type Vec3: Copy;
-    /// glam's quaternion in this precision.
-    type Quat: Copy;
-    /// glam's 3×3 matrix in this precision.
-    type Mat3: Copy;
+    type Scalar: Scalar;
     /// One number a harmonic: `[f32; 25]` at order 5, whatever the channels.
-    type Basis;
+    type Basis: Coefficients<Element = Self::Scalar, Scalar = Self::Scalar>;
     /// The (cosine, sine) pairs that a [`Rotation`](crate::Rotation) holds.
     type Angles: Copy + Debug + PartialEq;
+
+    /// Returns the coefficients that are `value(i)` at index i = l(l+1)+m.
+    fn from_fn(value: impl FnMut(usize) -> Self::Element) -> Self;
+
+    /// Returns coefficients that are all zero.
+    #[inline]
+    fn zero() -> Self {
+        Self::from_fn(|_| Self::Element::element(Signal::zero()))
+    }
+
+    /// Returns the coefficients in a slice, of which there are n².
+    ///
+    /// # Errors
+    ///
+    /// If there are more or fewer; the error says how many.
+    ///
+    /// ```
+    /// use zonal::Coefficients;
+    ///
+    /// let read = vec![[0.25_f32; 3]; 9];
+    /// assert_eq!(<[[f32; 3]; 9]>::from_slice(&read), Ok([[0.25; 3]; 9]));
+    /// let error = <[[f32; 3]; 16]>::from_slice(&read).unwrap_err();
+    /// assert_eq!(error.to_string(), "9 coefficients, but order 4 is 16");
+    /// ```
+    fn from_slice(coefficients: &[Self::Element]) -> Result<Self, Error> {
+        match coefficients.len() == Self::COUNT {
+            true => Ok(Self::from_fn(|i| coefficients[i])),
+            false => Err(Error::Coefficients { found: coefficients.len(), order: Self::ORDER }),
+        }
+    }
+
+    /// Returns the coefficients whose numbers are in a slice, those of the channels of one coefficient side by side.
+    ///
+    /// # Errors
+    ///
+    /// If there are not n² times the channels; the error says how many.
+    ///
+    /// ```
+    /// use zonal::Coefficients;
+    ///
+    /// let error = <[[f32; 3]; 9]>::from_numbers(&[0.0; 9]).unwrap_err();
+    /// assert_eq!(error.to_string(), "9 numbers, but order 3 in RGB is 9 of 3, which makes 27");
+    /// ```
+    fn from_numbers(numbers: &[Self::Scalar]) -> Result<Self, Error> {
+        let channels = Self::Element::CHANNELS;
+        match numbers.len() == Self::COUNT * channels {
+            true => Ok(Self::from_fn(|i| Self::Element::from_channels(|channel| numbers[i * channels + channel]))),
+            false => Err(Error::Numbers { found: numbers.len(), order: Self::ORDER, channels }),
+        }
+    }
+
+    /// Returns the bands, ascending: band l has 2l + 1 coefficients, m from −l to l.
+    #[inline]
+    fn bands(&self) -> impl Iterator<Item = &[Self::Element]> {
+        let mut rest = self.as_ref();
+        (0..Self::ORDER).map(move |l| {
+            let (band, above) = rest.split_at(2 * l + 1);
+            rest = above;
+            band
+        })
+    }
+
+    /// Returns the bands to be changed, as [`bands`](Self::bands) orders them.
+    #[inline]
+    fn bands_mut(&mut self) -> impl Iterator<Item = &mut [Self::Element]> {
+        let mut rest = self.as_mut();
+        (0..Self::ORDER).map(move |l| {
+            let (band, above) = core::mem::take(&mut rest).split_at_mut(2 * l + 1);
+            rest = above;
+            band
+        })
+    }
 
     #[doc(hidden)]
     fn basis(dir: [Self::Scalar; 3]) -> Self::Basis;
@@ -154,7 +154,9 @@ pub trait Coefficients: Sized + Sealed {
     #[doc(hidden)]
     fn rotate(q: [Self::Scalar; 4], c: &Self) -> Self;
     #[doc(hidden)]
-    fn rotate_matrix(m: Self::Mat3, c: &Self) -> Self;
+    fn rotate_matrix(columns: [[Self::Scalar; 3]; 3], c: &Self) -> Self;
+    #[doc(hidden)]
+    fn rotate_y(cs: [Self::Scalar; 2], c: &Self) -> Self;
     #[doc(hidden)]
     fn rotate_z(cs: [Self::Scalar; 2], c: &Self) -> Self;
     #[doc(hidden)]
@@ -174,7 +176,13 @@ pub trait Coefficients: Sized + Sealed {
 }
 
 /// A zonal signal, which is symmetric about z: `[E; 2]` to `[E; 10]`, one coefficient a band, that of m = 0.
-pub trait Zonal: Sealed {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no zonal signal of an order that zonal was compiled with",
+    label = "not `[E; n]` for an order n whose feature is on",
+    note = "a zonal signal of order n is an array of n coefficients, one a band",
+    note = "each order is a feature of zonal, `order2` to `order10`; those above `order5` are off by default"
+)]
+pub trait Zonal: AsRef<[<<Self as Zonal>::Coefficients as Coefficients>::Element]> + Sealed {
     /// The coefficients of the same order without the symmetry.
     type Coefficients: Coefficients;
     #[doc(hidden)]
@@ -182,97 +190,105 @@ pub trait Zonal: Sealed {
 }
 
 macro_rules! orders {
-    ($($module:ident: $order:literal, $count:literal, $pairs:literal, $one:ident, $many:ident, $matrix:tt;)*) => { $(
+    ($($feature:literal $module:ident: $order:literal, $count:literal, $pairs:literal, $one:ident, $many:ident, $matrix:tt;)*) => { $(
+        #[cfg(feature = $feature)]
         impl<E: Element> Coefficients for [E; $count] {
             const ORDER: usize = $order;
+            const COUNT: usize = $count;
             type Element = E;
             type Scalar = E::Scalar;
-            type Vec3 = <E::Scalar as Scalar>::Vec3;
-            type Quat = <E::Scalar as Scalar>::Quat;
-            type Mat3 = <E::Scalar as Scalar>::Mat3;
             type Basis = [E::Scalar; $count];
-            type Angles = [[E::Scalar; 2]; $pairs];
+            type Angles = Angles<$order, [[E::Scalar; 2]; $pairs]>;
 
             #[inline]
+            fn from_fn(value: impl FnMut(usize) -> E) -> Self {
+                core::array::from_fn(value)
+            }
+            #[inline]
             fn basis(dir: [E::Scalar; 3]) -> Self::Basis {
-                $module::basis(dir)
+                zonal_kernels::$module::basis(dir)
             }
             #[inline]
             fn eval(dir: [E::Scalar; 3], c: &Self) -> E {
-                E::element($module::eval(dir, &c.map(E::signal)))
+                E::element(zonal_kernels::$module::eval(dir, &c.map(E::signal)))
             }
             #[inline]
             fn rotate(q: [E::Scalar; 4], c: &Self) -> Self {
                 let c = c.map(E::signal);
                 match E::CHANNELS {
-                    1 => $module::$one(q, &c),
-                    _ => $module::$many(q, &c),
+                    1 => zonal_kernels::$module::$one(q, &c),
+                    _ => zonal_kernels::$module::$many(q, &c),
                 }
                 .map(E::element)
             }
             #[inline]
-            fn rotate_matrix(m: Self::Mat3, c: &Self) -> Self {
-                orders!(@ $matrix $module m c E)
+            fn rotate_matrix(columns: [[E::Scalar; 3]; 3], c: &Self) -> Self {
+                orders!(@ $matrix $module columns c E)
+            }
+            #[inline]
+            fn rotate_y(cs: [E::Scalar; 2], c: &Self) -> Self {
+                zonal_kernels::$module::rotate_y(cs, &c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn rotate_z(cs: [E::Scalar; 2], c: &Self) -> Self {
-                $module::rotate_z(cs, &c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_z(cs, &c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn rotate_x_plus_90(c: &Self) -> Self {
-                $module::rotate_x_plus_90deg(&c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_x_plus_90deg(&c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn rotate_x_minus_90(c: &Self) -> Self {
-                $module::rotate_x_minus_90deg(&c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_x_minus_90deg(&c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn swap_yz(c: &Self) -> Self {
-                $module::swap_yz(&c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::swap_yz(&c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn tilt(n: [E::Scalar; 3], c: &Self) -> Self {
-                $module::tilt(n, &c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::tilt(n, &c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn align(n: [E::Scalar; 3], c: &Self) -> Self {
-                $module::rotate_align(n, &c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_align(n, &c.map(E::signal)).map(E::element)
             }
             #[inline]
             fn angles(q: [E::Scalar; 4]) -> Self::Angles {
-                $module::angles(q)
+                Angles(zonal_kernels::$module::angles(q))
             }
             #[inline]
             fn rotate_angles(angles: &Self::Angles, c: &Self) -> Self {
-                $module::rotate_angles(angles, &c.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_angles(&angles.0, &c.map(E::signal)).map(E::element)
             }
         }
+        #[cfg(feature = $feature)]
         impl<E: Element> Zonal for [E; $order] {
             type Coefficients = [E; $count];
             #[inline]
             fn rotate_zonal(dir: [E::Scalar; 3], g: &Self) -> [E; $count] {
-                $module::rotate_zonal(dir, &g.map(E::signal)).map(E::element)
+                zonal_kernels::$module::rotate_zonal(dir, &g.map(E::signal)).map(E::element)
             }
         }
     )* };
-    (@ direct $module:ident $m:ident $c:ident $element:ident) => {
-        $module::rotate_matrix(&$element::Scalar::columns($m), &$c.map($element::signal)).map($element::element)
+    (@ direct $module:ident $columns:ident $c:ident $element:ident) => {
+        zonal_kernels::$module::rotate_matrix(&$columns, &$c.map($element::signal)).map($element::element)
     };
-    (@ quaternion $module:ident $m:ident $c:ident $element:ident) => {
-        Self::rotate($element::Scalar::quaternion($element::Scalar::of_matrix($m)), $c)
+    (@ quaternion $module:ident $columns:ident $c:ident $element:ident) => {
+        Self::rotate(crate::matrix::quaternion($columns), $c)
     };
 }
 
-// The module, the order, its coefficients, the pairs of `angles`, `rotate` of one channel and of several, and whether
-// a matrix serves as it is.
+// The feature, the module, the order, its coefficients, the pairs of `angles`, `rotate` of one channel and of several, and
+// whether a matrix serves as it is.
 orders! {
-    sh2: 2, 4, 4, rotate, rotate, direct;
-    sh3: 3, 9, 7, rotate, rotate_zyz, direct;
-    sh4: 4, 16, 10, rotate, rotate, quaternion;
-    sh5: 5, 25, 13, rotate, rotate, quaternion;
-    sh6: 6, 36, 16, rotate, rotate, quaternion;
-    sh7: 7, 49, 19, rotate, rotate, quaternion;
-    sh8: 8, 64, 22, rotate, rotate, quaternion;
-    sh9: 9, 81, 25, rotate, rotate, quaternion;
-    sh10: 10, 100, 28, rotate, rotate, quaternion;
+    "order2" sh2: 2, 4, 4, rotate, rotate, direct;
+    "order3" sh3: 3, 9, 7, rotate, rotate_zyz, direct;
+    "order4" sh4: 4, 16, 10, rotate, rotate, quaternion;
+    "order5" sh5: 5, 25, 13, rotate, rotate, quaternion;
+    "order6" sh6: 6, 36, 16, rotate, rotate, quaternion;
+    "order7" sh7: 7, 49, 19, rotate, rotate, quaternion;
+    "order8" sh8: 8, 64, 22, rotate, rotate, quaternion;
+    "order9" sh9: 9, 81, 25, rotate, rotate, quaternion;
+    "order10" sh10: 10, 100, 28, rotate, rotate, quaternion;
 }

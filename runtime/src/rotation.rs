@@ -1,6 +1,7 @@
 //! A rotation made ready for many signals: the set-up that every signal shares is done once.
 
-use crate::coefficients::{Coefficients, Scalar};
+use crate::coefficients::Coefficients;
+use crate::matrix::quaternion;
 
 /// A rotation of one order and precision with its set-up done: the multiples of its three angles.
 ///
@@ -9,12 +10,10 @@ use crate::coefficients::{Coefficients, Scalar};
 /// [`rotate`](crate::rotate), the more so the lower the order.
 ///
 /// ```
-/// use glam::{Quat, Vec3};
-///
-/// let turn = zonal::Rotation::<[f32; 25]>::new(Quat::from_rotation_x(0.3));
+/// let turn = zonal::Rotation::<[f32; 25]>::new([0.28, 0.0, 0.0, 0.96]);
 /// let visibility = turn.apply(&[1.0_f32; 25]);
-/// let radiance = turn.apply(&[Vec3::ONE; 25]);
-/// assert_eq!(visibility, radiance.map(|c| c.x));
+/// let radiance = turn.apply(&[[1.0_f32; 3]; 25]);
+/// assert_eq!(visibility, radiance.map(|c| c[0]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation<C: Coefficients> {
@@ -22,16 +21,17 @@ pub struct Rotation<C: Coefficients> {
 }
 
 impl<C: Coefficients> Rotation<C> {
-    /// The rotation of a unit quaternion; see the [crate](crate#input-that-is-not-unit) for one that is not.
+    /// Returns the rotation of a unit quaternion (x, y, z, w); see the [crate](crate#input-that-is-not-unit) for one that
+    /// is not.
     #[inline]
-    pub fn new(q: C::Quat) -> Self {
-        Self { angles: C::angles(C::Scalar::quaternion(q)) }
+    pub fn new(q: impl Into<[C::Scalar; 4]>) -> Self {
+        Self { angles: C::angles(q.into()) }
     }
 
-    /// The rotation of a rotation matrix, by way of its quaternion.
+    /// Returns the rotation of a rotation matrix, given by its columns, by way of its quaternion.
     #[inline]
-    pub fn from_matrix(m: C::Mat3) -> Self {
-        Self::new(C::Scalar::of_matrix(m))
+    pub fn from_matrix(columns: impl Into<[[C::Scalar; 3]; 3]>) -> Self {
+        Self::new(quaternion(columns.into()))
     }
 
     /// Rotates a signal of this order and precision, of any number of channels: the result at R ω is `c` at ω.

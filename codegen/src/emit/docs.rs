@@ -152,14 +152,28 @@ pub fn error(spec: &Spec, params: &[Param], accuracy: &Accuracy) -> String {
     text
 }
 
-/// All that stands above a function.
+/// What a kernel computes, and then sentences on its parameters, its result, its cost and its error.
+fn sentences(built: &Built, spec: &Spec) -> (String, Vec<String>) {
+    let mut rest: Vec<String> = built.code.params().iter().map(parameter).collect();
+    rest.push(format!("Returns {}.", built.code.result_doc()));
+    rest.push(cost(built, spec.channels()));
+    rest.push(error(spec, built.code.params(), &built.accuracy));
+    (format!("`{spec}`: {}", (spec.family.what)(spec)), rest)
+}
+
+/// All that stands above a function, a sentence a line.
 pub fn function(built: &Built, spec: &Spec) -> Vec<String> {
-    let mut lines = wrap(&format!("`{spec}`: {}", (spec.family.what)(spec)), 0);
-    for param in built.code.params() {
-        lines.extend(wrap(&parameter(param), 4));
-    }
-    lines.extend(wrap(&format!("Returns {}.", built.code.result_doc()), 4));
-    lines.extend(wrap(&cost(built, spec.channels()), 4));
-    lines.extend(wrap(&error(spec, built.code.params(), &built.accuracy), 4));
-    lines.into_iter().map(|line| ascii(&line)).collect()
+    let (what, rest) = sentences(built, spec);
+    let mut lines = wrap(&what, 0);
+    lines.extend(rest.iter().flat_map(|sentence| wrap(sentence, 4)));
+    lines.iter().map(|line| ascii(line)).collect()
+}
+
+/// The same as Markdown whose first paragraph stands alone, as an index of functions shows it.
+pub fn listed(built: &Built, spec: &Spec) -> Vec<String> {
+    let (what, rest) = sentences(built, spec);
+    let mut lines = wrap(&what, 0);
+    lines.push(String::new());
+    lines.extend(rest.iter().flat_map(|sentence| wrap(&format!("- {sentence}"), 2)));
+    lines.iter().map(|line| ascii(line)).collect()
 }

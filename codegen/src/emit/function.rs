@@ -181,7 +181,8 @@ impl Function {
         let Printer { params, parts, .. } = printer;
         let generic = language.generic.as_ref();
         Ok(FunctionText {
-            doc: docs::function(&self.built, spec),
+            // What is generic is read in rustdoc.
+            doc: generic.map_or_else(|| docs::function(&self.built, spec), |_| docs::listed(&self.built, spec)),
             tables,
             generics: generic.map_or("", |generic| generic.bounds[usize::from(self.has_signal())]).to_owned(),
             name,

@@ -4,8 +4,8 @@
 use crate::numbers::Twin;
 use crate::stability::truth::{Pair, turn};
 use crate::{Progress, each, significant};
+use glam::{Mat3, Quat};
 use serde::{Deserialize, Serialize};
-use zonal::glam::{Mat3, Quat};
 // Names a family: its set-up is what is measured.
 use zonal_codegen::families::zyz::angles;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};

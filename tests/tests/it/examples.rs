@@ -47,7 +47,7 @@ fn the_irradiance_probe_is_that_of_its_sky() {
                 5.0 * PI / 8.0 / 12.0 * (3.0 * z * z - 1.0) / 2.0,
             ];
             let truth = zenith * bands.iter().sum::<f64>();
-            // Twenty thousand directions summed in f32.
+            // Twenty thousand directions, the horizon between two rows of them.
             assert!((world[channel] - truth).abs() < 1e-3, "{} is not {truth}:\n{text}", world[channel]);
             // The last printed digit of each.
             assert!((world[channel] - object[channel]).abs() < 1.1e-4, "{text}");

@@ -194,7 +194,7 @@ pub fn difference(q: [f32; 4], c: &[f32; 9]) -> [f32; 9] {
 
 /// The shaders that came with both.
 pub fn shaders() -> [&'static str; 2] {
-    [include_str!(concat!(env!("OUT_DIR"), "/kernels.wgsl")), zonal::shaders::SH3_ROTATION.wgsl]
+    [include_str!(concat!(env!("OUT_DIR"), "/kernels.wgsl")), zonal::shaders::sh3::ROTATION.wgsl]
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn users(packages: &[Package], folder: &Path) {
     let of = |name: &str| &packages.iter().find(|package| package.name == name).expect("is published").version;
     let user = format!(
         "[package]\nname = \"user\"\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n[dependencies]\n\
-         zonal = \"{}\"\n\n[build-dependencies]\nzonal-codegen = \"{}\"\n",
+         zonal = {{ version = \"{}\", features = [\"shaders\"] }}\n\n[build-dependencies]\nzonal-codegen = \"{}\"\n",
         of("zonal"),
         of("zonal-codegen")
     );

@@ -1,7 +1,7 @@
 //! What the crate `zonal` promises: golden values through glam's types, one meaning whatever the order, the precision
 //! and the channels, agreement between the ways to do one thing, and what bad input can do.
 
-use glam::{DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
+use glam::{DMat3, DQuat, DVec3, Mat3, Quat, Vec3, Vec3A, Vec4};
 use serde_json::Value;
 use zonal::Rotation;
 use zonal_codegen::promise::samples::Random;
@@ -21,6 +21,12 @@ macro_rules! every_order {
         every_order!(@ $count $body $($more)*)
     };
 }
+
+mod arithmetic;
+mod conventions;
+mod dependents;
+mod light;
+mod project;
 
 const TRIALS: usize = 40;
 
@@ -97,7 +103,11 @@ fn rotations_are_the_golden_ones_by_every_way_in() {
             let (order, c) = (N.isqrt(), signal::<N>(&mut random));
             let want = turned(&bands, &c);
             let m = DMat3::from_quat(q);
-            let ways = [zonal::rotate(q, &c), zonal::rotate_matrix(m, &c), Rotation::<[f64; N]>::new(q).apply(&c)];
+            let ways = [
+                zonal::rotate(q, &c),
+                zonal::rotate_matrix(m.to_cols_array_2d(), &c),
+                Rotation::<[f64; N]>::new(q).apply(&c),
+            ];
             for got in ways {
                 assert!(band_error(&got, &want) <= 2e-14, "order {order} by {q}");
             }
@@ -107,8 +117,60 @@ fn rotations_are_the_golden_ones_by_every_way_in() {
             let ready = Rotation::<[f32; N]>::new(q).apply(&c);
             assert!(band_error(&wide(&ready), &want) <= bound, "order {order} by {q} in f32, made ready");
             // glam's matrix and its quaternion are rounded once more.
-            let by_matrix = zonal::rotate_matrix(m, &c);
+            let by_matrix = zonal::rotate_matrix(m.to_cols_array_2d(), &c);
             assert!(band_error(&wide(&by_matrix), &want) <= 2.0 * bound, "order {order} by {m} in f32");
+        });
+    }
+}
+
+/// Every fourth of the quaternion's components is the largest of some rotation, half turns about the axes among them.
+#[test]
+fn a_matrix_of_any_rotation_is_taken() {
+    let mut random = Random::new(29);
+    let half = std::f64::consts::PI;
+    let turns = [DQuat::from_rotation_x(half), DQuat::from_rotation_y(half), DQuat::from_rotation_z(half)];
+    let near = |q: DQuat, random: &mut Random| (q + quaternion(random) * 1e-9).normalize();
+    let mut all: Vec<DQuat> = turns.to_vec();
+    all.extend(turns.map(|q| near(q, &mut random)));
+    all.push(DQuat::IDENTITY);
+    all.extend((0..TRIALS).map(|_| quaternion(&mut random)));
+    for q in all {
+        every_order!(N, {
+            let c = signal::<N>(&mut random);
+            let columns = DMat3::from_quat(q).to_cols_array_2d();
+            let want = zonal::rotate(q, &c);
+            assert!(band_error(&zonal::rotate_matrix(columns, &c), &want) <= 2e-14, "order {} by {q}", N.isqrt());
+            let ready = Rotation::<[f64; N]>::from_matrix(columns).apply(&c);
+            assert!(band_error(&ready, &want) <= 2e-14, "order {} by {q}, made ready", N.isqrt());
+        });
+    }
+}
+
+/// What converts into an array is that array, to the last bit.
+#[test]
+fn vectors_of_other_crates_are_arrays() {
+    let mut random = Random::new(31);
+    for _ in 0..TRIALS {
+        let (q, n) = (quaternion(&mut random).as_quat(), direction(&mut random).as_vec3());
+        let [x, y, z] = n.to_array();
+        every_order!(N, {
+            let c = narrow(&signal::<N>(&mut random));
+            let value = zonal::evaluate([x, y, z], &c);
+            let vector = mint::Vector3 { x, y, z };
+            assert_eq!([zonal::evaluate(n, &c), zonal::evaluate(Vec3A::from(n), &c)], [value; 2]);
+            assert_eq!([zonal::evaluate(vector, &c), zonal::evaluate((x, y, z), &c)], [value; 2]);
+            let turned = zonal::rotate(q.to_array(), &c);
+            assert_eq!([zonal::rotate(q, &c), zonal::rotate(mint::Quaternion::from(q.to_array()), &c)], [turned; 2]);
+            let m = Mat3::from_quat(q).to_cols_array_2d();
+            assert_eq!(zonal::rotate_matrix(mint::ColumnMatrix3::from(m), &c), zonal::rotate_matrix(m, &c));
+
+            let rgb = c.map(|c| [c, 2.0 * c, 3.0 * c]);
+            let turned = zonal::rotate(q, &rgb);
+            assert_eq!(zonal::rotate(q, &rgb.map(Vec3::from_array)), turned.map(Vec3::from_array));
+            assert_eq!(zonal::rotate(q, &rgb.map(Vec3A::from_array)), turned.map(Vec3A::from_array));
+            assert_eq!(zonal::rotate(q, &rgb.map(mint::Vector3::from)), turned.map(mint::Vector3::from));
+            let rgba = rgb.map(|[r, g, b]| Vec4::new(r, g, b, 1.0));
+            assert_eq!(zonal::rotate(q, &rgba).map(|v| v.truncate().to_array()), turned);
         });
     }
 }
@@ -137,6 +199,8 @@ fn fixed_rotations_are_the_general_one() {
             let about_x = |angle| zonal::rotate(DQuat::from_rotation_x(angle), &c);
             let about_z = zonal::rotate(DQuat::from_rotation_z(angle), &c);
             assert!(band_error(&zonal::rotate_z(angle, &c), &about_z) <= 2e-14);
+            let about_y = zonal::rotate(DQuat::from_rotation_y(angle), &c);
+            assert!(band_error(&zonal::rotate_y(angle, &c), &about_y) <= 2e-14);
             assert!(band_error(&zonal::rotate_x_plus_90(&c), &about_x(quarter)) <= 2e-14);
             assert!(band_error(&zonal::rotate_x_minus_90(&c), &about_x(-quarter)) <= 2e-14);
             let swapped = zonal::swap_yz(&c);
@@ -307,6 +371,7 @@ fn bands_do_not_mix() {
 #[test]
 fn shader_texts_are_the_files() {
     let mut specs = std::collections::BTreeSet::new();
+    assert_eq!(zonal::shaders::ALL[0], zonal::shaders::sh2::EVALUATION);
     for file in zonal::shaders::ALL {
         for (spec, name) in file.kernels {
             assert!(file.wgsl.contains(&format!("fn {name}(")), "{spec}");
