@@ -18,6 +18,7 @@ mod goldens;
 mod half;
 mod house;
 mod laws;
+mod lights;
 mod loops;
 mod methods;
 mod operations;
