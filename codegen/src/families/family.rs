@@ -236,6 +236,8 @@ pub struct ZonalFunction {
     pub reach: fn(parameters: &[Vec<f64>]) -> f64,
     /// Its value at one less the cosine.
     pub value: fn(parameters: &[Vec<f64>], short: f64) -> f64,
+    /// By how much the coefficients err besides rounding, relative to the largest of them.
+    pub error: f64,
 }
 
 /// A family of kernels.

@@ -6,7 +6,7 @@ use crate::families::family::{Acts, Family, Group, Measure, Proof, Spec};
 use crate::families::parts::columns;
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::zonal::{self, Gaussian};
-use crate::families::zonal_functions::{SQUARED_SINE, sharpness, squared_sine};
+use crate::families::zonal_functions::{SQUARED_SINE, declared_gaussian, squared_sine};
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
@@ -111,10 +111,7 @@ pub static LIGHT_GAUSSIAN: Family = Family {
     half: false,
     proof: Proof::Nothing,
     kernel: |spec| {
-        lobe(spec.order, |builder, order| {
-            let kappa = sharpness(builder);
-            Gaussian::exact(order).coefficients(&mut builder.graph, order, kappa)
-        })
+        lobe(spec.order, |builder, order| declared_gaussian(builder, order, Gaussian::exact(order)))
     },
     shown: |order| shown(&LIGHT_GAUSSIAN, order),
     ..ADDED

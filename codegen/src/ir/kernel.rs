@@ -167,6 +167,8 @@ pub enum Domain {
     HalfSine(f64),
     /// A number between two.
     Between(f64, f64),
+    /// A number between the first and the last, at the second of which another way is taken.
+    Bent(f64, f64, f64),
     /// The coefficients of a function of the angle from an axis, one a band, none larger than one.
     Zonal,
     /// Coefficients of one channel, each band of norm one, of which something is found that is not linear in them.
@@ -284,7 +286,7 @@ impl Domain {
             Self::BoundedTurn(_) => format!("for an angle up to {most} degrees about y"),
             Self::HalfSine(_) => format!("with a {name} up to {most} degrees"),
             Self::Made(Made { max_angle: Some(_), .. }) => format!("for an angle up to {most} degrees about y"),
-            Self::Between(least, most) => format!("for {name} from {least} to {most}"),
+            Self::Between(least, most) | Self::Bent(least, _, most) => format!("for {name} from {least} to {most}"),
             Self::Zonal => format!("for {name} of at most one each"),
             Self::Coefficients => format!("for {name} with each band of norm one"),
             Self::Made(_) => "for every angle".to_owned(),

@@ -184,6 +184,9 @@ fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
             vec![random.signed().abs() * (half - half * half * half / 6.0)]
         }
         Domain::Between(least, most) => vec![between(random, i, least, most)],
+        // Errors may be largest on either side of where another way is taken.
+        Domain::Bent(_, bend, _) if i % 4 == 3 => vec![bend * (1.0 + random.signed() / (1u64 << (i % 16)) as f64)],
+        Domain::Bent(least, _, most) => vec![between(random, i, least, most)],
         Domain::Zonal => (0..len).map(|_| random.signed()).collect(),
         Domain::Coefficients => signal(random, len),
         Domain::Made(_) => unreachable!("what is made has a source of its own"),

@@ -157,7 +157,7 @@ static SHRUNK: Family = Family {
     half: false,
     measure: Measure::Absolute,
     kernel: CAP.kernel,
-    zonal: Some(ZonalFunction { reach: |p| cap_height(p[0][0] / 2.0), value: |_, _| 1.0 }),
+    zonal: Some(ZonalFunction { reach: |p| cap_height(p[0][0] / 2.0), value: |_, _| 1.0, error: 0.0 }),
     shown: |order| vec![Spec::new(&SHRUNK, order)],
     ..Family::PLAIN
 };

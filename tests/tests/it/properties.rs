@@ -431,7 +431,7 @@ fn it_is_the_function_that_it_says(spec: &Spec) -> Tried {
         // Where there is no number, the function is one in a direction alone.
         if want.iter().all(|x| x.is_finite()) {
             let error = difference(&got, &want);
-            ensure(error <= ROUNDING * size, || format!("{error:e} of {size:e} at {input:?}: {got:?}, {want:?}"))?;
+            ensure(error <= (ROUNDING + function.error) * size, || format!("{error:e} of {size:e} at {input:?}: {got:?}, {want:?}"))?;
         }
     }
     Ok(true)
