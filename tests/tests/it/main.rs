@@ -23,6 +23,7 @@ mod loops;
 mod methods;
 mod operations;
 mod packages;
+mod peers;
 mod plans;
 mod proofs;
 mod properties;
