@@ -44,6 +44,11 @@
 //! kind = "ward"                       # or "phong" with an `exponent`, or "lambert" alone
 //! alpha = [0.2, 0.6]                  # the roughness along the tangent and across it, or one number
 //!
+//! [[light]]                           # a sphere that shines, beside the map, for who draws the scene
+//! position = [2, -1, 3]               # of its centre, in radii of the object; z is up
+//! radius = 0.5                        # likewise; less than its distance
+//! radiance = [8, 6, 4]                # R, G and B
+//!
 //! [picture]                           # for who draws the scene: `zonal-render`
 //! mesh = "meshes/teapot.obj"          # beside the scene file; or "sphere" or "plane"
 //! normals = "normals/0003.webp"       # optional
@@ -64,9 +69,11 @@ pub mod frame;
 pub mod located;
 mod manifest;
 pub mod picture;
+pub mod sphere;
 pub mod wanted;
 
 pub use crate::families::family::Job;
 pub use budget::{Norm, Precision};
 pub use located::{Located, Order};
+pub use sphere::SphereLight;
 pub use wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};

@@ -9,6 +9,7 @@ use crate::scene::budget::{Norm, Precision};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Order};
 use crate::scene::picture::Picture;
+use crate::scene::sphere::SphereLight;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -102,6 +103,8 @@ pub struct Scene {
     pub rotations: Vec<Rotation>,
     /// What the surface reflects.
     pub brdf: Option<Brdf>,
+    /// The spheres that shine, beside the map.
+    pub lights: Vec<SphereLight>,
     /// What a picture shows.
     pub picture: Option<Picture>,
     /// Where the maps are.
@@ -120,6 +123,7 @@ impl Scene {
             kernels: vec![],
             rotations: vec![],
             brdf: None,
+            lights: vec![],
             picture: None,
             maps: Maps::Folder(PathBuf::new()),
         }
