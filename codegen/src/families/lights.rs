@@ -16,12 +16,7 @@ use crate::math::exact::Exact;
 const SHOWN: std::ops::RangeInclusive<usize> = 2..=6;
 
 /// What the records of this file leave as it is.
-const ADDED: Family = Family {
-    group: Group::Light,
-    measure: Measure::Added,
-    acts: Acts::Bands,
-    ..Family::PLAIN
-};
+const ADDED: Family = Family { group: Group::Light, measure: Measure::Added, acts: Acts::Bands, ..Family::PLAIN };
 
 /// `light_directional`.
 pub static LIGHT_DIRECTIONAL: Family = Family {
@@ -110,9 +105,7 @@ pub static LIGHT_GAUSSIAN: Family = Family {
     },
     half: false,
     proof: Proof::Nothing,
-    kernel: |spec| {
-        lobe(spec.order, |builder, order| declared_gaussian(builder, order, Gaussian::exact(order)))
-    },
+    kernel: |spec| lobe(spec.order, |builder, order| declared_gaussian(builder, order, Gaussian::exact(order))),
     shown: |order| shown(&LIGHT_GAUSSIAN, order),
     ..ADDED
 };

@@ -18,13 +18,8 @@ const NARROW_ERROR: f64 = 2.3e-8;
 pub const SHARPEST: f64 = 1e5;
 
 /// What the records of this file leave as it is.
-const ONE_A_BAND: Family = Family {
-    group: Group::Light,
-    half: false,
-    measure: Measure::Absolute,
-    proof: Proof::Nothing,
-    ..Family::PLAIN
-};
+const ONE_A_BAND: Family =
+    Family { group: Group::Light, half: false, measure: Measure::Absolute, proof: Proof::Nothing, ..Family::PLAIN };
 
 /// `cap`.
 pub static CAP: Family = Family {

@@ -64,7 +64,10 @@ fn caps_meet_the_golden_values_whatever_their_size() {
             let (got, want) = (narrow.run(&[vec![s]]), wide.run(&[vec![s]]));
             assert!(largest(&got, &want) <= bound, "{text}, s {s}: {got:?}, {want:?}");
             if s < 1e-3 {
-                assert!(got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= 2e-6 * b), "{text}, s {s}: {got:?}, {want:?}");
+                assert!(
+                    got.iter().zip(&want).all(|(a, b)| (a - b).abs() <= 2e-6 * b),
+                    "{text}, s {s}: {got:?}, {want:?}"
+                );
             }
         }
     }
@@ -234,7 +237,8 @@ fn a_directional_light_is_the_smallest_of_caps() {
 /// f32 errs by no more than heads promise, on other inputs than those it was measured by.
 #[test]
 fn what_heads_promise_of_lights_holds() {
-    let names = ["cap", "gaussian", "gaussian:f32", "phong", "henyey_greenstein", "convolve", "convolve_cosine", "irradiance"];
+    let names =
+        ["cap", "gaussian", "gaussian:f32", "phong", "henyey_greenstein", "convolve", "convolve_cosine", "irradiance"];
     let lights = ["light_directional", "light_sphere", "light_cone", "light_hemisphere", "light_gaussian"];
     let found = ["dominant", "light_fit", "light_fit_along"];
     for order in [2, 3, 4, 5, 6, 10] {
@@ -310,7 +314,9 @@ fn the_dominant_direction_is_where_linear_irradiance_is_largest() {
     let mut random = Random::new(8);
     for order in [2, 3, 6] {
         let (wide, narrow) = (wide(&format!("dominant:{order}")), narrow(&format!("dominant:{order}")));
-        let linear = |c: &[f64], d: &[f64]| PI * c[0] / (4.0 * PI).sqrt() + 2.0 * PI / 3.0 * (3.0 / (4.0 * PI)).sqrt() * dot(&[-c[3], -c[1], c[2]], d);
+        let linear = |c: &[f64], d: &[f64]| {
+            PI * c[0] / (4.0 * PI).sqrt() + 2.0 * PI / 3.0 * (3.0 / (4.0 * PI)).sqrt() * dot(&[-c[3], -c[1], c[2]], d)
+        };
         for _ in 0..20 {
             let c: Vec<f64> = (0..order * order).map(|_| random.signed()).collect();
             let found = wide.run(&[c.clone()]);

@@ -14,6 +14,7 @@ mod engines;
 mod environment;
 mod examples;
 mod fixture;
+mod found;
 mod goldens;
 mod half;
 mod house;

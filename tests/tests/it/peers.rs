@@ -30,7 +30,12 @@ const fn peer(theirs: &'static str, ours: &'static str, how: &'static str, check
 /// DirectXMath's, whose orders are 2 to 6. Its basis is ours.
 const DIRECTX: [Peer; 13] = [
     peer("XMSHEvalDirection", "basis:n", "the same", Some(direction)),
-    peer("XMSHRotate", "rotate:n", "the rotation as a quaternion; `rotate:n:matrix` takes a matrix up to order 3", Some(rotation)),
+    peer(
+        "XMSHRotate",
+        "rotate:n",
+        "the rotation as a quaternion; `rotate:n:matrix` takes a matrix up to order 3",
+        Some(rotation),
+    ),
     peer("XMSHRotateZ", "rotate_z:n", "`cs` is the angle's cosine and sine", Some(rotation_z)),
     peer("XMSHAdd", "", "a loop over n² numbers", None),
     peer("XMSHScale", "", "a loop over n² numbers", None),
@@ -69,7 +74,12 @@ const HLSL: [Peer; 19] = [
     peer("operators, Lerp", "", "a loop over n² numbers", None),
     peer("ToRGB", "", "a loop over n² numbers", None),
     peer("L2toL1", "", "the first n² numbers are the signal of order n", None),
-    peer("ProjectOntoL1, ProjectOntoL2", "light_directional:n", "`c` zero or the sum so far, `light` the value", Some(projection)),
+    peer(
+        "ProjectOntoL1, ProjectOntoL2",
+        "light_directional:n",
+        "`c` zero or the sum so far, `light` the value",
+        Some(projection),
+    ),
     peer("DotProduct", "dot:n", "the same", None),
     peer("Evaluate", "eval:n", "the same", Some(evaluation)),
     peer("ConvolveWithZH", "convolve:n", "`g` is theirs times √((2l+1)/4π)", Some(convolution)),
@@ -89,9 +99,19 @@ const HLSL: [Peer; 19] = [
     peer("CalculateIrradiance", "irradiance:n", "the same: not divided by π", Some(irradiance)),
     peer("CalculateIrradianceGeomerics", "", "none", None),
     peer("CalculateIrradianceL1ZH3Hallucinate", "", "none", None),
-    peer("ApproximateGGXAsL1ZH, ApproximateGGXAsL2ZH", "", "none for GGX; `gaussian:n`, `phong:n` and `henyey_greenstein:n` are lobes", None),
+    peer(
+        "ApproximateGGXAsL1ZH, ApproximateGGXAsL2ZH",
+        "",
+        "none for GGX; `gaussian:n`, `phong:n` and `henyey_greenstein:n` are lobes",
+        None,
+    ),
     peer("ConvolveWithGGX", "convolve:n", "with the coefficients of any lobe", Some(convolution)),
-    peer("ExtractSpecularDirLight", "dominant:n, eval:n", "the direction, and the radiance there; the roughness has no kernel", Some(evaluation)),
+    peer(
+        "ExtractSpecularDirLight",
+        "dominant:n, eval:n",
+        "the direction, and the radiance there; the roughness has no kernel",
+        Some(evaluation),
+    ),
     peer("Rotate", "rotate:n", "the rotation as a quaternion", Some(rotation)),
     peer("L1_RGB, L2_RGB", "eval:n:rgb", "`:rgb` of every kernel with a signal", None),
     peer("L1_F16, L2_F16", "eval:n:f16", "`:f16` where a kernel has it, WGSL only", None),
@@ -126,13 +146,11 @@ fn table(peers: &[Peer]) -> String {
                 if cost.special == 0 { cost.total.to_string() } else { format!("{} + {}", cost.total, cost.special) }
             })
         };
-        let error = |order: usize| cells(ours, order, |function| format!("{:.1e}", function.built.accuracy.rounding_f32));
+        let error =
+            |order: usize| cells(ours, order, |function| format!("{:.1e}", function.built.accuracy.rounding_f32));
         let all = [specs(ours, ORDER), specs(ours, LARGEST)].concat();
         let most = |spec: &Spec| if spec.half { MAX_HALF_ORDER } else { *spec.family.orders.end() };
-        let [least, most] = [
-            all.iter().map(|spec| *spec.family.orders.start()).min(),
-            all.iter().map(most).max(),
-        ];
+        let [least, most] = [all.iter().map(|spec| *spec.family.orders.start()).min(), all.iter().map(most).max()];
         let orders = least.zip(most).map_or("–".to_owned(), |(least, most)| format!("{least} to {most}"));
         let ours = match ours.is_empty() {
             true => "–".to_owned(),

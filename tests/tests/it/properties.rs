@@ -2,6 +2,7 @@
 //! has another form, is tried on seeded inputs, extremes first. A new family is tested by existing, and fails where
 //! nothing can be tested of it. That the basis is orthonormal is checked by itself, since the others rest on it.
 
+use crate::found;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -12,15 +13,14 @@ use zonal_codegen::families::{ALL, Family, Form, SmallAngle, Spec};
 use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::Number;
 use zonal_codegen::math::half::Half;
-use zonal_codegen::ir::kernel::{Domain, Param};
 use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::accuracy::Meaning;
 use zonal_codegen::promise::law;
-use zonal_codegen::promise::samples::{Random, inputs, matrix_of};
+use zonal_codegen::promise::samples::inputs;
 use zonal_tests::shader::Language;
 use zonal_tests::toys;
 use zonal_tests::turns::{
-    Matrix, Origin, Parameters, Sphere, Trial, Turn, apply, composed, identity, inverse, places, product, transposed, turn,
+    Matrix, Origin, Parameters, Sphere, Trial, Turn, composed, identity, inverse, places, product, transposed, turn,
     whole,
 };
 use zonal_tests::{Runner, larger, norm};
@@ -28,15 +28,15 @@ use zonal_tests::{Runner, larger, norm};
 /// The orders at which families are tried; all that a kernel is made of is there at the last.
 const ORDERS: RangeInclusive<usize> = 2..=5;
 /// How many inputs each kernel is tried on.
-const COUNT: usize = 40;
+pub(crate) const COUNT: usize = 40;
 /// The first input that is none of the extremes.
 const ORDINARY: usize = 16;
 /// What f64 may round off a band of norm one: some hundred operations of 1.1e-16 each, amplified by a lobe set's condition
 /// or a lifted rotation's tangents at most a few times.
-const ROUNDING: f64 = 1e-13;
+pub(crate) const ROUNDING: f64 = 1e-13;
 
 /// Whether a property is the kernel's, and if so, what contradicts it.
-type Tried = Result<bool, String>;
+pub(crate) type Tried = Result<bool, String>;
 
 /// What tries a property on a kernel.
 type Property = fn(&Spec) -> Tried;
@@ -53,14 +53,14 @@ pub(crate) const PROPERTIES: [(&str, Property); 12] = [
     ("loop", the_loop_is_the_same),
     ("some bands", some_bands_are_the_same),
     ("half", f16_errs_by_its_roundoff),
-    ("zonal", it_is_the_function_that_it_says),
-    ("found", what_is_found_turns_with_the_signal),
+    ("zonal", found::it_is_the_function_that_it_says),
+    ("found", found::what_is_found_turns_with_the_signal),
 ];
 
 /// What every kernel has, whatever it does.
 pub(crate) const OF_ALL: &str = "finite";
 
-fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), String> {
+pub(crate) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), String> {
     if holds { Ok(()) } else { Err(what()) }
 }
 
@@ -87,7 +87,7 @@ impl Subject {
     }
 }
 
-fn difference(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn difference(a: &[f64], b: &[f64]) -> f64 {
     norm(&a.iter().zip(b).map(|(x, y)| x - y).collect::<Vec<_>>())
 }
 
@@ -114,16 +114,14 @@ fn is_linear(spec: &Spec) -> Tried {
     let is_product = matches!(spec.family.measure, Measure::Product);
     for (i, trials) in subject.trials.windows(2).enumerate() {
         let (origins, signals) = (&trials[0].origins, &trials[0].signals);
-        let places: Vec<Vec<usize>> = match is_product {
-            true => (0..signals.len()).map(|place| vec![place]).collect(),
-            false => vec![(0..signals.len()).collect()],
-        };
+        let all: Vec<usize> = (0..signals.len()).collect();
+        let places: Vec<&[usize]> = if is_product { all.chunks(1).collect() } else { vec![&all] };
         for places in places {
             let of = |trial: &Trial| -> Vec<f64> { places.iter().flat_map(|&at| trial.signals[at].clone()).collect() };
             let (x, y) = (&of(&trials[0]), &of(&trials[1]));
             let given = |signal: &[f64]| {
                 let (mut all, mut rest) = (signals.clone(), signal);
-                for &place in &places {
+                for &place in places {
                     let (own, others) = rest.split_at(all[place].len());
                     all[place] = own.to_vec();
                     rest = others;
@@ -417,62 +415,6 @@ fn f16_errs_by_its_roundoff(spec: &Spec) -> Tried {
         worst = larger(worst, error(narrow.run(&input)) / f32::UNIT_ROUNDOFF);
     }
     ensure(worst_half <= 4.0 * worst.max(1.0), || format!("f16 errs by {worst_half} of its roundoff, f32 by {worst}"))?;
-    Ok(true)
-}
-
-/// The zonal coefficients are the integrals of the function that the record has, times the harmonics of m = 0 as Legendre's
-/// recurrence gives them.
-fn it_is_the_function_that_it_says(spec: &Spec) -> Tried {
-    let Some(function) = spec.family.zonal else { return Ok(false) };
-    let (runner, order) = (Runner::<f64>::new(spec), spec.order);
-    for input in inputs(spec.code().params(), 71, COUNT, None) {
-        let want = integrals(order, (function.reach)(&input), |short| (function.value)(&input, short));
-        let (got, size) = (runner.run(&input), want.iter().fold(0.0, |most: f64, x| most.max(x.abs())));
-        // Where there is no number, the function is one in a direction alone.
-        if want.iter().all(|x| x.is_finite()) {
-            let error = difference(&got, &want);
-            ensure(error <= (ROUNDING + function.error) * size, || format!("{error:e} of {size:e} at {input:?}: {got:?}, {want:?}"))?;
-        }
-    }
-    Ok(true)
-}
-
-/// 2π K_l ∫ f P_l, over panels that halve towards both ends.
-fn integrals(order: usize, reach: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
-    let mut sums = vec![0.0; order];
-    let ends: Vec<f64> = (0..60).map(|k| reach / 2.0 * 0.5f64.powi(k)).chain([0.0]).collect();
-    let near = ends.windows(2).map(|pair| (pair[1], pair[0]));
-    let far = ends.windows(2).map(|pair| (reach - pair[0], reach - pair[1]));
-    for (from, to) in near.chain(far).filter(|(from, to)| from < to) {
-        for (short, weight) in gauss_legendre(16, from, to) {
-            let value = weight * f(short);
-            let (mut before, mut legendre) = (0.0, 1.0);
-            for (l, sum) in sums.iter_mut().enumerate() {
-                *sum += std::f64::consts::PI.sqrt() * ((2 * l + 1) as f64).sqrt() * value * legendre;
-                let l = l as f64;
-                let next = ((2.0 * l + 1.0) * (1.0 - short) * legendre - l * before) / (l + 1.0);
-                (before, legendre) = (legendre, next);
-            }
-        }
-    }
-    sums
-}
-
-/// What is found of coefficients turns as they do: three numbers that begin it are a direction, the others stay.
-fn what_is_found_turns_with_the_signal(spec: &Spec) -> Tried {
-    let params = spec.code().params().to_vec();
-    if !matches!(params[..], [Param { domain: Domain::Coefficients, .. }]) {
-        return Ok(false);
-    }
-    let (runner, sphere, mut random) = (Runner::<f64>::new(spec), Sphere::new(spec.order), Random::new(5));
-    for input in inputs(&params, 73, COUNT, None) {
-        let matrix = matrix_of(random.unit());
-        let (found, turned) = (runner.run(&input), runner.run(&[sphere.turned(&matrix, &input[0])]));
-        let want = [&apply(&matrix, &found[..3]), &found[3..]].concat();
-        let length = (norm(&found[..3]) - 1.0).abs();
-        let error = difference(&turned, &want) / norm(&want);
-        ensure(length <= ROUNDING && error <= ROUNDING * 10.0, || format!("{error:e} at {input:?}, {length:e} too long"))?;
-    }
     Ok(true)
 }
 

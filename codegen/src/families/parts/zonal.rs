@@ -202,7 +202,8 @@ pub fn cosine_lobe(l: usize) -> Exact {
         1 => pi * Exact::ratio(2, 3),
         _ if l % 2 == 1 => Exact::zero(),
         _ => {
-            let central = (1..=l as i64 / 2).fold(Exact::one(), |product, k| &product * &Exact::ratio(1 - 2 * k, 2 * k));
+            let central =
+                (1..=l as i64 / 2).fold(Exact::one(), |product, k| &product * &Exact::ratio(1 - 2 * k, 2 * k));
             let divisor = (l as i64 + 2) * (1 - l as i64);
             pi * &central * Exact::ratio(2, divisor)
         }
