@@ -1,6 +1,7 @@
 //! Test vectors: what the interpreter gives in f32 and f64 for seeded inputs or for those of a file, as JSON that an
 //! engine's own tests can read. Arrays are nested as the parameters are: pairs by pairs, a matrix by columns, an RGB
-//! signal by triples. Beside each parameter stands for which of its values the kernel's promises hold; null for a signal.
+//! signal by triples. Beside each parameter stands for which of its values the kernel's promises hold, null for a signal;
+//! and what it is where a file leaves it out, null if none may.
 
 use super::spec_of;
 use serde_json::{Map, Value, json};
@@ -135,9 +136,12 @@ fn from_file(path: &Path, spec: &Spec, params: &[Param]) -> Result<Vec<Vec<Chann
         }
         let mut case = Vec::new();
         for param in params {
-            let value = object
-                .get(param.name)
-                .ok_or_else(|| fault(format!("object {i} has no `{}`", param.name), &parameters))?;
+            let Some(value) = object.get(param.name) else {
+                let usual = param.usual.map(|number| vec![number; param.shape.len()]);
+                let usual = usual.ok_or_else(|| fault(format!("object {i} has no `{}`", param.name), &parameters))?;
+                case.push(vec![usual; param.kind.numbers(spec.channels())]);
+                continue;
+            };
             let channels = read(value, param, spec.rgb);
             case.push(channels.map_err(|why| {
                 fault(format!("object {i}, `{}`: {why}", param.name), &format!("`{}` is {}", param.name, param.doc))
@@ -217,6 +221,7 @@ pub fn print(text: &str, file: Option<PathBuf>, count: usize, seed: u64) -> Resu
                 "shape": lengths(param.shape, param.kind, spec.rgb),
                 "doc": param.doc,
                 "domain": param.domain.in_words(param.name),
+                "usual": param.usual,
             })
         })
         .collect();

@@ -37,9 +37,10 @@ pub fn standard() -> Vec<Spec> {
 
 /// The table of costs as Markdown.
 pub fn markdown(rows: &[Row]) -> String {
-    let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition or a fused \
-                    multiply-add is one operation; an inverse\nsquare root or a reciprocal (special) is counted apart. \
-                    Rounding is in f32, relative to what each file's head says, and proven.\n\n\
+    let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition, a fused multiply-add or a \
+                    choice of two numbers is one\noperation; an inverse square root, a reciprocal, a root or a power \
+                    (special) is counted apart. Rounding is in f32,\nrelative to what each file's head says, proven or \
+                    measured as `MANIFEST.tsv` has it.\n\n\
                     | spec | total | mul | add | fma | special | constants | live | f32 rounding |\n\
                     |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();

@@ -81,7 +81,8 @@ impl Truth {
         let step = all.len().div_ceil(points.max(1));
         let views = all.iter().step_by(step).map(|surface| surface.modulated().1).collect();
         bar.set_length(all.len().div_ceil(step) as u64);
-        let frame = Lights::of(&subject.map).frame(&subject.brdf, stage.size, &surfaces, step, || bar.inc(1));
+        let lights = Lights::of(&subject.map).with(&subject.lights);
+        let frame = lights.frame(&subject.brdf, stage.size, &surfaces, step, || bar.inc(1));
         Ok(Self { frame, views })
     }
 }

@@ -143,9 +143,10 @@ fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<(String,
     bar.set_message("orders 2 to 10");
     let rows = convergence(&stage, &truth, 2..=10)?;
     let mut text = format!(
-        "  The exact kernel against brute force: {} pixels, all {} texels, shares of the mean radiance\n\n",
+        "  The exact kernel against brute force: {} pixels, all {} texels{}, shares of the mean radiance\n\n",
         truth.views.len(),
-        subject.map.texels.len()
+        subject.map.texels.len(),
+        if subject.lights.is_empty() { "" } else { " and lights" }
     );
     let _ = writeln!(text, "  {:>5} {:>10} {:>10} {:>10} {:>14}", "order", "mean", "rms", "worst", "expected rms");
     for row in &rows {

@@ -1,5 +1,5 @@
-//! The truth, by brute force: for each point of a surface the sum over all texels of the map of their radiance times the
-//! reflectance, in f64. No harmonics, no tables, no kernels.
+//! The truth, by brute force: for each point of a surface the sum over all texels of the map, and over many directions to
+//! each sphere that shines, of their radiance times the reflectance, in f64. No harmonics, no tables, no kernels.
 //!
 //! A texel counts with its radiance in the direction of its centre, times its solid angle. Of a function that a texel of
 //! width Δ sees as flat this is exact; band l is off by about l(l+1) Δ²/24 of itself, which for 256×128 texels is 0.3 %
@@ -7,9 +7,18 @@
 
 use crate::frame::{Frame, Surface};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 use zonal_codegen::environment::{Map, Projection};
+use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::reflectance::brdf::Brdf;
-use zonal_picture::lights;
+use zonal_codegen::scene::SphereLight;
+use zonal_picture::lights::{self, Light};
+use zonal_picture::vector::{across, add, cross};
+
+/// How many rings of directions a sphere is summed over, by the rule of Gauss and Legendre.
+const RINGS: usize = 8;
+/// How many directions a ring has.
+const SPOKES: usize = 32;
 
 /// A map as lights in fixed directions.
 #[derive(Clone, Debug)]
@@ -29,6 +38,27 @@ impl Lights {
             *texel = projection.evaluate(place.direction(i % place.width, i / place.width));
         });
         Self::of(&map)
+    }
+
+    /// These lights and spheres, each as [`RINGS`] times [`SPOKES`] directions to it from the middle of the object, which
+    /// is where the map is seen from too.
+    #[must_use]
+    pub fn with(mut self, spheres: &[SphereLight]) -> Self {
+        for sphere in spheres {
+            let (z, s) = (sphere.direction(), sphere.squared_sine());
+            let x = across([1.0, 0.0, 0.0], z);
+            let y = cross(z, x);
+            // By what the cosine is short of one, so that small spheres have all their digits.
+            for (short, weight) in gauss_legendre(RINGS, 0.0, s / (1.0 + (1.0 - s).sqrt())) {
+                let (sin, solid) = ((short * (2.0 - short)).sqrt(), weight * TAU / SPOKES as f64);
+                for spoke in 0..SPOKES {
+                    let (b, a) = (TAU * (spoke as f64 + 0.5) / SPOKES as f64).sin_cos();
+                    let direction = add(add(z.map(|c| c * (1.0 - short)), sin * a, x), sin * b, y);
+                    self.0.0.push(Light { direction, power: sphere.radiance.map(|c| c * solid) });
+                }
+            }
+        }
+        self
     }
 
     /// The radiance that a point of a surface sends to the eye.
@@ -109,6 +139,19 @@ mod tests {
             let expected = irradiance.evaluate(surface.modulated().0[2]).map(|v| v / PI);
             // Texels of 5.6 degrees at their centres change band 2 by 0.2 %; noise lies in all bands.
             assert!((0..3).all(|i| (found[i] / expected[i] - 1.0).abs() < 5e-3), "{found:?} {expected:?}");
+        }
+    }
+
+    /// A white surface that faces a sphere gets π s of its radiance; one that it stands sideways of, nothing from behind.
+    #[test]
+    fn a_sphere_gives_its_irradiance() {
+        let dark = Map { width: 64, height: 32, texels: vec![[0.0; 3]; 64 * 32] };
+        for (position, radius) in [([0.0, 0.0, 5.0], 1.5), ([0.0, 0.0, 1e5], 1.0), ([0.0, 0.0, 1.0], 0.999)] {
+            let sphere = SphereLight { position, radius, radiance: [1.0, 2.0, 0.0] };
+            let surface = Surface { frame: [0.0, 0.0, 0.0, 1.0], normal: [0.0, 0.0, 1.0], view: [0.0, 0.0, 1.0] };
+            let [r, g, b] = Lights::of(&dark).with(&[sphere]).radiance(&Brdf::Lambert, &surface);
+            let want = sphere.squared_sine();
+            assert!((r / want - 1.0).abs() <= 1e-12 && (g / r - 2.0).abs() <= 1e-12 && b == 0.0, "{r}, not {want}");
         }
     }
 

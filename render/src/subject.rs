@@ -2,14 +2,18 @@
 //! knows nothing of adapters.
 
 use zonal_codegen::environment::{self, Map, Projection};
+// Names a family: this is what a light is added by.
+use zonal_codegen::families::lights::LIGHT_SPHERE;
 // Names a family: a picture knows the tilt as two of its ways.
 use zonal_codegen::families::tilt::TILT;
 use zonal_codegen::families::{SmallAngle, Spec};
 use zonal_codegen::fault::Fault;
+use zonal_codegen::ir::eval::{Contraction, Program};
+use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::plan::Plan;
 use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
-use zonal_codegen::scene::{Job, Light, Located, Maps, Order, Scene};
+use zonal_codegen::scene::{Job, Light, Located, Maps, Order, Scene, SphereLight};
 use zonal_picture::camera::Camera;
 use zonal_picture::mesh::{self, Mesh};
 use zonal_picture::method::Method;
@@ -31,6 +35,8 @@ pub struct Subject {
     pub brdf: Brdf,
     /// The light around it.
     pub map: Map,
+    /// The spheres that shine on it.
+    pub lights: Vec<SphereLight>,
     /// The number of bands.
     pub order: usize,
     /// How coefficients get from a normal's frame to the surface's.
@@ -117,6 +123,7 @@ impl Subject {
             strength: picture.strength,
             brdf: scene.brdf.unwrap_or(Brdf::Lambert),
             map,
+            lights: scene.lights.iter().map(|light| light.in_axes(scene.axes())).collect(),
             order,
             method,
             camera: picture.camera,
@@ -130,9 +137,23 @@ impl Subject {
         Shading { order, method, isotropic: self.brdf.is_isotropic() }
     }
 
-    /// The coefficients of the light.
+    /// The coefficients of the light: those of the map, and each sphere added by its kernel.
     pub fn light(&self, order: usize) -> Projection {
-        self.map.project(order)
+        let mut light = self.map.project(order);
+        if self.lights.is_empty() {
+            return light;
+        }
+        // Names a family: this is what a light is added by.
+        let kernel = Program::<f64>::new(&Listing::new(&Spec::new(&LIGHT_SPHERE, order).kernel()));
+        for sphere in &self.lights {
+            let (dir, s) = (sphere.direction(), sphere.squared_sine());
+            for (channel, radiance) in sphere.radiance.into_iter().enumerate() {
+                let c: Vec<f64> = light.coefficients.iter().map(|c| c[channel]).collect();
+                let sum = kernel.run(&[&dir, &[s], &[radiance], &c], Contraction::Separate);
+                light.coefficients.iter_mut().zip(sum).for_each(|(c, sum)| c[channel] = sum);
+            }
+        }
+        light
     }
 }
 

@@ -12,10 +12,11 @@ use zonal_picture::mesh::Mesh;
 use zonal_picture::normal_map::NormalMap;
 
 /// The scenes beside their package.
-const SCENES: [&str; 3] = [
+const SCENES: [&str; 4] = [
     include_str!("../../scenes/glossy.toml"),
     include_str!("../../scenes/diffuse.toml"),
     include_str!("../../scenes/teapot.toml"),
+    include_str!("../../scenes/lights.toml"),
 ];
 /// A mesh with a face of each kind.
 const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\

@@ -67,6 +67,16 @@ fn frame(z: [f64; 3]) -> Matrix {
     fixed(&[x, cross(z, x), z].concat())
 }
 
+/// Returns the axes x, y and z of a frame whose z is a direction.
+///
+/// # Panics
+///
+/// If the direction does not have three numbers.
+pub fn frame_of(z: &[f64]) -> [[f64; 3]; 3] {
+    let matrix = frame(fixed(z));
+    std::array::from_fn(|axis| fixed(&matrix[3 * axis..3 * axis + 3]))
+}
+
 /// What parameters say of a rotation.
 #[derive(Clone, Copy, Debug)]
 pub enum Turn {
@@ -113,6 +123,7 @@ pub fn inverse((domain, list): &Origin) -> Option<Origin> {
         Domain::Phases => list.chunks(2).rev().flat_map(|pair| [pair[0], -pair[1]]).collect(),
         Domain::Angle(_) => vec![-list[0]],
         Domain::HalfSine(_) => list.clone(),
+        Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => return None,
         Domain::Signal | Domain::Direction | Domain::Normal | Domain::Made(_) => return None,
     };
     Some((*domain, inverse))
@@ -138,6 +149,7 @@ pub fn identity((domain, list): &Origin) -> Origin {
         Domain::Direction | Domain::Normal | Domain::Hemisphere | Domain::Tilt(_) => vec![0.0, 0.0, 1.0],
         Domain::Phases => [1.0, 0.0].repeat(list.len() / 2),
         Domain::Angle(_) => vec![0.0],
+        Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.clone(),
         Domain::Signal | Domain::HalfSine(_) | Domain::Made(_) => list.clone(),
     };
     (*domain, none)
@@ -159,6 +171,7 @@ fn precise(domain: Domain, list: &[f64]) -> Vec<f64> {
             let z: [f64; 3] = fixed(&unit(&cross(x, fixed(&list[3..6]))));
             [x, cross(z, x), z].concat()
         }
+        Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.to_vec(),
         Domain::Signal | Domain::Angle(_) | Domain::HalfSine(_) | Domain::Made(_) => list.to_vec(),
     }
 }
@@ -284,6 +297,11 @@ impl Sphere {
             })
             .collect();
         Self { nodes, basis }
+    }
+
+    /// Returns the directions of the quadrature, each with its weight.
+    pub fn nodes(&self) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
+        self.nodes.iter().map(|node| (node.direction, node.weight))
     }
 
     /// Returns the coefficients of what a signal of n² coefficients becomes under an orthogonal matrix.

@@ -107,9 +107,13 @@ impl Body {
         for place in 0..listing.steps.len() {
             printer.step(place);
         }
-        let result = |&operand: &Operand| {
-            let (text, names) = printer.operand(operand);
-            (text.text, names)
+        let result = |&operand: &Operand| match operand {
+            // A result that is linear in a signal is no constant but zero.
+            Operand::Const(_) if !listing.result_kind.is_scalar() => (dialect.zero(listing.result_kind), vec![]),
+            _ => {
+                let (text, names) = printer.operand(operand);
+                (text.text, names)
+            }
         };
         let results = listing.outputs.iter().map(result).collect();
         Self { lines: printer.lines, results }

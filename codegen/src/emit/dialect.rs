@@ -208,6 +208,19 @@ impl Dialect {
         (self.float().literal)(value)
     }
 
+    /// Returns zero, as a number of a kind.
+    pub fn zero(self, kind: Kind) -> String {
+        let (of, literal) = (self.number(kind), self.literal(&Exact::zero()));
+        if kind.is_scalar() {
+            return literal;
+        }
+        if self.language.generic.is_some() {
+            return format!("{of}::zero()");
+        }
+        let (open, close) = (self.language.brackets)(&of);
+        if self.rgb { format!("{open}{}{close}", [&literal[..]; 3].join(", ")) } else { literal }
+    }
+
     /// Returns the constant that is too small to change anything but a zero.
     pub fn tiny(self) -> &'static str {
         self.float().tiny

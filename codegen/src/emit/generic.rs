@@ -21,9 +21,10 @@ impl Function {
         let params = self.built.code.params();
         let arguments: Vec<String> = params
             .iter()
-            .map(|param| match param.kind.is_scalar() {
-                true => param.name.to_owned(),
-                false => format!("&{}.map(Channels)", param.name),
+            .map(|param| match (param.kind.is_scalar(), param.shape) {
+                (true, _) => param.name.to_owned(),
+                (false, Shape::Scalar) => format!("Channels({})", param.name),
+                (false, _) => format!("&{}.map(Channels)", param.name),
             })
             .collect();
         let (shape, kind) = self.built.code.result();

@@ -2,7 +2,8 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, lifted, monomial, small_turn, tensor, tilt, zhf, zonal, zxzxz, zyz,
+    about_y, align, axis, basis, convolution, fitted, lifted, lights, monomial, small_turn, tensor, tilt, zhf, zonal,
+    zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
@@ -38,6 +39,22 @@ pub static ALL: &[&Family] = &[
     &axis::SWAP_YZ,
     &axis::ROTATE_X_PLUS_90,
     &axis::ROTATE_X_MINUS_90,
+    &zonal_functions::CAP,
+    &zonal_functions::GAUSSIAN,
+    &zonal_functions::GAUSSIAN_NARROW,
+    &zonal_functions::PHONG,
+    &zonal_functions::HENYEY_GREENSTEIN,
+    &convolution::CONVOLVE,
+    &convolution::CONVOLVE_COSINE,
+    &convolution::IRRADIANCE,
+    &lights::LIGHT_DIRECTIONAL,
+    &lights::LIGHT_SPHERE,
+    &lights::LIGHT_CONE,
+    &lights::LIGHT_HEMISPHERE,
+    &lights::LIGHT_GAUSSIAN,
+    &fitted::DOMINANT,
+    &fitted::LIGHT_FIT,
+    &fitted::LIGHT_FIT_ALONG,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -2,7 +2,7 @@
 
 use crate::families::family::{Family, Group, Looped, Measure, Spec};
 use crate::families::loops;
-use crate::families::parts::columns::{self, Columns, Sectoral};
+use crate::families::parts::columns::{self, BandScale, Columns, Sectoral};
 use crate::families::parts::params::direction;
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
@@ -81,16 +81,26 @@ fn basis(order: usize, bands: &[usize]) -> Kernel {
     builder.finish(outputs, Shape::Array(count), "y_lm(dir), bands ascending, m from −l to l")
 }
 
-/// Σ c_i y_i(dir) without storing the basis: the kernel `eval`. Nested by m: a coefficient costs one operation a channel,
-/// the polynomials are shared by channels and by cosine and sine.
+/// Σ c_i y_i(dir) without storing the basis: the kernel `eval`.
 fn eval(order: usize, bands: &[usize]) -> Kernel {
     let mut builder = Builder::new();
     let dir = direction(&mut builder);
     let count = coefficients_of(bands);
     let c = builder.param("c", Shape::Array(count), Domain::Signal, "the coefficients of the bands, ascending");
-    let places = packed(bands, order);
-    let g = &mut builder.graph;
-    let basis = Columns::new(g, &dir, order, columns::orthonormal, Sectoral::UnitLength);
+    let sum = sum(&mut builder.graph, &dir, &c, &packed(bands, order), columns::orthonormal);
+    builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
+}
+
+/// Σ c_i y_i(dir), each band of y scaled, over the harmonics that have a place in `c`: one entry of `places` a harmonic of
+/// the order. Nested by m: a coefficient costs one operation a channel, the polynomials are shared by channels and by
+/// cosine and sine.
+///
+/// # Panics
+///
+/// If no harmonic has a place.
+pub fn sum(g: &mut Graph, dir: &[Id], c: &[Id], places: &[Option<usize>], scale: BandScale) -> Id {
+    let order = places.len().isqrt();
+    let basis = Columns::new(g, dir, order, scale, Sectoral::UnitLength);
     let mut sum: Option<Id> = None;
     for m in 0..order {
         let polynomials = basis.polynomials(g, m, order);
@@ -120,8 +130,8 @@ fn eval(order: usize, bands: &[usize]) -> Kernel {
                 (even, Some(odd)) => {
                     // For m = 0 the even part holds y_{0,0} already and the odd part is a multiple of y_{1,0}.
                     let step = if m == 0 {
-                        let y10 =
-                            &basis.ratio(tables::legendre_recurrence(1, 0).0, 1, 0) * &columns::sectoral_factor(0);
+                        let y00 = &columns::sectoral_factor(0) * &scale(0);
+                        let y10 = &basis.ratio(tables::legendre_recurrence(1, 0).0, 1, 0) * &y00;
                         g.scale(&y10, basis.z)
                     } else {
                         basis.step(g, m)
@@ -142,6 +152,5 @@ fn eval(order: usize, bands: &[usize]) -> Kernel {
             });
         }
     }
-    let sum = sum.expect("a spec names at least one band");
-    builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
+    sum.expect("a harmonic has a place")
 }

@@ -45,12 +45,14 @@ pub enum Group {
     Factorise,
     /// What rotations are made of: about one axis.
     Piece,
+    /// Functions of the angle from an axis, and lights.
+    Light,
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 6] =
-        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece];
+    pub const ALL: [Self; 7] =
+        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece, Self::Light];
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
     pub fn name(self) -> &'static str {
@@ -61,6 +63,7 @@ impl Group {
             Self::SmallAngle => "small_angles",
             Self::Factorise => "factorisation",
             Self::Piece => "pieces",
+            Self::Light => "lighting",
         }
     }
 
@@ -73,6 +76,7 @@ impl Group {
             Self::SmallAngle => "rotations by a small angle, approximately",
             Self::Factorise => "the sparse zonal factorisation",
             Self::Piece => "what rotations are made of, about one axis",
+            Self::Light => "zonal functions, convolution with them, lights",
         }
     }
 }
@@ -82,6 +86,9 @@ impl Group {
 pub enum Measure {
     /// Each band's error against the band's norm in the signal.
     Bands,
+    /// Each band's error where something is added to the signal, against the norm of that band and the size of what is
+    /// added, both of which are one. What is added is linear in signals that are single numbers.
+    Added,
     /// The value's error against the norm of all coefficients.
     Whole,
     /// The whole result's error against the product of the norms of all signals, of which there are two or one twice.
@@ -222,6 +229,18 @@ pub struct Looped {
     pub kernel: fn(usize) -> LoopKernel,
 }
 
+/// A function of the angle from an axis, as a family says it that gives its zonal coefficients: by what a cosine is short of
+/// one, so that it is exact near the axis too.
+#[derive(Clone, Copy, Debug)]
+pub struct ZonalFunction {
+    /// How far it reaches: it is zero beyond this.
+    pub reach: fn(parameters: &[Vec<f64>]) -> f64,
+    /// Its value at one less the cosine.
+    pub value: fn(parameters: &[Vec<f64>], short: f64) -> f64,
+    /// By how much the coefficients err besides rounding, relative to the largest of them.
+    pub error: f64,
+}
+
 /// A family of kernels.
 pub struct Family {
     /// What a spec begins with: `rotate`.
@@ -263,6 +282,8 @@ pub struct Family {
     pub max_angle: fn(&Spec) -> Option<f64>,
     /// What the planner may take it for, at an order and for one channel or three.
     pub does: fn(usize, bool) -> Vec<Does>,
+    /// The function that its results are the zonal coefficients of, where they are those of one.
+    pub zonal: Option<ZonalFunction>,
     /// The non-zero entries of its sparse matrix in the bands from 2 on, where that is what its papers count.
     pub nonzeros: Option<fn(usize) -> usize>,
     /// Its rows of the catalogue at an order.
@@ -294,13 +315,14 @@ impl Family {
         proof: Proof::Auto,
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],
+        zonal: None,
         nonzeros: None,
         shown: |_| vec![],
     };
 
     /// Whether it has a signal, which may be RGB.
     pub fn has_signal(&self) -> bool {
-        matches!(self.measure, Measure::Bands | Measure::Whole | Measure::Product)
+        matches!(self.measure, Measure::Bands | Measure::Added | Measure::Whole | Measure::Product)
     }
 
     fn key(&self) -> (&str, &str) {

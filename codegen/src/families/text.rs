@@ -436,7 +436,7 @@ impl Spec {
                 format!("`{}` does not work in f16", whole.text),
                 // Names a family: it is the way out for whoever needs a rotation in f16.
                 format!(
-                    "a quaternion's angles, a zonal factorisation and loops need f32, and orders end at {MAX_HALF_ORDER}; \
+                    "a quaternion's angles, a zonal factorisation, the sizes of lights and loops need f32, and orders end at {MAX_HALF_ORDER}; \
                      `rotate:{}:angles:f16` takes angles that were made in f32",
                     order.min(MAX_HALF_ORDER)
                 ),

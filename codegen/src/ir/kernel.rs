@@ -66,13 +66,15 @@ pub struct Param {
     pub domain: Domain,
     /// What it holds, with its unit and range.
     pub doc: String,
+    /// What each of its numbers is where a list of inputs leaves it out, if it may.
+    pub usual: Option<f64>,
 }
 
 impl Param {
     /// A parameter; it is a signal where its domain says so.
     pub fn new(name: &'static str, shape: Shape, domain: Domain, doc: impl Into<String>) -> Self {
         let kind = if domain.is_signal() { Kind::Signal } else { Kind::Scalar };
-        Self { name, shape, kind, domain, doc: doc.into() }
+        Self { name, shape, kind, domain, doc: doc.into(), usual: None }
     }
 }
 
@@ -113,6 +115,15 @@ impl Builder {
         let kind = of.kind;
         self.params.push(of);
         (0..shape.len() as u32).map(|index| self.graph.input(param, index, kind)).collect()
+    }
+
+    /// Says what the parameter that was declared last is where a list of inputs leaves it out.
+    ///
+    /// # Panics
+    ///
+    /// If there is no parameter.
+    pub fn usually(&mut self, number: f64) {
+        self.params.last_mut().expect("a parameter is declared").usual = Some(number);
     }
 
     /// The kernel with these outputs.
@@ -159,6 +170,14 @@ pub enum Domain {
     Angle(f64),
     /// The sine of half an angle from 0 to this in radians.
     HalfSine(f64),
+    /// A number between two.
+    Between(f64, f64),
+    /// A number between the first and the last, at the second of which another way is taken.
+    Bent(f64, f64, f64),
+    /// The coefficients of a function of the angle from an axis, one a band, none larger than one.
+    Zonal,
+    /// Coefficients of one channel, each band of norm one, of which something is found that is not linear in them.
+    Coefficients,
     /// What another kernel returns.
     Made(Made),
 }
@@ -272,6 +291,9 @@ impl Domain {
             Self::BoundedTurn(_) => format!("for an angle up to {most} degrees about y"),
             Self::HalfSine(_) => format!("with a {name} up to {most} degrees"),
             Self::Made(Made { max_angle: Some(_), .. }) => format!("for an angle up to {most} degrees about y"),
+            Self::Between(least, most) | Self::Bent(least, _, most) => format!("for {name} from {least} to {most}"),
+            Self::Zonal => format!("for {name} of at most one each"),
+            Self::Coefficients => format!("for {name} with each band of norm one"),
             Self::Made(_) => "for every angle".to_owned(),
         };
         Some(words)

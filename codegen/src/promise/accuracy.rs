@@ -65,6 +65,7 @@ impl Measure {
     pub fn name(self) -> &'static str {
         match self {
             Self::Bands | Self::Through(_) => "the norm of a band",
+            Self::Added => "the norm of a band, which is one, as is the size of what is added",
             Self::Whole => "the norm of the coefficients, each band of norm one",
             Self::Product => "the product of both signals' norms",
             Self::Absolute => "one",
@@ -78,7 +79,7 @@ impl Measure {
             got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
         match self {
-            Self::Bands | Self::Through(_) => {
+            Self::Bands | Self::Added | Self::Through(_) => {
                 (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger)
             }
             Self::Product => difference(0..got.len()),

@@ -183,7 +183,32 @@ fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
             let half = most / 2.0;
             vec![random.signed().abs() * (half - half * half * half / 6.0)]
         }
+        Domain::Between(least, most) => vec![between(random, i, least, most)],
+        // Errors may be largest on either side of where another way is taken.
+        Domain::Bent(_, bend, _) if i % 4 == 3 => vec![bend * (1.0 + random.signed() / (1u64 << (i % 16)) as f64)],
+        Domain::Bent(least, _, most) => vec![between(random, i, least, most)],
+        Domain::Zonal => (0..len).map(|_| random.signed()).collect(),
+        Domain::Coefficients => signal(random, len),
         Domain::Made(_) => unreachable!("what is made has a source of its own"),
+    }
+}
+
+/// A number between two: both ends, then every second one evenly, and between these of every size down to 2^-40 of the
+/// range, on both sides of zero where the range has both.
+fn between(random: &mut Random, i: usize, least: f64, most: f64) -> f64 {
+    let both = least == -most;
+    match i {
+        0 => return most,
+        1 => return least,
+        2 => return (least + most) / 2.0,
+        _ => {}
+    }
+    let even = least + (most - least) * (1.0 + random.signed()) / 2.0;
+    let fraction = (3.0 + random.signed()) / 4.0 / (1u64 << (random.bits() % 40)) as f64;
+    match (i % 2, both) {
+        (0, _) => even,
+        (_, false) => least + (most - least) * fraction,
+        (_, true) => most * fraction.copysign(random.signed()),
     }
 }
 

@@ -134,6 +134,7 @@ impl fmt::Display for Brdf {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Lambert => write!(f, "lambert"),
+            // Names a family: not the kernel, but the reflectance of the same name.
             Self::Phong { exponent } => write!(f, "phong:{exponent}"),
             Self::Ward { alpha: [x, y] } if x == y => write!(f, "ward:{x}"),
             Self::Ward { alpha: [x, y] } => write!(f, "ward:{x}:{y}"),

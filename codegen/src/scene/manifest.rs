@@ -13,6 +13,7 @@ use crate::scene::frame;
 use crate::scene::located::MAX_SIGNALS;
 use crate::scene::located::{Located, Locator, Order, Placed};
 use crate::scene::picture::{self, BrdfTable, Kind, PictureTable};
+use crate::scene::sphere::{self, LightTable};
 use crate::scene::wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IntoDeserializer};
@@ -47,6 +48,9 @@ struct Manifest {
     rotation: Vec<RotationTable>,
     /// What the surface reflects. The order of the environment is then chosen by the light that is reflected.
     brdf: Option<BrdfTable>,
+    /// A sphere that shines, beside the map, for who draws the scene.
+    #[serde(default)]
+    light: Vec<LightTable>,
     /// What a picture of the scene shows, which `zonal render` draws.
     picture: Option<PictureTable>,
 }
@@ -156,6 +160,9 @@ fn values(field: &str, table: &str) -> Option<String> {
         "order" => Some(format!("a number from {MIN_ORDER} to {MAX_ORDER}, or \"environment\"")),
         "max_angle" => Some("a number of degrees, above 0 and up to 180".to_owned()),
         "max_error" => Some("a number above 0, as in 0.01".to_owned()),
+        "position" => Some("three numbers, as in `position = [2, -1, 3]`".to_owned()),
+        "radius" => Some("a number above 0 and below the distance".to_owned()),
+        "radiance" => Some("R, G and B, as in `radiance = [8, 6, 4]`".to_owned()),
         "mesh" => Some("\"sphere\", \"plane\" or the file of a mesh, .obj".to_owned()),
         _ => None,
     }
@@ -279,6 +286,7 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
         });
     }
     scene.brdf = manifest.brdf.map(|table| picture::brdf(&locate, table)).transpose()?;
+    scene.lights = manifest.light.into_iter().map(|table| sphere::light(&locate, table)).collect::<Result<_, _>>()?;
     scene.picture = manifest.picture.map(|table| picture::picture(&locate, table)).transpose()?;
     Ok(scene)
 }

@@ -29,6 +29,7 @@ pub mod frame;
 pub mod located;
 mod manifest;
 pub mod picture;
+pub mod sphere;
 pub mod wanted;
 #[cfg(feature = "schema")]
 mod words;
@@ -36,6 +37,7 @@ mod words;
 pub use crate::families::family::Job;
 pub use budget::{Norm, Precision, RelativeTo};
 pub use located::{Located, Order};
+pub use sphere::SphereLight;
 #[cfg(feature = "schema")]
 pub use manifest::schema;
 pub use wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};

@@ -9,6 +9,7 @@ use crate::scene::budget::{Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Order};
 use crate::scene::picture::Picture;
+use crate::scene::sphere::SphereLight;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -105,6 +106,8 @@ pub struct Scene {
     pub rotations: Vec<Rotation>,
     /// What the surface reflects.
     pub brdf: Option<Brdf>,
+    /// The spheres that shine, beside the map.
+    pub lights: Vec<SphereLight>,
     /// What a picture shows.
     pub picture: Option<Picture>,
     /// Where the maps are.
@@ -123,6 +126,7 @@ impl Scene {
             kernels: vec![],
             rotations: vec![],
             brdf: None,
+            lights: vec![],
             picture: None,
             maps: Maps::Folder(PathBuf::new()),
         }

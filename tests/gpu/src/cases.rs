@@ -9,6 +9,7 @@ use zonal_codegen::emit::language::Target;
 use zonal_codegen::families::family::{Acts, Measure};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
@@ -167,8 +168,9 @@ impl Cases {
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         let family = function.spec.family;
-        // Of two signals the second stays as it is drawn: both huge would overflow.
-        let scaled = params.iter().position(|param| !param.kind.is_scalar());
+        // Of a product's two signals the second stays as it is drawn: both huge would overflow.
+        let first = params.iter().position(|param| !param.kind.is_scalar());
+        let is_scaled = |place: usize| kind != Kind::Product || first == Some(place);
         let by_band = matches!(family.measure, Measure::Bands) && family.acts != Acts::Mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
@@ -183,7 +185,7 @@ impl Cases {
                         }
                         let signal = samples[(case + channel) % count][place].iter().enumerate();
                         let len = param.shape.len();
-                        let unit = |i: usize| match scaled == Some(place) {
+                        let unit = |i: usize| match is_scaled(place) {
                             true => scale(case / BLOCK + channel, band_of(i, len)),
                             false => 1.0,
                         };

@@ -79,6 +79,8 @@ adapters! {
     value_signal(A: [], C: [&]);
     list_signal(A: [&], C: [&]);
     value_value_signal(A: [], B: [], C: [&]);
+    value_value_value_signal(A: [], B: [], C: [], D: [&]);
+    list(C: [&]);
     list_value_signal(A: [&], B: [], C: [&]);
 }
 
@@ -95,6 +97,9 @@ macro_rules! functions {
     };
     (@ $scalar:ident, $table:ident, $module:ident, value, $one:ident) => {
         $table.insert(concat!(stringify!($module), "_", stringify!($one)), value(zonal::$module::$one::<$scalar>));
+    };
+    (@ $scalar:ident, $table:ident, $module:ident, list, $one:ident) => {
+        $table.insert(concat!(stringify!($module), "_", stringify!($one)), list(zonal::$module::$one::<$scalar>));
     };
     (@ $scalar:ident, $table:ident, $module:ident, $adapter:ident, $one:ident) => {
         $table.insert(
@@ -141,6 +146,23 @@ macro_rules! order_from_4 {
     };
 }
 
+/// Lights and zonal functions, which the catalogue has to order 6.
+macro_rules! lights {
+    ($scalar:ident, $table:ident, $($module:ident)*) => { $(
+        functions! {
+            $scalar, $table, $module,
+            value: cap, gaussian, gaussian_narrow, phong, henyey_greenstein;
+            list: dominant, light_fit;
+            signal: convolve_cosine / convolve_cosine_rgb;
+            list_signal: convolve / convolve_rgb;
+            value_signal: irradiance / irradiance_rgb, light_fit_along / light_fit_along_rgb;
+            value_value_signal: light_directional / light_directional_rgb;
+            value_value_value_signal: light_sphere / light_sphere_rgb, light_cone / light_cone_rgb,
+                light_hemisphere / light_hemisphere_rgb, light_gaussian / light_gaussian_rgb;
+        }
+    )* };
+}
+
 macro_rules! every_order {
     ($scalar:ident) => {{
         let mut table: BTreeMap<&'static str, Flattened<$scalar>> = BTreeMap::new();
@@ -160,6 +182,7 @@ macro_rules! every_order {
         order_from_4!($scalar, table, sh8, value_signal: rotate_loop / rotate_rgb_loop;);
         order_from_4!($scalar, table, sh9, value_signal: rotate_loop / rotate_rgb_loop;);
         order_from_4!($scalar, table, sh10, value_signal: rotate_loop / rotate_rgb_loop;);
+        lights!($scalar, table, sh2 sh3 sh4 sh5 sh6);
         table
     }};
 }

@@ -7,9 +7,11 @@ use zonal_codegen::families::SmallAngle;
 use zonal_codegen::families::about_y::ABOUT_Y;
 use zonal_codegen::families::axis::ROTATE_Y;
 use zonal_codegen::families::basis::BASIS;
-use zonal_codegen::families::family::{Acts, Family, Measure, Spec};
+use zonal_codegen::families::family::{Acts, Family, Measure, Spec, ZonalFunction};
+use zonal_codegen::families::fitted::DOMINANT;
 use zonal_codegen::families::monomial::TO_MONOMIAL;
 use zonal_codegen::families::tilt::{TILT, TILT_SCALE};
+use zonal_codegen::families::zonal_functions::{CAP, cap_height};
 use zonal_codegen::families::zyz::{ANGLES, ZYZ};
 use zonal_codegen::ir::graph::{Graph, Id, Kind};
 use zonal_codegen::ir::kernel::{Builder, Domain, Kernel, Shape};
@@ -149,6 +151,31 @@ static TOO_NARROW: Family = Family {
     ..Family::PLAIN
 };
 
+/// It says that it is a cap of half the size.
+static SHRUNK: Family = Family {
+    name: "shrunk",
+    half: false,
+    measure: Measure::Absolute,
+    kernel: CAP.kernel,
+    zonal: Some(ZonalFunction { reach: |p| cap_height(p[0][0] / 2.0), value: |_, _| 1.0, error: 0.0 }),
+    shown: |order| vec![Spec::new(&SHRUNK, order)],
+    ..Family::PLAIN
+};
+
+/// Its directions are mirrored.
+static MIRRORED: Family = Family {
+    name: "mirrored",
+    half: false,
+    measure: Measure::Absolute,
+    kernel: |spec| {
+        let mut kernel = (DOMINANT.kernel)(spec);
+        kernel.outputs[0] = kernel.graph.neg(kernel.outputs[0]);
+        kernel
+    },
+    shown: |order| vec![Spec::new(&MIRRORED, order)],
+    ..Family::PLAIN
+};
+
 /// Nothing is said of it.
 static SILENT: Family = Family {
     name: "silent",
@@ -161,7 +188,7 @@ static SILENT: Family = Family {
 
 #[test]
 fn every_property_can_fail() {
-    let wrong: [(&Family, &[&str]); 12] = [
+    let wrong: [(&Family, &[&str]); 14] = [
         (&STRETCHED, &["norms", "turns", "identity", "group"]),
         (&SPILT, &["bands", "norms", "turns", "group"]),
         (&SQUARED, &["linear"]),
@@ -174,6 +201,8 @@ fn every_property_can_fail() {
         (&REORDERED, &["loop", "some bands"]),
         (&BACKWARDS, &["turns"]),
         (&TOO_NARROW, &["half"]),
+        (&SHRUNK, &["zonal"]),
+        (&MIRRORED, &["found"]),
     ];
     for (family, expected) in &wrong {
         let (_, faults) = tried(&specs(family));

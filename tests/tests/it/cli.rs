@@ -386,7 +386,7 @@ fn list_has_the_figures() {
         for key in ["mul", "add", "fma", "special", "total", "order", "channels", "constants", "live", "rounding_f32"] {
             assert!(row[key].is_number(), "{key} in {row}");
         }
-        let sum = ["mul", "add", "fma"].iter().map(|key| row[key].as_u64().expect("a count")).sum::<u64>();
+        let sum = ["mul", "add", "fma", "choice"].iter().map(|key| row[key].as_u64().expect("a count")).sum::<u64>();
         assert_eq!(row["total"].as_u64(), Some(sum), "{row}");
     }
     let specs: BTreeSet<&str> = rows.iter().filter_map(|row| row["spec"].as_str()).collect();

@@ -32,7 +32,7 @@ const BELONGS: [&str; 11] = [
 const BESIDE: [(&str, &[&str]); 4] = [
     ("zonal-codegen", &["data"]),
     ("zonal-kernels", &["COSTS.md", "MANIFEST.tsv", "glsl", "rust", "wgsl"]),
-    ("zonal-scenes", &["diffuse.toml", "glossy.toml", "maps", "meshes", "normals", "teapot.toml"]),
+    ("zonal-scenes", &["diffuse.toml", "glossy.toml", "lights.toml", "maps", "meshes", "normals", "teapot.toml"]),
     ("zonal-templates", &["explorer", "glsl.tera", "picture", "real.rs.tera", "rust.tera", "wgsl.tera"]),
 ];
 

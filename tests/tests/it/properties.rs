@@ -2,6 +2,7 @@
 //! has another form, is tried on seeded inputs, extremes first. A new family is tested by existing, and fails where
 //! nothing can be tested of it. That the basis is orthonormal is checked by itself, since the others rest on it.
 
+use crate::found;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -27,21 +28,21 @@ use zonal_tests::{Runner, larger, norm};
 /// The orders at which families are tried; all that a kernel is made of is there at the last.
 const ORDERS: RangeInclusive<usize> = 2..=5;
 /// How many inputs each kernel is tried on.
-const COUNT: usize = 40;
+pub(crate) const COUNT: usize = 40;
 /// The first input that is none of the extremes.
 const ORDINARY: usize = 16;
 /// What f64 may round off a band of norm one: some hundred operations of 1.1e-16 each, amplified by a lobe set's condition
 /// or a lifted rotation's tangents at most a few times.
-const ROUNDING: f64 = 1e-13;
+pub(crate) const ROUNDING: f64 = 1e-13;
 
 /// Whether a property is the kernel's, and if so, what contradicts it.
-type Tried = Result<bool, String>;
+pub(crate) type Tried = Result<bool, String>;
 
 /// What tries a property on a kernel.
 type Property = fn(&Spec) -> Tried;
 
 /// All properties, each with its name.
-pub(crate) const PROPERTIES: [(&str, Property); 10] = [
+pub(crate) const PROPERTIES: [(&str, Property); 12] = [
     ("finite", is_finite),
     ("linear", is_linear),
     ("bands", bands_do_not_mix),
@@ -52,12 +53,14 @@ pub(crate) const PROPERTIES: [(&str, Property); 10] = [
     ("loop", the_loop_is_the_same),
     ("some bands", some_bands_are_the_same),
     ("half", f16_errs_by_its_roundoff),
+    ("zonal", found::it_is_the_function_that_it_says),
+    ("found", found::what_is_found_turns_with_the_signal),
 ];
 
 /// What every kernel has, whatever it does.
 pub(crate) const OF_ALL: &str = "finite";
 
-fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), String> {
+pub(crate) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Result<(), String> {
     if holds { Ok(()) } else { Err(what()) }
 }
 
@@ -84,7 +87,7 @@ impl Subject {
     }
 }
 
-fn difference(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn difference(a: &[f64], b: &[f64]) -> f64 {
     norm(&a.iter().zip(b).map(|(x, y)| x - y).collect::<Vec<_>>())
 }
 
@@ -101,8 +104,8 @@ fn is_finite(spec: &Spec) -> Tried {
     Ok(true)
 }
 
-/// In each signal sums become sums, zeros stay zeros, and what is multiplied by a power of two becomes that to the last
-/// bit; where a product is of one signal with itself, by the power's square.
+/// In each signal of a product sums become sums, else in all signals together; zeros stay zeros, and what is multiplied by a
+/// power of two becomes that to the last bit; where a product is of one signal with itself, by the power's square.
 fn is_linear(spec: &Spec) -> Tried {
     if !spec.family.has_signal() {
         return Ok(false);
@@ -111,10 +114,18 @@ fn is_linear(spec: &Spec) -> Tried {
     let is_product = matches!(spec.family.measure, Measure::Product);
     for (i, trials) in subject.trials.windows(2).enumerate() {
         let (origins, signals) = (&trials[0].origins, &trials[0].signals);
-        for (place, (x, y)) in signals.iter().zip(&trials[1].signals).enumerate() {
+        let all: Vec<usize> = (0..signals.len()).collect();
+        let places: Vec<&[usize]> = if is_product { all.chunks(1).collect() } else { vec![&all] };
+        for places in places {
+            let of = |trial: &Trial| -> Vec<f64> { places.iter().flat_map(|&at| trial.signals[at].clone()).collect() };
+            let (x, y) = (&of(&trials[0]), &of(&trials[1]));
             let given = |signal: &[f64]| {
-                let mut all = signals.clone();
-                all[place] = signal.to_vec();
+                let (mut all, mut rest) = (signals.clone(), signal);
+                for &place in places {
+                    let (own, others) = rest.split_at(all[place].len());
+                    all[place] = own.to_vec();
+                    rest = others;
+                }
                 subject.parameters.inputs(origins, &all)
             };
             let (of, in_f32) =

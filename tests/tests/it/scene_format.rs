@@ -90,7 +90,7 @@ fn keys(root: &Value, of: &Value, tables: &[&str]) -> String {
 
 /// The reference as Markdown: the keys at the top, then a heading a table.
 fn reference(root: &Value) -> String {
-    const TABLES: [&str; 5] = ["environment", "kernel", "rotation", "brdf", "picture"];
+    const TABLES: [&str; 6] = ["environment", "kernel", "rotation", "brdf", "light", "picture"];
     let mut text = format!("## At the top\n\n{}", keys(root, root, &TABLES));
     for table in TABLES {
         let of = &root["properties"][table];

@@ -41,7 +41,7 @@ pub struct Columns {
 }
 
 /// The coefficients of the two-step recurrence y_l = (a z² + b) y_{l−2} + c y_{l−4} for column m.
-fn two_step(l: usize, m: usize) -> [Exact; 3] {
+pub fn two_step(l: usize, m: usize) -> [Exact; 3] {
     let b = |l: usize| if l > m + 1 { tables::legendre_recurrence(l, m).1 } else { Exact::zero() };
     let a = |l: usize| tables::legendre_recurrence(l, m).0;
     let lead = &a(l) * &a(l - 1);

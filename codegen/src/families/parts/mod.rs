@@ -8,3 +8,4 @@ pub mod phases;
 pub mod small_angle;
 pub mod sums;
 pub mod usual;
+pub mod zonal;

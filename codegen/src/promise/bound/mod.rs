@@ -29,6 +29,7 @@ pub mod region;
 pub mod roundoff;
 pub mod section;
 mod sweep;
+mod uncut;
 mod value;
 
 use crate::families::family::{Acts, MAX_ORDER, Measure, Proof, Spec};
@@ -111,6 +112,7 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
         }
         (Proof::Auto, Measure::Bands) if spec.family.acts == Acts::Mixes => Bound::of(&prover.mixed()?, true),
         (Proof::Auto, Measure::Bands) => Bound::of(&prover.bands()?, true),
+        (Proof::Auto, Measure::Added) => Bound::of(&prover.added()?, true),
         (Proof::Auto, Measure::Product) => None,
     }
 }

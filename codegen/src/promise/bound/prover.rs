@@ -7,7 +7,7 @@ use crate::ir::kernel::Shape;
 use crate::ir::kernel::{Domain, Held, Made, OfAngle, POLAR};
 use crate::ir::listing::{Listing, Op, Operand, Step};
 use crate::math::exact::Exact;
-use crate::promise::bound::norm::{Matrix, SLACK};
+use crate::promise::bound::norm::SLACK;
 use crate::promise::bound::phases::{self, Phase, Phases};
 use crate::promise::bound::region::{Region, Root};
 use crate::promise::bound::roundoff::{Both, INPUT, U, larger, larger_of};
@@ -230,8 +230,9 @@ impl<'a> Prover<'a> {
     }
 
     /// The region of what these scalars depend on, and the circle if they are functions of one angle of a phase.
-    fn domain(&self, scalars: impl IntoIterator<Item = Operand>) -> Option<(Region, usize)> {
+    pub(super) fn domain(&self, scalars: impl IntoIterator<Item = Operand>) -> Option<(Region, usize)> {
         let mut found: Option<(Region, usize)> = None;
+        let mut zonal: Option<Operand> = None;
         let mut seen = HashSet::new();
         let mut stack: Vec<Operand> = scalars.into_iter().collect();
         while let Some(operand) = stack.pop() {
@@ -242,7 +243,13 @@ impl<'a> Prover<'a> {
             let circle = circle.or_else(|| self.others.get(&operand).map(|(_, circle)| *circle));
             let next = match (circle, operand) {
                 (Some(circle), _) => (self.circle(circle), circle),
-                (None, Operand::Input { param, .. }) => (self.parameter(param)?, 0),
+                (None, Operand::Input { param, .. }) => {
+                    // The region is that of one number.
+                    if self.listing.params[param].domain == Domain::Zonal && zonal.replace(operand).is_some() {
+                        return None;
+                    }
+                    (self.parameter(param)?, 0)
+                }
                 (None, Operand::Step(step)) => {
                     stack.extend(self.listing.steps[step].op.operands());
                     continue;
@@ -276,12 +283,13 @@ impl<'a> Prover<'a> {
             Domain::Quaternion => Region::Quaternion,
             Domain::Rotation => Region::Rotation,
             Domain::Angle(most) => Region::Small(most),
+            Domain::Zonal => Region::Small(1.0),
             _ => return None,
         };
         region.is_valid().then_some(region)
     }
 
-    fn start(&self, operand: Operand) -> Option<Start> {
+    pub(super) fn start(&self, operand: Operand) -> Option<Start> {
         if let Some((phase, is_sine)) = self.phases.of(operand) {
             let k = phase.multiple;
             let root = if is_sine { Root::Sin(k) } else { Root::Cos(k) };
@@ -307,27 +315,6 @@ impl<'a> Prover<'a> {
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
 
-    /// One value, linear in coefficients of which each band has norm one.
-    pub(super) fn sum(&self, bands: &[usize]) -> Option<Both> {
-        let inputs = self.coefficients();
-        let (_, scalars) = self.cone(&inputs, &self.listing.outputs)?;
-        let (domain, _) = self.domain(scalars)?;
-        let section =
-            Section::new(self.listing, domain, &inputs, &self.listing.outputs, |operand| self.start(operand))?;
-        let measure = |run: &Run, mode: usize, _: f64| {
-            let weights = section.weights(run, mode);
-            let mut rest = weights.row(0);
-            let mut sum = 0.0;
-            for l in bands {
-                let (band, others) = rest.split_at(2 * l + 1);
-                sum += band.iter().map(|w| w * w).sum::<f64>().sqrt();
-                rest = others;
-            }
-            sum * SLACK
-        };
-        Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
-    }
-
     pub(super) fn coefficients(&self) -> Vec<Operand> {
         let params = self.listing.params.iter().enumerate().filter(|(_, param)| param.kind == Kind::Signal);
         params.flat_map(|(param, of)| (0..of.shape.len()).map(move |index| Operand::Input { param, index })).collect()
@@ -335,25 +322,6 @@ impl<'a> Prover<'a> {
 
     pub(super) fn bands(&self) -> Option<Vec<Both>> {
         (0..self.spec.order).map(|l| self.band(l)).collect()
-    }
-
-    /// The errors of a constant map that mixes bands, for bands of norm one.
-    pub(super) fn mixed(&self) -> Option<Vec<Both>> {
-        let (inputs, places) = (self.coefficients(), |l: usize| l * l..(l + 1) * (l + 1));
-        let band = |l: usize| {
-            let outputs = &self.listing.outputs[places(l)];
-            let section = Section::new(self.listing, Region::Nothing, &inputs, outputs, |_| None)?;
-            let measure = |run: &Run, mode: usize, _: f64| {
-                let weights = section.weights(run, mode);
-                let of = |from: usize| -> f64 {
-                    let rows = (0..outputs.len()).flat_map(|row| weights.row(row)[places(from)].iter().copied());
-                    Matrix { columns: 2 * from + 1, entries: rows.collect() }.weight_norm(0.0)
-                };
-                (0..self.spec.order).map(of).sum::<f64>() * SLACK
-            };
-            Some(sweep(&section, Region::Nothing, &[], self.roundoff, 0.0, &measure))
-        };
-        (0..self.spec.order).map(band).collect()
     }
 
     /// The error of a band relative to its norm.
@@ -406,6 +374,10 @@ impl<'a> Prover<'a> {
 
     /// A part that falls no further apart.
     fn whole(&self, inputs: &[Operand], outputs: &[Operand], scalars: HashSet<Operand>) -> Option<Part> {
+        // What depends on no signal is zero.
+        if inputs.is_empty() {
+            return Some(Part { norm: 0.0, ..Part::IDENTITY });
+        }
         if inputs.len() == outputs.len() && outputs.iter().all(|output| inputs.contains(&self.unsigned(*output))) {
             return Some(Part::IDENTITY);
         }

