@@ -12,6 +12,7 @@ pub mod lifted;
 pub mod loops;
 pub mod monomial;
 pub mod parts;
+pub mod product;
 pub mod small_turn;
 pub mod tensor;
 pub mod text;

@@ -2,8 +2,10 @@
 
 pub mod convention;
 pub mod exact;
+pub mod gaunt;
 pub mod half;
 pub mod index;
 pub mod linear;
 pub mod quadrature;
+pub mod roots;
 pub mod tables;
