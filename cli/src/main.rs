@@ -3,6 +3,7 @@
 
 mod commands;
 mod hand_over;
+mod products;
 mod search;
 mod vectors;
 
@@ -141,6 +142,8 @@ enum Command {
     },
     /// Searches for lobe directions that make the zonal factorisation sparse.
     SearchLobes(search::Arguments),
+    /// Searches for plans that make products and squares cheap.
+    SearchProducts(products::Arguments),
 }
 
 /// A spec that stands on the command line.
@@ -165,6 +168,7 @@ fn main() -> ExitCode {
         Command::Render { arguments } => hand_over::render(arguments),
         Command::Catalog { check, dir, force } => commands::catalog(&dir, check, Replace::forced(force)),
         Command::SearchLobes(arguments) => search::run(&arguments),
+        Command::SearchProducts(arguments) => products::run(&arguments),
     };
     ended(result)
 }

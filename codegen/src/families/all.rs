@@ -2,7 +2,7 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, lifted, monomial, small_turn, tensor, tilt, zhf, zonal, zxzxz, zyz,
+    about_y, align, axis, basis, lifted, monomial, product, small_turn, tensor, tilt, zhf, zonal, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
@@ -38,6 +38,22 @@ pub static ALL: &[&Family] = &[
     &axis::SWAP_YZ,
     &axis::ROTATE_X_PLUS_90,
     &axis::ROTATE_X_MINUS_90,
+    &product::PRODUCT,
+    &product::SQUARE,
+    &product::DOT,
+    &product::grey::MATRIX,
+    &product::grey::BY_MATRIX,
+    &product::grey::GREY,
+    &product::zonal::ZONAL,
+    &product::zonal::ZONAL_ABOUT,
+    &product::zonal::ZONAL_ANGLES,
+    &product::zonal::COSINE,
+    &product::zonal::COSINE_ABOUT,
+    &product::zonal::COSINE_ANGLES,
+    &product::zonal::HEMISPHERE,
+    &product::zonal::HEMISPHERE_ABOUT,
+    &product::zonal::HEMISPHERE_ANGLES,
+    &product::zonal::AXIS_ANGLES,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -66,7 +66,7 @@ impl Measure {
         match self {
             Self::Bands | Self::Through(_) => "the norm of a band",
             Self::Whole => "the norm of the coefficients, each band of norm one",
-            Self::Product => "the product of both signals' norms",
+            Self::Product => "the product of both factors' norms",
             Self::Absolute => "one",
         }
     }
@@ -87,9 +87,9 @@ impl Measure {
     }
 }
 
-/// Returns what the error of a product is divided by: the norms of its signals, one squared where it is the only one.
+/// Returns what the error of a product is divided by: the norms of its factors, one squared where it is the only one.
 pub fn norms(params: &[Param], input: &[Vec<f64>]) -> f64 {
-    let signals = params.iter().zip(input).filter(|(param, _)| !param.kind.is_scalar());
+    let signals = params.iter().zip(input).filter(|(param, _)| param.domain.is_coefficients());
     let norms: Vec<f64> = signals.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     if let [norm] = norms[..] { norm * norm } else { norms.iter().product() }
 }

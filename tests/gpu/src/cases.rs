@@ -9,6 +9,7 @@ use zonal_codegen::emit::language::Target;
 use zonal_codegen::families::family::{Acts, Measure};
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
@@ -169,6 +170,9 @@ impl Cases {
         let family = function.spec.family;
         // Of two signals the second stays as it is drawn: both huge would overflow.
         let scaled = params.iter().position(|param| !param.kind.is_scalar());
+        // The square of one signal scales as the square of what it is multiplied by.
+        let is_square = kind == Kind::Product && params.iter().filter(|param| !param.kind.is_scalar()).count() == 1;
+        let of_signal = |unit: f64| if is_square { unit.sqrt() } else { unit };
         let by_band = matches!(family.measure, Measure::Bands) && family.acts != Acts::Mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
@@ -184,7 +188,7 @@ impl Cases {
                         let signal = samples[(case + channel) % count][place].iter().enumerate();
                         let len = param.shape.len();
                         let unit = |i: usize| match scaled == Some(place) {
-                            true => scale(case / BLOCK + channel, band_of(i, len)),
+                            true => of_signal(scale(case / BLOCK + channel, band_of(i, len))),
                             false => 1.0,
                         };
                         signal.map(|(i, x)| Wide(f64::from((x * unit(i)) as f32))).collect()

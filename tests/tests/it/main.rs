@@ -23,6 +23,7 @@ mod methods;
 mod operations;
 mod packages;
 mod plans;
+mod products;
 mod proofs;
 mod properties;
 mod readme;

@@ -5,6 +5,7 @@ use crate::families::product::plan::{CONSTANT, Item, Plan, Task, is_sum, triple}
 use crate::families::product::rings;
 use crate::families::product::wave::{self, Wave, Waves};
 use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
 use crate::math::exact::Exact;
 use crate::math::gaunt::{Mode, gaunt};
 use crate::math::tables::k;
@@ -29,6 +30,28 @@ struct Cover<'a> {
 struct Sums {
     plus: Wave,
     minus: Wave,
+}
+
+/// Returns the kernel of a plan: of the factors `a`, a signal or grey, and `b`, or of `a` alone.
+pub fn kernel(plan: &Plan, first: Domain) -> Kernel {
+    let mut builder = Builder::new();
+    let Task { orders, square } = plan.task;
+    let a = factor(&mut builder, "a", orders[0], first);
+    let b = if square { a.clone() } else { factor(&mut builder, "b", orders[1], Domain::Signal) };
+    let out = product(&mut builder.graph, plan, &a, &b);
+    finish(builder, orders[2], out)
+}
+
+/// Declares a factor.
+pub fn factor(builder: &mut Builder, name: &'static str, order: usize, domain: Domain) -> Vec<Id> {
+    let what = if domain == Domain::Signal { "" } else { ", grey: one number for all channels" };
+    let doc = format!("the coefficients of a function of order {order}, index l(l+1)+m{what}");
+    builder.param(name, Shape::Array(order * order), domain, doc)
+}
+
+/// Returns the kernel whose result are the coefficients of a product.
+pub fn finish(builder: Builder, order: usize, out: Vec<Id>) -> Kernel {
+    builder.finish(out, Shape::Array(order * order), "the coefficients of the product, index l(l+1)+m")
 }
 
 /// Returns the product of two functions, or the square of one, by a plan.
@@ -134,9 +157,8 @@ impl Cover<'_> {
         let (zero, is_real) = (self.zero, x.1 == y.1);
         if !plus.is_empty() && !minus.is_empty() {
             // Products of parts, shared by the sum's order and the difference's.
-            let sum = |g: &mut Graph, i: usize, j: usize| {
-                views.iter().fold(zero, |sum, [u, v]| g.mul_add(u[i], v[j], sum))
-            };
+            let sum =
+                |g: &mut Graph, i: usize, j: usize| views.iter().fold(zero, |sum, [u, v]| g.mul_add(u[i], v[j], sum));
             let g = &mut *self.g;
             let [rr, ii] = [sum(g, 0, 0), sum(g, 1, 1)];
             let re = g.sub(rr, ii);

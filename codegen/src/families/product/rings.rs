@@ -133,7 +133,7 @@ pub fn add(g: &mut Graph, task: Task, rings: &Rings, factors: [&Waves; 2], out: 
         let mut sides: [Factors; 2] = Default::default();
         for (place, factor) in factors.into_iter().enumerate() {
             for m in 0..orders {
-                let mut sum = |g: &mut Graph, odd: usize, start: Wave| {
+                let sum = |g: &mut Graph, odd: usize, start: Wave| {
                     bands(m, task.orders[place], odd).fold(start, |sum, l| {
                         let scale = entry((l, m)) / &unit;
                         let value = factor.at((l, m));

@@ -3,9 +3,9 @@
 //!
 //! A try's number and the seed decide all that it does, so that one seed finds one plan on every machine.
 
-use crate::families::product::cover::product;
+use crate::families::product::cover;
 use crate::families::product::plan::{CONSTANT, Item, Plan, Record, Rings, Task, Triple, is_sum, ways};
-use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
+use crate::ir::kernel::Domain;
 use crate::ir::listing::Listing;
 use crate::math::gaunt::Mode;
 use crate::promise::samples::Random;
@@ -57,12 +57,20 @@ fn cost(task: &Task, [x, y]: [Mode; 2], thirds: &[Mode]) -> usize {
         let outs: usize = to_plus.iter().chain(&to_minus).map(|&z| parts(z)).sum();
         total += match (to_plus.is_empty(), to_minus.is_empty()) {
             (true, true) => 0,
-            (false, false) if is_same => if task.square { 5 } else { 6 },
+            (false, false) if is_same => {
+                if task.square {
+                    5
+                } else {
+                    6
+                }
+            }
             (false, false) if complex => 4 * terms + if is_real { 2 } else { 4 },
             (false, _) if is_same && complex && task.square => 3,
             (plus, minus) => terms * times(!plus, !minus),
         };
-        let only_constant = to_plus.len() + to_minus.len() == 1 && outs == 1 && [&to_plus, &to_minus].iter().any(|list| list.first() == Some(&CONSTANT));
+        let only_constant = to_plus.len() + to_minus.len() == 1
+            && outs == 1
+            && [&to_plus, &to_minus].iter().any(|list| list.first() == Some(&CONSTANT));
         total += if only_constant { 0 } else { outs };
         if thirds.iter().any(|&z| is_own(z)) {
             total += if outs == 0 || only_constant { 2 } else { 1 };
@@ -102,8 +110,7 @@ struct State<'a> {
 impl<'a> State<'a> {
     fn new(task: &'a Task, triples: &[Triple], dice: &mut Random) -> Self {
         let mut places: BTreeMap<[Mode; 2], usize> = BTreeMap::new();
-        let mut state =
-            Self { task, pairs: vec![], costs: vec![], ways: vec![], taken: vec![], members: vec![] };
+        let mut state = Self { task, pairs: vec![], costs: vec![], ways: vec![], taken: vec![], members: vec![] };
         for (number, &triple) in triples.iter().enumerate() {
             let mut own = Vec::new();
             for (way, (modes, third)) in ways(triple).into_iter().enumerate() {
@@ -239,23 +246,12 @@ pub fn anneal(task: &Task, triples: &[Triple], seed: u64, moves: usize) -> (usiz
             found.clone_from(&state.taken);
         }
     }
-    let moves: Vec<(usize, usize)> =
-        (0..found.len()).filter(|&number| state.taken[number] != found[number]).map(|number| (number, found[number])).collect();
+    let moves: Vec<(usize, usize)> = (0..found.len())
+        .filter(|&number| state.taken[number] != found[number])
+        .map(|number| (number, found[number]))
+        .collect();
     state.change(&moves);
     (best, state.items())
-}
-
-/// Returns the kernel of a plan, its factors `a` and `b`.
-pub fn kernel(plan: &Plan) -> Kernel {
-    let mut builder = Builder::new();
-    let Task { orders, square } = plan.task;
-    let mut factor = |name, order: usize| {
-        builder.param(name, Shape::Array(order * order), Domain::Signal, "the coefficients, index l(l+1)+m")
-    };
-    let a = factor("a", orders[0]);
-    let b = if square { a.clone() } else { factor("b", orders[1]) };
-    let out = product(&mut builder.graph, plan, &a, &b);
-    builder.finish(out, Shape::Array(orders[2] * orders[2]), "the coefficients of the product")
 }
 
 /// How many moves a try makes for each triple, where rings are compared and where a plan is looked for.
@@ -271,8 +267,11 @@ pub fn layouts(task: &Task) -> Vec<Vec<Rings>> {
     let groups = |first: usize| -> Vec<Rings> {
         let of = |last: usize| {
             let exact = (sum / 2 + 1).saturating_sub(first);
-            (exact.saturating_sub(2).max(1)..=exact)
-                .map(move |nodes| Rings { classes: [first, last], nodes, exponent: first })
+            (exact.saturating_sub(2).max(1)..=exact).map(move |nodes| Rings {
+                classes: [first, last],
+                nodes,
+                exponent: first,
+            })
         };
         (first..most).flat_map(of).collect()
     };
@@ -280,7 +279,12 @@ pub fn layouts(task: &Task) -> Vec<Vec<Rings>> {
     for first in 0..most {
         for group in groups(first) {
             let next = group.classes[1] + 1;
-            all.extend((next..most).flat_map(groups).filter(|other| other.classes[0] == next).map(|other| vec![group.clone(), other]));
+            all.extend(
+                (next..most)
+                    .flat_map(groups)
+                    .filter(|other| other.classes[0] == next)
+                    .map(|other| vec![group.clone(), other]),
+            );
             all.push(vec![group]);
         }
     }
@@ -311,6 +315,23 @@ pub fn search(task: Task, seed: u32, tries: usize, done: impl Fn() + Sync) -> Re
     Record::new(&plan, operations, seed)
 }
 
+/// Adds a plan, or puts it in the place of a dearer one of its task; sorted by task.
+pub fn keep(all: &mut Vec<Record>, found: Record) {
+    match all.iter_mut().find(|record| record.task() == found.task()) {
+        Some(record) if record.operations <= found.operations => {}
+        Some(record) => *record = found,
+        None => all.push(found),
+    }
+    all.sort_by_key(Record::task);
+}
+
+/// Returns what one short try finds, by pairs alone.
+pub fn brief(task: Task) -> Plan {
+    let left = Plan::left(task, &[]);
+    let (_, items) = anneal(&task, &left, 0, MOVES[0] * left.len());
+    Plan { task, rings: vec![], items }
+}
+
 /// Returns how often [`search`] says that something is done.
 pub fn steps(task: &Task, tries: usize) -> usize {
     let layouts = layouts(task).len();
@@ -319,5 +340,5 @@ pub fn steps(task: &Task, tries: usize) -> usize {
 
 /// Returns what a plan's kernel costs.
 pub fn operations(plan: &Plan) -> usize {
-    Listing::new(&kernel(plan)).cost(1).total
+    Listing::new(&cover::kernel(plan, Domain::Signal)).cost(1).total
 }
