@@ -105,7 +105,7 @@ pub enum Acts {
     Turns,
     /// Something else, to each band by itself.
     Bands,
-    /// A constant map that mixes bands.
+    /// A map that mixes bands; what proves its bound takes it to be constant.
     Mixes,
 }
 

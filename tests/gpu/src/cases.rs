@@ -219,7 +219,7 @@ impl Cases {
             }
         }
         let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
-        let norms = matches!(family.measure, Measure::Product).then(|| norms(params, &samples[0]));
+        let norms = matches!(family.measure, Measure::Product).then(|| norms(&built.code, &samples[0]));
         Self { count, inputs, wanted, result: shape.len(), channels, by_band, norms, flushed }
     }
 

@@ -56,6 +56,7 @@ pub fn finish(builder: Builder, order: usize, out: Vec<Id>) -> Kernel {
 
 /// Returns the product of two functions, or the square of one, by a plan.
 pub fn product(g: &mut Graph, plan: &Plan, a: &[Id], b: &[Id]) -> Vec<Id> {
+    g.lay_out_as_made();
     let zero = g.constant(Exact::zero());
     let Task { orders, square } = plan.task;
     let factors = [a, b].map(|coefficients| Waves::of(coefficients, zero));

@@ -1,6 +1,6 @@
 //! Products by the matrix of one factor, which all channels of the other share (docs/MATH.md#one-factor-fixed).
 
-use crate::families::family::{Family, Spec};
+use crate::families::family::{Family, Measure, Spec};
 use crate::families::product::cover::{factor, finish};
 use crate::families::product::wave::Waves;
 use crate::families::product::{COMMON, product};
@@ -41,6 +41,7 @@ pub static MATRIX: Family = Family {
         let out = matrix(&mut builder.graph, spec.order, &a).into_iter().map(|entry| entry.unwrap_or(zero)).collect();
         builder.finish(out, Shape::Array(triangle(spec.order * spec.order)), PACKED)
     },
+    measure: Measure::Whole,
     shown: |order| if order <= 4 { Spec::new(&MATRIX, order).both() } else { vec![] },
     ..OF_MATRICES
 };

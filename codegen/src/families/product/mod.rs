@@ -11,7 +11,7 @@ pub mod search;
 pub mod wave;
 pub mod zonal;
 
-use crate::families::family::{Family, Group, Measure, Spec};
+use crate::families::family::{Acts, Family, Group, Measure, Spec};
 use crate::families::parts::sums::inner;
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
 use plan::{HIGHEST_ORDER, Task};
@@ -25,6 +25,7 @@ const COMMON: Family = Family {
         [format!("a product of order {order} is too long"), help]
     },
     measure: Measure::Product,
+    acts: Acts::Mixes,
     ..Family::PLAIN
 };
 

@@ -2,7 +2,7 @@
 //! indicator of a hemisphere, about z and about any axis (docs/MATH.md#zonal-factors). About an axis the other factor is
 //! turned so that the axis is z, and the product is turned back.
 
-use crate::families::family::{Acts, Family, Group, Measure, Proof, Spec};
+use crate::families::family::{Family, Group, Measure, Proof, Spec};
 use crate::families::parts::bands::{each_band, y_band, z_band};
 use crate::families::parts::params::{normal_as, rotated, signal};
 use crate::families::parts::phases::{Phase, YPhases, multiples, phases, phases_of_normal, turn, y_phases};
@@ -48,7 +48,6 @@ const fn family(name: &'static str, stem: &'static str, zonal: Zonal, axis: Axis
         usual: if matches!(axis, Axis::Angles) { |_, _| false } else { |_, _| true },
         half: about_z,
         measure: if fixed { Measure::Bands } else { Measure::Product },
-        acts: if fixed { Acts::Mixes } else { Acts::Turns },
         proof: if fixed && about_z { Proof::Auto } else { Proof::Nothing },
         ..COMMON
     }
@@ -251,6 +250,7 @@ fn times_fixed(g: &mut Graph, zonal: Zonal, b: &[Id], order: usize) -> Vec<Id> {
 }
 
 fn times_given(g: &mut Graph, zonal: &[Id], b: &[Id], order: usize) -> Vec<Id> {
+    g.lay_out_as_made();
     let zero = g.constant(Exact::zero());
     let constant = g.scale(&k(0, 0), zonal[0]);
     let entry = |g: &mut Graph, low: usize, high: usize, m: usize| {

@@ -307,23 +307,27 @@ impl<'a> Prover<'a> {
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
 
-    /// One value, linear in coefficients of which each band has norm one.
+    /// Values, each linear in coefficients of which each band has norm one: the largest error.
     pub(super) fn sum(&self, bands: &[usize]) -> Option<Both> {
         let inputs = self.coefficients();
-        let (_, scalars) = self.cone(&inputs, &self.listing.outputs)?;
+        let outputs: Vec<Operand> =
+            self.listing.outputs.iter().copied().filter(|&output| self.is_signal(output)).collect();
+        let (_, scalars) = self.cone(&inputs, &outputs)?;
         let (domain, _) = self.domain(scalars)?;
-        let section =
-            Section::new(self.listing, domain, &inputs, &self.listing.outputs, |operand| self.start(operand))?;
+        let section = Section::new(self.listing, domain, &inputs, &outputs, |operand| self.start(operand))?;
         let measure = |run: &Run, mode: usize, _: f64| {
             let weights = section.weights(run, mode);
-            let mut rest = weights.row(0);
-            let mut sum = 0.0;
-            for l in bands {
-                let (band, others) = rest.split_at(2 * l + 1);
-                sum += band.iter().map(|w| w * w).sum::<f64>().sqrt();
-                rest = others;
-            }
-            sum * SLACK
+            let sum = |row: usize| {
+                let mut rest = weights.row(row);
+                let mut sum = 0.0;
+                for l in bands {
+                    let (band, others) = rest.split_at(2 * l + 1);
+                    sum += band.iter().map(|w| w * w).sum::<f64>().sqrt();
+                    rest = others;
+                }
+                sum * SLACK
+            };
+            (0..outputs.len()).map(sum).fold(0.0, larger_of)
         };
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
