@@ -61,8 +61,8 @@ fn known(path: &Path) -> Result<Vec<Record>, Failure> {
             return Err(Diagnostic::nowhere(message, "check the path").into());
         }
     };
-    let records: Records = toml::from_str(&text).map_err(|error| {
-        let message = format!("{}: holds no plans: {}", path.display(), error.message());
+    let records = Records::read(&text).map_err(|error| {
+        let message = format!("{}: holds no plans: {error}", path.display());
         Diagnostic::nowhere(message, "name a file that `--out` wrote, or a new one")
     })?;
     Ok(records.plan)

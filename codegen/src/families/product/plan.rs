@@ -88,6 +88,12 @@ pub struct Rings {
 }
 
 impl Rings {
+    /// Whether there are such rings: a weight's exponent is at most the least class.
+    fn are_possible(&self) -> bool {
+        let [first, last] = self.classes;
+        self.exponent <= first && first <= last && last < HIGHEST_ORDER && (1..=4 * HIGHEST_ORDER).contains(&self.nodes)
+    }
+
     /// Whether they sum the triples of a class.
     pub fn hold(&self, class: usize) -> bool {
         (self.classes[0]..=self.classes[1]).contains(&class)
@@ -176,6 +182,19 @@ pub struct Records {
     pub plan: Vec<Record>,
 }
 
+impl Records {
+    /// Returns the plans of a text, each of which is one.
+    ///
+    /// # Errors
+    ///
+    /// If the text holds none or one that is no plan.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let records: Self = toml::from_str(text).map_err(|error| error.message().to_owned())?;
+        records.plan.iter().try_for_each(|record| record.plan().map(drop))?;
+        Ok(records)
+    }
+}
+
 /// A plan, checked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
@@ -227,8 +246,15 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// If it does not sum every triple that the task needs exactly once.
+    /// If its orders or rings are none, or it does not sum every triple that the task needs exactly once.
     pub fn plan(&self) -> Result<Plan, String> {
+        let Task { orders, square } = self.task();
+        if !orders.iter().all(|order| (1..=HIGHEST_ORDER).contains(order)) || (square && orders[0] != orders[1]) {
+            return Err(format!("{orders:?} are no orders of a product"));
+        }
+        if let Some(rings) = self.rings.iter().find(|rings| !rings.are_possible()) {
+            return Err(format!("{rings:?} are no rings"));
+        }
         let item = |text: &String| Item::parse(text).ok_or_else(|| format!("`{text}` is no pair with its thirds"));
         let items = self.pairs.iter().map(item).collect::<Result<Vec<Item>, String>>()?;
         let plan = Plan { task: self.task(), rings: self.rings.clone(), items };
