@@ -3,7 +3,11 @@
 
 mod commands;
 mod hand_over;
+<<<<<<< HEAD
 mod init;
+=======
+mod products;
+>>>>>>> products
 mod search;
 mod told;
 mod vectors;
@@ -149,6 +153,8 @@ enum Command {
     },
     /// Searches for lobe directions that make the zonal factorisation sparse.
     SearchLobes(search::Arguments),
+    /// Searches for plans that make products and squares cheap.
+    SearchProducts(products::Arguments),
 }
 
 /// A spec that stands on the command line.
@@ -173,6 +179,7 @@ fn main() -> ExitCode {
         Command::Render { arguments } => hand_over::render(arguments),
         Command::Catalog { check, dir, force } => commands::catalog(&dir, check, Replace::forced(force)),
         Command::SearchLobes(arguments) => search::run(&arguments),
+        Command::SearchProducts(arguments) => products::run(&arguments),
     };
     ended(result)
 }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use zonal_codegen::catalog;
 use zonal_codegen::environment::Map;
 use zonal_codegen::families::Spec;
+use zonal_codegen::families::product::plan::Records;
 use zonal_codegen::promise::samples::Random;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_picture::mesh::Mesh;
@@ -21,6 +22,11 @@ const SCENES: [&str; 4] = [
 /// A mesh with a face of each kind.
 const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
                     f 1 2 3\nf 1/1 2/2 3/3\nf 1//1 2//1 3//1 4//1\nf -1/-1/-1 -2/-2/-1 -3/-3/-1\n";
+/// Plans of products: one by pairs, one with rings.
+const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\n\
+                     pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
+                     [[plan]]\norders = [2, 2, 2]\nsquare = true\noperations = 20\nseed = 1\npairs = [\"10 10: 00\"]\n\
+                     [[plan.rings]]\nclasses = [1, 1]\nnodes = 1\nexponent = 1\n";
 /// What numbers are replaced by, and what is put in anywhere.
 const EXTREMES: [&[u8]; 16] = [
     b"0",
@@ -76,6 +82,11 @@ fn kinds() -> Vec<Kind> {
         Kind { name: "png", seeds: vec![png()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| drop(Mesh::from_obj("fuzz", bytes)) },
+        Kind {
+            name: "plans",
+            seeds: texts(&[PLANS]),
+            read: |bytes| drop(Records::read(&String::from_utf8_lossy(bytes))),
+        },
         Kind {
             name: "normals",
             seeds: vec![normals.to_vec()],

@@ -3,8 +3,7 @@
 use crate::families::family::{Does, Family, Group, Job, Spec};
 use crate::families::parts::bands::{each_band, y_band, z_band};
 use crate::families::parts::params::{normal, rotated, signal};
-use crate::families::parts::phases::{Phase, multiples, y_phases};
-use crate::families::parts::sums::inner;
+use crate::families::parts::phases::{multiples, phases_of_normal, y_phases};
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel};
 
@@ -31,12 +30,7 @@ fn align(order: usize) -> Kernel {
     let n = normal(&mut builder, Domain::Normal);
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;
-    let tiny = g.tiny();
-    let x = g.add(n[0], tiny);
-    let squares = inner(g, &[x, n[1]], &[x, n[1]]);
-    let r = g.rsqrt(squares);
-    let phi = Phase { cos: g.mul(x, r), sin: g.mul(n[1], r) };
-    let theta = Phase { cos: n[2], sin: g.mul(squares, r) };
+    let [phi, theta] = phases_of_normal(g, &n);
     let (phi, theta) = (multiples(g, phi, order - 1), y_phases(g, theta, order - 1));
     let out = each_band(g, &c, order, |g, _, band| {
         let band = y_band(g, band, &theta);

@@ -45,14 +45,23 @@ pub enum Group {
     Factorise,
     /// What rotations are made of: about one axis.
     Piece,
+<<<<<<< HEAD
     /// Functions of the angle from an axis, and lights.
     Light,
+=======
+    /// Products of functions.
+    Multiply,
+>>>>>>> products
 }
 
 impl Group {
     /// All groups, in order.
     pub const ALL: [Self; 7] =
+<<<<<<< HEAD
         [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece, Self::Light];
+=======
+        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece, Self::Multiply];
+>>>>>>> products
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
     pub fn name(self) -> &'static str {
@@ -63,7 +72,11 @@ impl Group {
             Self::SmallAngle => "small_angles",
             Self::Factorise => "factorisation",
             Self::Piece => "pieces",
+<<<<<<< HEAD
             Self::Light => "lighting",
+=======
+            Self::Multiply => "products",
+>>>>>>> products
         }
     }
 
@@ -76,7 +89,11 @@ impl Group {
             Self::SmallAngle => "rotations by a small angle, approximately",
             Self::Factorise => "the sparse zonal factorisation",
             Self::Piece => "what rotations are made of, about one axis",
+<<<<<<< HEAD
             Self::Light => "zonal functions, convolution with them, lights",
+=======
+            Self::Multiply => "products of functions on the sphere",
+>>>>>>> products
         }
     }
 }
@@ -91,7 +108,7 @@ pub enum Measure {
     Added,
     /// The value's error against the norm of all coefficients.
     Whole,
-    /// The whole result's error against the product of the norms of all signals, of which there are two or one twice.
+    /// The whole result's error against the product of the norms of its factors, of which there are two or one twice.
     Product,
     /// The error itself: there is no signal.
     Absolute,
@@ -108,7 +125,7 @@ pub enum Acts {
     Turns,
     /// Something else, to each band by itself.
     Bands,
-    /// A constant map that mixes bands.
+    /// A map that mixes bands; what proves its bound takes it to be constant.
     Mixes,
 }
 
@@ -264,6 +281,8 @@ pub struct Family {
     pub half: bool,
     /// Whether it takes some bands only.
     pub some_bands: bool,
+    /// Whether its two factors may be of other orders than the result.
+    pub factors: bool,
     /// Its loop form.
     pub looped: Option<Looped>,
     /// What it says where each band has a method of its own.
@@ -306,6 +325,7 @@ impl Family {
         },
         half: true,
         some_bands: false,
+        factors: false,
         looped: None,
         by_band: None,
         kernel: |spec| unreachable!("`{}` has no kernel", spec.family.name),
@@ -388,13 +408,16 @@ pub struct Spec {
     pub form: Form,
     /// Whether it works in f16 instead of f32: WGSL only, with `enable f16`.
     pub half: bool,
+    /// The orders of the two factors of a product, where they are not the result's.
+    pub factors: Option<[usize; 2]>,
 }
 
 impl Spec {
     /// A spec of all bands, one channel, unrolled; `lf3` where bands have methods.
     pub fn new(family: &'static Family, order: usize) -> Self {
         let methods = family.by_band.map_or_else(Vec::new, |by_band| by_band.alone(SmallAngle::Lf3, order));
-        Self { order, family, methods, bands: (0..order).collect(), rgb: false, form: Form::Unrolled, half: false }
+        let (bands, form) = ((0..order).collect(), Form::Unrolled);
+        Self { order, family, methods, bands, rgb: false, form, half: false, factors: None }
     }
 
     /// The spec for three channels.
@@ -430,6 +453,18 @@ impl Spec {
     /// The spec with its RGB twin.
     pub fn both(self) -> Vec<Self> {
         vec![self.clone(), self.rgb()]
+    }
+
+    /// The spec with factors of these orders.
+    #[must_use]
+    pub fn of_factors(self, orders: [usize; 2]) -> Self {
+        let factors = (orders != [self.order; 2]).then_some(orders);
+        Self { factors, ..self }
+    }
+
+    /// Returns the orders of the two factors of a product.
+    pub fn factor_orders(&self) -> [usize; 2] {
+        self.factors.unwrap_or([self.order; 2])
     }
 
     /// How many channels the signal has.

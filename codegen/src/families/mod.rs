@@ -15,6 +15,7 @@ pub mod lights;
 pub mod loops;
 pub mod monomial;
 pub mod parts;
+pub mod product;
 pub mod small_turn;
 pub mod tensor;
 pub mod text;

@@ -119,6 +119,9 @@ impl Spec {
         if let Some(list) = self.list() {
             name += &format!("{}_", list.replace('+', "_"));
         }
+        if let Some([a, b]) = self.factors {
+            name += &format!("of_sh{a}_and_sh{b}_");
+        }
         name += if !self.family.method.is_empty() && self.is_usual() { self.family.name } else { self.family.stem };
         if self.rgb {
             name += "_rgb";
@@ -142,11 +145,15 @@ impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (order, family) = (self.order, self.family);
         let list = self.list();
-        match (list, family.by_band.map(|by_band| by_band.spelled)) {
-            (Some(list), Some(Spelled::AsFamily)) if !list.contains('+') => write!(f, "{list}:{order}")?,
-            (Some(list), _) => write!(f, "{}:{order}:{list}", family.name)?,
-            (None, _) if family.method.is_empty() || self.is_usual() => write!(f, "{}:{order}", family.name)?,
-            (None, _) => write!(f, "{}:{order}:{}", family.name, family.method)?,
+        if let Some([a, b]) = self.factors {
+            write!(f, "{}:{a}+{b}:{order}", family.name)?;
+        } else {
+            match (list, family.by_band.map(|by_band| by_band.spelled)) {
+                (Some(list), Some(Spelled::AsFamily)) if !list.contains('+') => write!(f, "{list}:{order}")?,
+                (Some(list), _) => write!(f, "{}:{order}:{list}", family.name)?,
+                (None, _) if family.method.is_empty() || self.is_usual() => write!(f, "{}:{order}", family.name)?,
+                (None, _) => write!(f, "{}:{order}:{}", family.name, family.method)?,
+            }
         }
         if !self.is_whole() {
             let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
@@ -283,6 +290,15 @@ fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>
     Ok(bands)
 }
 
+/// The orders of a product's factors, `2+3`.
+fn parse_factors(piece: &Piece<'_>) -> Result<[usize; 2], SpecError> {
+    let orders: Option<Vec<usize>> = piece.text.split('+').map(|text| text.parse().ok()).collect();
+    match orders.as_deref() {
+        Some(&[a, b]) => Ok([a, b]),
+        _ => Err(piece.error(format!("`{}` is no pair of orders", piece.text), "write both, as in `product:2+3:4`")),
+    }
+}
+
 fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
     let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
     let order: usize =
@@ -337,13 +353,20 @@ impl FromStr for Spec {
         if !names.contains(&head.text) {
             return Err(head.error(format!("`{}` is no family of kernels", head.text), hint(head.text, &names)));
         }
+        let takes_factors = |family: &&&Family| family.name == head.text && family.factors;
+        let (factors, rest) = match rest {
+            [first, rest @ ..] if first.text.contains('+') && ALL.iter().any(|family| takes_factors(&family)) => {
+                (Some(parse_factors(first)?), rest)
+            }
+            _ => (None, rest),
+        };
         let Some((order_piece, options)) = rest.split_first() else {
             let help = format!("write it as in `{}:5`", head.text);
             return Err(head.error(format!("`{text}` names no order"), help));
         };
         let order = parse_order(order_piece)?;
         let (family, methods, options) = parse_head(head.text, order_piece, order, options)?;
-        let mut spec = Self { methods, ..Self::new(family, order) };
+        let mut spec = Self { methods, factors, ..Self::new(family, order) };
         let known = method_names(head.text);
         let mut is_open = !known.is_empty();
         for option in options {
@@ -417,6 +440,30 @@ impl Spec {
         if !family.orders.contains(&order) && order <= MAX_ORDER {
             let [message, help] = (family.outside)(order);
             return Err(whole.error(message, help));
+        }
+        if let Some(factors) = self.factors {
+            let [message, help] = match factors {
+                [a, b] if a == order && b == order => [
+                    format!("both factors have the result's order {order}"),
+                    format!("write `{}:{order}`", family.name),
+                ],
+                [a, b] if [a, b].iter().any(|order| !family.orders.contains(order)) => {
+                    let (least, most) = (family.orders.start(), family.orders.end());
+                    [format!("factors of the orders {a} and {b}"), format!("each has an order of {least} to {most}")]
+                }
+                [a, b] if order > a + b - 1 => [
+                    format!("the product of the orders {a} and {b} ends at order {}", a + b - 1),
+                    format!("write `{}:{a}+{b}:{}`", family.name, a + b - 1),
+                ],
+                [a, b] if a.max(b) > a.min(b) + order - 1 => [
+                    format!("bands of the factor of order {} meet nothing", a.max(b)),
+                    format!("order {} of it is all that the result depends on", a.min(b) + order - 1),
+                ],
+                _ => Default::default(),
+            };
+            if !message.is_empty() {
+                return Err(whole.error(message, help));
+            }
         }
         if let Some(by_band) = &family.by_band
             && !self.methods.iter().zip(1..).all(|(method, l)| (by_band.in_band)(l).contains(method))

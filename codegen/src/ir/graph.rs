@@ -38,6 +38,7 @@ pub struct Graph {
     known: HashMap<Node, Id>,
     stages: Vec<Vec<Id>>,
     directions: Vec<[Id; 3]>,
+    as_made: bool,
 }
 
 impl Graph {
@@ -86,6 +87,17 @@ impl Graph {
     /// The noted directions, in order.
     pub fn directions(&self) -> &[[Id; 3]] {
         &self.directions
+    }
+
+    /// Notes that the nodes are to be laid out in the order in which they were made, not each result with all that it
+    /// needs: fewer values live at once where many sums grow side by side.
+    pub fn lay_out_as_made(&mut self) {
+        self.as_made = true;
+    }
+
+    /// Whether the nodes are to be laid out in the order in which they were made.
+    pub fn is_laid_out_as_made(&self) -> bool {
+        self.as_made
     }
 
     fn push(&mut self, node: Node, kind: Kind) -> Id {

@@ -146,6 +146,8 @@ impl Builder {
 pub enum Domain {
     /// Coefficients, or what else the result is linear in: any numbers, one a channel.
     Signal,
+    /// Coefficients as of a signal, one number each that all channels share.
+    Grey,
     /// A direction, of unit length.
     Direction,
     /// A normal, of unit length, on either side of the horizon.
@@ -271,16 +273,21 @@ impl Domain {
         }
     }
 
+    /// Returns whether it is coefficients, of which any numbers may be: a signal, or one that is grey.
+    pub fn is_coefficients(self) -> bool {
+        matches!(self, Self::Signal | Self::Grey)
+    }
+
     /// Whether it is the signal.
     pub fn is_signal(self) -> bool {
         self == Self::Signal
     }
 
-    /// For which values of a parameter of this name a kernel's promises hold, in words; none for a signal.
+    /// For which values of a parameter of this name a kernel's promises hold, in words; none for coefficients.
     pub fn in_words(self, name: &str) -> Option<String> {
         let most = self.max_angle().map(degrees).unwrap_or_default();
         let words = match self {
-            Self::Signal => return None,
+            Self::Signal | Self::Grey => return None,
             Self::Direction => format!("for {name} of unit length"),
             Self::Normal => format!("for every {name} of unit length"),
             Self::Hemisphere => format!("for every {name} of unit length with {name}.z >= 0"),

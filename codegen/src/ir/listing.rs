@@ -122,7 +122,7 @@ fn unsigned(graph: &Graph, id: Id) -> (Id, bool) {
 }
 
 impl<'a> Layout<'a> {
-    /// Depth first from the outputs; who uses each node, negations looked through.
+    /// Depth first from the outputs, or as the graph was made; who uses each node, negations looked through.
     fn new(kernel: &'a Kernel) -> Self {
         let graph = &kernel.graph;
         let signed = kernel.outputs.iter().copied().collect();
@@ -153,6 +153,10 @@ impl<'a> Layout<'a> {
                     layout.signed.extend(&operands);
                 }
             }
+        }
+        if graph.is_laid_out_as_made() {
+            // What a node uses was made before it.
+            layout.order.sort_unstable();
         }
         layout
     }

@@ -2,9 +2,14 @@
 
 pub mod convention;
 pub mod exact;
+<<<<<<< HEAD
 pub mod fourier;
+=======
+pub mod gaunt;
+>>>>>>> products
 pub mod half;
 pub mod index;
 pub mod linear;
 pub mod quadrature;
+pub mod roots;
 pub mod tables;

@@ -6,7 +6,7 @@ use crate::families::axis;
 use crate::families::family::{AngleAs, MAX_ORDER, Measure, Spec};
 use crate::ir::code::Code;
 use crate::ir::eval::{Contraction, Number, Program};
-use crate::ir::kernel::{Kernel, Param};
+use crate::ir::kernel::Kernel;
 use crate::ir::listing::Listing;
 use crate::math::half::Half;
 use crate::math::linear::spectral_norm;
@@ -67,7 +67,7 @@ impl Measure {
             Self::Bands | Self::Through(_) => "the norm of a band",
             Self::Added => "the norm of a band, which is one, as is the size of what is added",
             Self::Whole => "the norm of the coefficients, each band of norm one",
-            Self::Product => "the product of both signals' norms",
+            Self::Product => "the product of both factors' norms",
             Self::Absolute => "one",
         }
     }
@@ -88,10 +88,10 @@ impl Measure {
     }
 }
 
-/// Returns what the error of a product is divided by: the norms of its signals, one squared where it is the only one.
-pub fn norms(params: &[Param], input: &[Vec<f64>]) -> f64 {
-    let signals = params.iter().zip(input).filter(|(param, _)| !param.kind.is_scalar());
-    let norms: Vec<f64> = signals.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
+/// Returns what the error of a product is divided by: the norms of its factors, one squared where both are the same.
+pub fn norms(code: &Code, input: &[Vec<f64>]) -> f64 {
+    let factors = code.params().iter().zip(input).filter(|(param, _)| param.domain.is_coefficients());
+    let norms: Vec<f64> = factors.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     if let [norm] = norms[..] { norm * norm } else { norms.iter().product() }
 }
 
@@ -114,7 +114,7 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
             let want = wide.run(&wide_input, contraction);
             let error = measure.error(&meaning.apply(got), &meaning.apply(want), spec.order);
-            if matches!(measure, Measure::Product) { error / norms(code.params(), input) } else { error }
+            if matches!(measure, Measure::Product) { error / norms(code, input) } else { error }
         })
         .fold(0.0, larger)
 }

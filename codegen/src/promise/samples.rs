@@ -163,7 +163,7 @@ impl Source {
 /// Input number `i` of a domain, extremes first.
 fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
     match domain {
-        Domain::Signal => signal(random, len),
+        Domain::Signal | Domain::Grey => signal(random, len),
         Domain::Direction | Domain::Normal => direction(random, i).to_vec(),
         Domain::Hemisphere => {
             let [x, y, z] = direction(random, i);

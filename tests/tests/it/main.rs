@@ -28,7 +28,11 @@ mod orders;
 mod packages;
 mod peers;
 mod plans;
+<<<<<<< HEAD
 mod projects;
+=======
+mod products;
+>>>>>>> products
 mod proofs;
 mod properties;
 mod readme;

@@ -12,6 +12,7 @@ use zonal_codegen::families::parts::small_angle::parity_shears;
 use zonal_codegen::families::{ALL, Family, Form, SmallAngle, Spec};
 use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::Number;
+use zonal_codegen::ir::op::Kind;
 use zonal_codegen::math::half::Half;
 use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::accuracy::Meaning;
@@ -111,7 +112,7 @@ fn is_linear(spec: &Spec) -> Tried {
         return Ok(false);
     }
     let (subject, narrow) = (Subject::new(spec), Runner::<f32>::new(spec));
-    let is_product = matches!(spec.family.measure, Measure::Product);
+    let is_product = spec.code().result().1 == Kind::Product;
     for (i, trials) in subject.trials.windows(2).enumerate() {
         let (origins, signals) = (&trials[0].origins, &trials[0].signals);
         let all: Vec<usize> = (0..signals.len()).collect();

@@ -117,6 +117,8 @@ fn plots_pages_and_sets_spare_what_is_there() {
         ["search-lobes", "--mode", "band", "--size", "3", "--tries", "1", option, path]
     };
     spares(&folder, &search("--out", "sets.toml"), "./sets.toml");
+    folder.put("plans.toml", "# My own plans.\nplan = []\n");
+    spares(&folder, &["search-products", "square:2", "--out", "plans.toml"], "./plans.toml");
     works(&folder, &search("--resume", "state.toml"));
     let state = fs::read_to_string(folder.path("state.toml")).expect("written");
     folder.put("state.toml", state.replace(MARK, "changed by hand"));
@@ -189,6 +191,7 @@ fn what_has_no_end_is_refused() {
             &["vectors", "eval:3", "--inputs", file],
             &["search-lobes", "--tries", "1", "--out", file],
             &["search-lobes", "--tries", "1", "--resume", file],
+            &["search-products", "square:2", "--tries", "1", "--out", file],
         ] {
             let message = fails(&folder, arguments);
             assert!(message.contains("it is a device or a pipe, not a regular file"), "{arguments:?}: {message}");

@@ -19,6 +19,11 @@ pub fn normal(builder: &mut Builder, domain: Domain) -> Vec<Id> {
     builder.param("n", Shape::Vec3, domain, "where the z axis goes, of unit length")
 }
 
+/// Declares a unit normal of another name, and says what it is.
+pub fn normal_as(builder: &mut Builder, name: &'static str, doc: &str) -> Vec<Id> {
+    builder.param(name, Shape::Vec3, Domain::Normal, doc)
+}
+
 /// Declares the direction `dir`.
 pub fn direction(builder: &mut Builder) -> Vec<Id> {
     builder.param("dir", Shape::Vec3, Domain::Direction, "the direction, of unit length")

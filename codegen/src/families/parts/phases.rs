@@ -133,3 +133,14 @@ pub fn euler(g: &mut Graph, [alpha, beta, gamma]: [Phase; 3], order: usize) -> E
         gamma: multiples(g, gamma, order - 1),
     }
 }
+
+/// The phases of a unit normal's azimuth φ and its angle θ from z, with neither trigonometry nor branch: adding a tiny
+/// number to x keeps the azimuth defined at the poles.
+pub fn phases_of_normal(g: &mut Graph, n: &[Id]) -> [Phase; 2] {
+    let tiny = g.tiny();
+    let x = g.add(n[0], tiny);
+    let squares = inner(g, &[x, n[1]], &[x, n[1]]);
+    let r = g.rsqrt(squares);
+    let phi = Phase { cos: g.mul(x, r), sin: g.mul(n[1], r) };
+    [phi, Phase { cos: n[2], sin: g.mul(squares, r) }]
+}

@@ -23,6 +23,7 @@ use thiserror::Error;
 
 use crate::math::exact::{Exact, Real};
 use crate::math::linear::condition;
+use crate::math::roots::squared_root;
 use crate::math::tables::{basis_factor, legendre_polynomial};
 
 /// The highest band whose roots may name a direction.
@@ -272,37 +273,6 @@ fn evaluate(coefficients: &[Exact], z: &Exact) -> Exact {
     let even = coefficients.iter().skip(parity).step_by(2).rev();
     let value = even.fold(Exact::zero(), |sum, c| sum * &square + c);
     if parity == 1 { value * z } else { value }
-}
-
-/// The square of the `rank`-th largest root of P_l^m, 1 ≤ rank ≤ (l-m)/2: rational if it is the only one, otherwise by
-/// Newton's iteration from 1, where the larger roots are divided out (Maehly), so that it falls to the largest one left.
-fn squared_root(l: usize, m: usize, rank: usize) -> Exact {
-    let exact: Vec<Exact> = legendre_polynomial(l, m).into_iter().skip((l - m) % 2).step_by(2).collect();
-    if let [constant, slope] = &exact[..] {
-        return -(constant / slope);
-    }
-    let polynomial: Vec<Real> = exact.iter().map(Exact::to_real).collect();
-    let mut roots: Vec<Real> = Vec::new();
-    for _ in 0..rank {
-        let mut root = Real::from_ratio(1, 1);
-        loop {
-            let (mut value, mut slope) = (Real::zero(), Real::zero());
-            for c in polynomial.iter().rev() {
-                slope = slope * &root + &value;
-                value = value * &root + c;
-            }
-            for larger in &roots {
-                slope = slope - &value / (&root - larger);
-            }
-            let step = value / slope;
-            root = root - &step;
-            if step.is_negligible() {
-                break;
-            }
-        }
-        roots.push(root);
-    }
-    Exact::real(roots.pop().unwrap_or_else(Real::zero))
 }
 
 /// How the bands of a lobe set share its directions.
