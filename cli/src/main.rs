@@ -3,11 +3,8 @@
 
 mod commands;
 mod hand_over;
-<<<<<<< HEAD
 mod init;
-=======
 mod products;
->>>>>>> products
 mod search;
 mod told;
 mod vectors;

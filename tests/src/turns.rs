@@ -122,12 +122,8 @@ pub fn inverse((domain, list): &Origin) -> Option<Origin> {
         // Of several rotations about axes the last is undone first.
         Domain::Phases => list.chunks(2).rev().flat_map(|pair| [pair[0], -pair[1]]).collect(),
         Domain::Angle(_) => vec![-list[0]],
-<<<<<<< HEAD
-        Domain::HalfSine(_) => list.clone(),
-        Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => return None,
-=======
         Domain::HalfSine(_) | Domain::Grey => list.clone(),
->>>>>>> products
+        Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => return None,
         Domain::Signal | Domain::Direction | Domain::Normal | Domain::Made(_) => return None,
     };
     Some((*domain, inverse))
@@ -153,12 +149,8 @@ pub fn identity((domain, list): &Origin) -> Origin {
         Domain::Direction | Domain::Normal | Domain::Hemisphere | Domain::Tilt(_) => vec![0.0, 0.0, 1.0],
         Domain::Phases => [1.0, 0.0].repeat(list.len() / 2),
         Domain::Angle(_) => vec![0.0],
-<<<<<<< HEAD
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.clone(),
-        Domain::Signal | Domain::HalfSine(_) | Domain::Made(_) => list.clone(),
-=======
         Domain::Signal | Domain::Grey | Domain::HalfSine(_) | Domain::Made(_) => list.clone(),
->>>>>>> products
     };
     (*domain, none)
 }
@@ -179,12 +171,8 @@ fn precise(domain: Domain, list: &[f64]) -> Vec<f64> {
             let z: [f64; 3] = fixed(&unit(&cross(x, fixed(&list[3..6]))));
             [x, cross(z, x), z].concat()
         }
-<<<<<<< HEAD
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.to_vec(),
-        Domain::Signal | Domain::Angle(_) | Domain::HalfSine(_) | Domain::Made(_) => list.to_vec(),
-=======
         Domain::Signal | Domain::Grey | Domain::Angle(_) | Domain::HalfSine(_) | Domain::Made(_) => list.to_vec(),
->>>>>>> products
     }
 }
 

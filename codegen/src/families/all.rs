@@ -2,12 +2,8 @@
 
 use crate::families::family::Family;
 use crate::families::{
-<<<<<<< HEAD
-    about_y, align, axis, basis, convolution, fitted, lifted, lights, monomial, small_turn, tensor, tilt, zhf, zonal,
-    zonal_functions, zxzxz, zyz,
-=======
-    about_y, align, axis, basis, lifted, monomial, product, small_turn, tensor, tilt, zhf, zonal, zxzxz, zyz,
->>>>>>> products
+    about_y, align, axis, basis, convolution, fitted, lifted, lights, monomial, product, small_turn, tensor, tilt, zhf,
+    zonal, zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
@@ -43,7 +39,6 @@ pub static ALL: &[&Family] = &[
     &axis::SWAP_YZ,
     &axis::ROTATE_X_PLUS_90,
     &axis::ROTATE_X_MINUS_90,
-<<<<<<< HEAD
     &zonal_functions::CAP,
     &zonal_functions::GAUSSIAN,
     &zonal_functions::GAUSSIAN_NARROW,
@@ -60,7 +55,6 @@ pub static ALL: &[&Family] = &[
     &fitted::DOMINANT,
     &fitted::LIGHT_FIT,
     &fitted::LIGHT_FIT_ALONG,
-=======
     &product::PRODUCT,
     &product::SQUARE,
     &product::DOT,
@@ -77,7 +71,6 @@ pub static ALL: &[&Family] = &[
     &product::zonal::HEMISPHERE_ABOUT,
     &product::zonal::HEMISPHERE_ANGLES,
     &product::zonal::AXIS_ANGLES,
->>>>>>> products
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -45,23 +45,24 @@ pub enum Group {
     Factorise,
     /// What rotations are made of: about one axis.
     Piece,
-<<<<<<< HEAD
     /// Functions of the angle from an axis, and lights.
     Light,
-=======
     /// Products of functions.
     Multiply,
->>>>>>> products
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 7] =
-<<<<<<< HEAD
-        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece, Self::Light];
-=======
-        [Self::Evaluate, Self::Rotate, Self::Tilt, Self::SmallAngle, Self::Factorise, Self::Piece, Self::Multiply];
->>>>>>> products
+    pub const ALL: [Self; 8] = [
+        Self::Evaluate,
+        Self::Rotate,
+        Self::Tilt,
+        Self::SmallAngle,
+        Self::Factorise,
+        Self::Piece,
+        Self::Light,
+        Self::Multiply,
+    ];
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
     pub fn name(self) -> &'static str {
@@ -72,11 +73,8 @@ impl Group {
             Self::SmallAngle => "small_angles",
             Self::Factorise => "factorisation",
             Self::Piece => "pieces",
-<<<<<<< HEAD
             Self::Light => "lighting",
-=======
             Self::Multiply => "products",
->>>>>>> products
         }
     }
 
@@ -89,11 +87,8 @@ impl Group {
             Self::SmallAngle => "rotations by a small angle, approximately",
             Self::Factorise => "the sparse zonal factorisation",
             Self::Piece => "what rotations are made of, about one axis",
-<<<<<<< HEAD
             Self::Light => "zonal functions, convolution with them, lights",
-=======
             Self::Multiply => "products of functions on the sphere",
->>>>>>> products
         }
     }
 }

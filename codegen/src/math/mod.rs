@@ -2,11 +2,8 @@
 
 pub mod convention;
 pub mod exact;
-<<<<<<< HEAD
 pub mod fourier;
-=======
 pub mod gaunt;
->>>>>>> products
 pub mod half;
 pub mod index;
 pub mod linear;

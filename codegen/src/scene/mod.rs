@@ -37,7 +37,7 @@ mod words;
 pub use crate::families::family::Job;
 pub use budget::{Norm, Precision, RelativeTo};
 pub use located::{Located, Order};
-pub use sphere::SphereLight;
 #[cfg(feature = "schema")]
 pub use manifest::schema;
+pub use sphere::SphereLight;
 pub use wanted::{Environment, Light, Maps, Rotation, Scene, Wanted};

@@ -168,17 +168,12 @@ impl Cases {
         let (shape, kind) = built.code.result();
         let channels = wrap::channels(function, kind);
         let family = function.spec.family;
-<<<<<<< HEAD
         // Of a product's two signals the second stays as it is drawn: both huge would overflow.
         let first = params.iter().position(|param| !param.kind.is_scalar());
         let is_scaled = |place: usize| kind != Kind::Product || first == Some(place);
-=======
-        // Of two signals the second stays as it is drawn: both huge would overflow.
-        let scaled = params.iter().position(|param| !param.kind.is_scalar());
         // The square of one signal scales as the square of what it is multiplied by.
         let is_square = kind == Kind::Product && params.iter().filter(|param| !param.kind.is_scalar()).count() == 1;
         let of_signal = |unit: f64| if is_square { unit.sqrt() } else { unit };
->>>>>>> products
         let by_band = matches!(family.measure, Measure::Bands) && family.acts != Acts::Mixes;
         let band_of = |index: usize, len: usize| if by_band { band(index, len, order) } else { None };
         let (mut inputs, mut wanted) = (Vec::new(), Vec::new());
@@ -193,13 +188,8 @@ impl Cases {
                         }
                         let signal = samples[(case + channel) % count][place].iter().enumerate();
                         let len = param.shape.len();
-<<<<<<< HEAD
                         let unit = |i: usize| match is_scaled(place) {
-                            true => scale(case / BLOCK + channel, band_of(i, len)),
-=======
-                        let unit = |i: usize| match scaled == Some(place) {
                             true => of_signal(scale(case / BLOCK + channel, band_of(i, len))),
->>>>>>> products
                             false => 1.0,
                         };
                         signal.map(|(i, x)| Wide(f64::from((x * unit(i)) as f32))).collect()

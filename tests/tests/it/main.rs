@@ -28,11 +28,8 @@ mod orders;
 mod packages;
 mod peers;
 mod plans;
-<<<<<<< HEAD
-mod projects;
-=======
 mod products;
->>>>>>> products
+mod projects;
 mod proofs;
 mod properties;
 mod readme;

@@ -15,10 +15,11 @@ impl Prover<'_> {
     /// Values, each linear in coefficients of which each band has norm one.
     pub(super) fn sum(&self, bands: &[usize]) -> Option<Both> {
         let inputs = self.coefficients();
-        let (_, scalars) = self.cone(&inputs, &self.listing.outputs)?;
+        let outputs: Vec<Operand> =
+            self.listing.outputs.iter().copied().filter(|&output| self.is_signal(output)).collect();
+        let (_, scalars) = self.cone(&inputs, &outputs)?;
         let (domain, _) = self.domain(scalars)?;
-        let section =
-            Section::new(self.listing, domain, &inputs, &self.listing.outputs, |operand| self.start(operand))?;
+        let section = Section::new(self.listing, domain, &inputs, &outputs, |operand| self.start(operand))?;
         let measure = |run: &Run, mode: usize, _: f64| {
             let weights = section.weights(run, mode);
             let value = |row: usize| {
@@ -31,7 +32,7 @@ impl Prover<'_> {
                 }
                 sum * SLACK
             };
-            (0..self.listing.outputs.len()).map(value).fold(0.0, larger_of)
+            (0..outputs.len()).map(value).fold(0.0, larger_of)
         };
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
