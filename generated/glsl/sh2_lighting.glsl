@@ -2,9 +2,18 @@
 // lights; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH2_LIGHTING_GLSL
 #define ZONAL_SH2_LIGHTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `cap:2`: The zonal coefficients of order 2 of a cap, which is one within an angle of the axis and
 // zero beyond: a sphere of radius r and radiance one whose centre is as far as d has s = r^2 / d^2.
@@ -16,7 +25,11 @@
 //     constants, 2 live values.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
-float[2] sh2_cap(float s) {
+ZONAL_HIGHP float[2] sh2_cap(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     return float[2](
@@ -34,7 +47,11 @@ float[2] sh2_cap(float s) {
 //     two); 27 constants, 9 live values.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
-float[2] sh2_gaussian(float kappa) {
+ZONAL_HIGHP float[2] sh2_gaussian(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -75,7 +92,11 @@ float[2] sh2_gaussian(float kappa) {
 //     reciprocals; 22 constants, 7 live values.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
-float[2] sh2_gaussian_narrow(float kappa) {
+ZONAL_HIGHP float[2] sh2_gaussian_narrow(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (max(kappa, 12.0));
     float t1 = min(kappa, 12.0);
     float t2 = t1 * t1;
@@ -110,7 +131,11 @@ float[2] sh2_gaussian_narrow(float kappa) {
 //     values.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
-float[2] sh2_phong(float s) {
+ZONAL_HIGHP float[2] sh2_phong(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[2](
         1.0 / (s + 1.0) * 1.7724539,
         1.0 / (s + 2.0) * 3.0699801
@@ -124,7 +149,11 @@ float[2] sh2_phong(float s) {
 // Operations: 1 (1 mul, 0 add, 0 fma); 2 constants, 1 live values.
 // Error: f32 rounding at most 6.3e-8 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     2.1e-8; not proven).
-float[2] sh2_henyey_greenstein(float g) {
+ZONAL_HIGHP float[2] sh2_henyey_greenstein(ZONAL_HIGHP float g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[2](
         0.2820948,
         0.48860252 * g
@@ -139,7 +168,11 @@ float[2] sh2_henyey_greenstein(float g) {
 // Operations: 6 (6 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
-float[4] sh2_convolve(float[2] g, float[4] c) {
+ZONAL_HIGHP float[4] sh2_convolve(ZONAL_HIGHP float[2] g, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     return float[4](
         3.5449078 * g[0] * c[0],
@@ -157,7 +190,11 @@ float[4] sh2_convolve(float[2] g, float[4] c) {
 // Operations: 14 (14 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
-vec3[4] sh2_convolve_rgb(float[2] g, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_convolve_rgb(ZONAL_HIGHP float[2] g, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     return vec3[4](
         3.5449078 * g[0] * c[0],
@@ -175,7 +212,11 @@ vec3[4] sh2_convolve_rgb(float[2] g, vec3[4] c) {
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[4] sh2_convolve_cosine(float[4] c) {
+ZONAL_HIGHP float[4] sh2_convolve_cosine(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -192,7 +233,11 @@ float[4] sh2_convolve_cosine(float[4] c) {
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[4] sh2_convolve_cosine_rgb(vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_convolve_cosine_rgb(ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -211,7 +256,11 @@ vec3[4] sh2_convolve_cosine_rgb(vec3[4] c) {
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.2e-7).
-float sh2_irradiance(vec3 dir, float[4] c) {
+ZONAL_HIGHP float sh2_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0233268 * dir.z * c[2] + 0.88622695 * c[0] - 1.0233268 * dir.x * c[3] - 1.0233268 * dir.y * c[1];
     return t0;
 }
@@ -226,7 +275,11 @@ float sh2_irradiance(vec3 dir, float[4] c) {
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.2e-7).
-vec3 sh2_irradiance_rgb(vec3 dir, vec3[4] c) {
+ZONAL_HIGHP vec3 sh2_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.0233268 * dir.z * c[2] + 0.88622695 * c[0] - 1.0233268 * dir.x * c[3] - 1.0233268 * dir.y * c[1];
     return t0;
 }
@@ -241,7 +294,11 @@ vec3 sh2_irradiance_rgb(vec3 dir, vec3[4] c) {
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
-float[4] sh2_light_directional(vec3 dir, float light, float[4] c) {
+ZONAL_HIGHP float[4] sh2_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float light, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[4](
         c[0] + 0.2820948 * light,
         c[1] - 0.48860252 * dir.y * light,
@@ -260,7 +317,11 @@ float[4] sh2_light_directional(vec3 dir, float light, float[4] c) {
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
-vec3[4] sh2_light_directional_rgb(vec3 dir, vec3 light, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[4](
         c[0] + 0.2820948 * light,
         c[1] - 0.48860252 * dir.y * light,
@@ -281,7 +342,11 @@ vec3[4] sh2_light_directional_rgb(vec3 dir, vec3 light, vec3[4] c) {
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
-float[4] sh2_light_sphere(vec3 dir, float s, float light, float[4] c) {
+ZONAL_HIGHP float[4] sh2_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP float light, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = light * t1;
@@ -306,7 +371,11 @@ float[4] sh2_light_sphere(vec3 dir, float s, float light, float[4] c) {
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
-vec3[4] sh2_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     vec3 t2 = light * t1;
@@ -329,7 +398,11 @@ vec3[4] sh2_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[4] c) {
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
-float[4] sh2_light_cone(vec3 dir, float cos, float light, float[4] c) {
+ZONAL_HIGHP float[4] sh2_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP float light, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = 1.5349901 * (t0 * (cos + 1.0)) * light;
     return float[4](
@@ -351,7 +424,11 @@ float[4] sh2_light_cone(vec3 dir, float cos, float light, float[4] c) {
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
-vec3[4] sh2_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     vec3 t1 = 1.5349901 * (t0 * (cos + 1.0)) * light;
     return vec3[4](
@@ -374,7 +451,11 @@ vec3[4] sh2_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[4] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-float[4] sh2_light_hemisphere(vec3 dir, float top, float bottom, float[4] c) {
+ZONAL_HIGHP float[4] sh2_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float top, ZONAL_HIGHP float bottom, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0233268 * (top - bottom);
     return float[4](
         c[0] + 1.7724539 * (top + bottom),
@@ -396,7 +477,11 @@ float[4] sh2_light_hemisphere(vec3 dir, float top, float bottom, float[4] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-vec3[4] sh2_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 top, ZONAL_HIGHP vec3 bottom, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.0233268 * (top - bottom);
     return vec3[4](
         c[0] + 1.7724539 * (top + bottom),
@@ -418,7 +503,11 @@ vec3[4] sh2_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[4] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
-float[4] sh2_light_gaussian(vec3 dir, float kappa, float light, float[4] c) {
+ZONAL_HIGHP float[4] sh2_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP float light, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -466,7 +555,11 @@ float[4] sh2_light_gaussian(vec3 dir, float kappa, float light, float[4] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
-vec3[4] sh2_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[4] c) {
+ZONAL_HIGHP vec3[4] sh2_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -511,7 +604,11 @@ vec3[4] sh2_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[4] c) {
 //     reciprocals; 3 constants, 5 live values.
 // Error: f32 rounding at most 3.2e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.1e-7; not proven).
-vec3 sh2_dominant(float[4] c) {
+ZONAL_HIGHP vec3 sh2_dominant(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -534,7 +631,11 @@ vec3 sh2_dominant(float[4] c) {
 //     reciprocals; 7 constants, 5 live values.
 // Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.2e-7; not proven).
-float[5] sh2_light_fit(float[4] c) {
+ZONAL_HIGHP float[5] sh2_light_fit(ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -564,7 +665,11 @@ float[5] sh2_light_fit(float[4] c) {
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
-float[2] sh2_light_fit_along(vec3 dir, float[4] c) {
+ZONAL_HIGHP float[2] sh2_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.1432505 * dir.z * c[2] - 2.1432505 * dir.x * c[3] - 2.1432505 * dir.y * c[1];
     return float[2](
         0.95492965 * t0,
@@ -582,7 +687,11 @@ float[2] sh2_light_fit_along(vec3 dir, float[4] c) {
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
-vec3[2] sh2_light_fit_along_rgb(vec3 dir, vec3[4] c) {
+ZONAL_HIGHP vec3[2] sh2_light_fit_along_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 2.1432505 * dir.z * c[2] - 2.1432505 * dir.x * c[3] - 2.1432505 * dir.y * c[1];
     return vec3[2](
         0.95492965 * t0,

@@ -2,9 +2,18 @@
 // lights; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH3_LIGHTING_GLSL
 #define ZONAL_SH3_LIGHTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `cap:3`: The zonal coefficients of order 3 of a cap, which is one within an angle of the axis and
 // zero beyond: a sphere of radius r and radiance one whose centre is as far as d has s = r^2 / d^2.
@@ -16,7 +25,11 @@
 //     constants, 3 live values.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
-float[3] sh3_cap(float s) {
+ZONAL_HIGHP float[3] sh3_cap(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -36,7 +49,11 @@ float[3] sh3_cap(float s) {
 //     two); 30 constants, 9 live values.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
-float[3] sh3_gaussian(float kappa) {
+ZONAL_HIGHP float[3] sh3_gaussian(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -80,7 +97,11 @@ float[3] sh3_gaussian(float kappa) {
 //     reciprocals; 25 constants, 8 live values.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
-float[3] sh3_gaussian_narrow(float kappa) {
+ZONAL_HIGHP float[3] sh3_gaussian_narrow(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (max(kappa, 12.0));
     float t1 = min(kappa, 12.0);
     float t2 = t1 * t1;
@@ -118,7 +139,11 @@ float[3] sh3_gaussian_narrow(float kappa) {
 //     values.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
-float[3] sh3_phong(float s) {
+ZONAL_HIGHP float[3] sh3_phong(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (s + 1.0);
     return float[3](
         1.7724539 * t0,
@@ -134,7 +159,11 @@ float[3] sh3_phong(float s) {
 // Operations: 3 (3 mul, 0 add, 0 fma); 3 constants, 2 live values.
 // Error: f32 rounding at most 1.3e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     4.2e-8; not proven).
-float[3] sh3_henyey_greenstein(float g) {
+ZONAL_HIGHP float[3] sh3_henyey_greenstein(ZONAL_HIGHP float g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[3](
         0.2820948,
         0.48860252 * g,
@@ -150,7 +179,11 @@ float[3] sh3_henyey_greenstein(float g) {
 // Operations: 12 (12 mul, 0 add, 0 fma); 3 constants, 9 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
-float[9] sh3_convolve(float[3] g, float[9] c) {
+ZONAL_HIGHP float[9] sh3_convolve(ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     return float[9](
@@ -174,7 +207,11 @@ float[9] sh3_convolve(float[3] g, float[9] c) {
 // Operations: 30 (30 mul, 0 add, 0 fma); 3 constants, 9 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
-vec3[9] sh3_convolve_rgb(float[3] g, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_convolve_rgb(ZONAL_HIGHP float[3] g, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     return vec3[9](
@@ -198,7 +235,11 @@ vec3[9] sh3_convolve_rgb(float[3] g, vec3[9] c) {
 // Operations: 9 (9 mul, 0 add, 0 fma); 3 constants, 9 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-float[9] sh3_convolve_cosine(float[9] c) {
+ZONAL_HIGHP float[9] sh3_convolve_cosine(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[9](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -220,7 +261,11 @@ float[9] sh3_convolve_cosine(float[9] c) {
 // Operations: 27 (27 mul, 0 add, 0 fma); 3 constants, 9 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
-vec3[9] sh3_convolve_cosine_rgb(vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_convolve_cosine_rgb(ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[9](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -244,7 +289,11 @@ vec3[9] sh3_convolve_cosine_rgb(vec3[9] c) {
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
-float sh3_irradiance(vec3 dir, float[9] c) {
+ZONAL_HIGHP float sh3_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.8385255 * dir.z;
     float t2 = (0.7431239 * t0 - 0.24770796) * c[6] + 0.88622695 * c[0] + 1.0233268 * dir.z * c[2] - 1.0233268 * dir.x * (c[3] + c[7] * t1);
@@ -263,7 +312,11 @@ float sh3_irradiance(vec3 dir, float[9] c) {
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
-vec3 sh3_irradiance_rgb(vec3 dir, vec3[9] c) {
+ZONAL_HIGHP vec3 sh3_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.8385255 * dir.z;
     vec3 t2 = (0.7431239 * t0 - 0.24770796) * c[6] + 0.88622695 * c[0] + 1.0233268 * dir.z * c[2] - 1.0233268 * dir.x * (c[3] + c[7] * t1);
@@ -282,7 +335,11 @@ vec3 sh3_irradiance_rgb(vec3 dir, vec3[9] c) {
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
-float[9] sh3_light_directional(vec3 dir, float light, float[9] c) {
+ZONAL_HIGHP float[9] sh3_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float light, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.x;
     float t2 = 2.236068 * dir.z;
@@ -309,7 +366,11 @@ float[9] sh3_light_directional(vec3 dir, float light, float[9] c) {
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
-vec3[9] sh3_light_directional_rgb(vec3 dir, vec3 light, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.x;
     float t2 = 2.236068 * dir.z;
@@ -338,7 +399,11 @@ vec3[9] sh3_light_directional_rgb(vec3 dir, vec3 light, vec3[9] c) {
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
-float[9] sh3_light_sphere(vec3 dir, float s, float light, float[9] c) {
+ZONAL_HIGHP float[9] sh3_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP float light, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -371,7 +436,11 @@ float[9] sh3_light_sphere(vec3 dir, float s, float light, float[9] c) {
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
-vec3[9] sh3_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -402,7 +471,11 @@ vec3[9] sh3_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[9] c) {
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
-float[9] sh3_light_cone(vec3 dir, float cos, float light, float[9] c) {
+ZONAL_HIGHP float[9] sh3_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP float light, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = 1.5349901 * (t0 * (cos + 1.0));
     float t2 = light * t1;
@@ -432,7 +505,11 @@ float[9] sh3_light_cone(vec3 dir, float cos, float light, float[9] c) {
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
-vec3[9] sh3_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = 1.5349901 * (t0 * (cos + 1.0));
     vec3 t2 = light * t1;
@@ -463,7 +540,11 @@ vec3[9] sh3_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[9] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
-float[9] sh3_light_hemisphere(vec3 dir, float top, float bottom, float[9] c) {
+ZONAL_HIGHP float[9] sh3_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float top, ZONAL_HIGHP float bottom, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0233268 * (top - bottom);
     return float[9](
         c[0] + 1.7724539 * (top + bottom),
@@ -490,7 +571,11 @@ float[9] sh3_light_hemisphere(vec3 dir, float top, float bottom, float[9] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
-vec3[9] sh3_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 top, ZONAL_HIGHP vec3 bottom, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.0233268 * (top - bottom);
     return vec3[9](
         c[0] + 1.7724539 * (top + bottom),
@@ -517,7 +602,11 @@ vec3[9] sh3_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[9] c) {
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
-float[9] sh3_light_gaussian(vec3 dir, float kappa, float light, float[9] c) {
+ZONAL_HIGHP float[9] sh3_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP float light, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -574,7 +663,11 @@ float[9] sh3_light_gaussian(vec3 dir, float kappa, float light, float[9] c) {
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
-vec3[9] sh3_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -628,7 +721,11 @@ vec3[9] sh3_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[9] c) {
 //     reciprocals; 3 constants, 5 live values.
 // Error: f32 rounding at most 3e-7 of one, for c with each band of norm one (3 times the worst of 256
 //     measured, 9.8e-8; not proven).
-vec3 sh3_dominant(float[9] c) {
+ZONAL_HIGHP vec3 sh3_dominant(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -651,7 +748,11 @@ vec3 sh3_dominant(float[9] c) {
 //     reciprocals; 12 constants, 8 live values.
 // Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.2e-7; not proven).
-float[5] sh3_light_fit(float[9] c) {
+ZONAL_HIGHP float[5] sh3_light_fit(ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -686,7 +787,11 @@ float[5] sh3_light_fit(float[9] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
-float[2] sh3_light_fit_along(vec3 dir, float[9] c) {
+ZONAL_HIGHP float[2] sh3_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.31444705 * dir.z;
     float t2 = 2.1432505 * dir.z * c[2] + (0.58364815 * t0 - 0.19454937) * c[6] - 2.1432505 * dir.x * (c[3] + c[7] * t1);
@@ -709,7 +814,11 @@ float[2] sh3_light_fit_along(vec3 dir, float[9] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
-vec3[2] sh3_light_fit_along_rgb(vec3 dir, vec3[9] c) {
+ZONAL_HIGHP vec3[2] sh3_light_fit_along_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.31444705 * dir.z;
     vec3 t2 = 2.1432505 * dir.z * c[2] + (0.58364815 * t0 - 0.19454937) * c[6] - 2.1432505 * dir.x * (c[3] + c[7] * t1);

@@ -2,9 +2,18 @@
 // lights; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH4_LIGHTING_GLSL
 #define ZONAL_SH4_LIGHTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `cap:4`: The zonal coefficients of order 4 of a cap, which is one within an angle of the axis and
 // zero beyond: a sphere of radius r and radiance one whose centre is as far as d has s = r^2 / d^2.
@@ -16,7 +25,11 @@
 //     constants, 4 live values.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
-float[4] sh4_cap(float s) {
+ZONAL_HIGHP float[4] sh4_cap(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -37,7 +50,11 @@ float[4] sh4_cap(float s) {
 //     two); 33 constants, 10 live values.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
-float[4] sh4_gaussian(float kappa) {
+ZONAL_HIGHP float[4] sh4_gaussian(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -84,7 +101,11 @@ float[4] sh4_gaussian(float kappa) {
 //     reciprocals; 28 constants, 10 live values.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
-float[4] sh4_gaussian_narrow(float kappa) {
+ZONAL_HIGHP float[4] sh4_gaussian_narrow(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (max(kappa, 12.0));
     float t1 = min(kappa, 12.0);
     float t2 = t1 * t1;
@@ -125,7 +146,11 @@ float[4] sh4_gaussian_narrow(float kappa) {
 //     values.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
-float[4] sh4_phong(float s) {
+ZONAL_HIGHP float[4] sh4_phong(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (s + 1.0);
     float t1 = 1.0 / (s + 2.0);
     return float[4](
@@ -143,7 +168,11 @@ float[4] sh4_phong(float s) {
 // Operations: 5 (5 mul, 0 add, 0 fma); 4 constants, 3 live values.
 // Error: f32 rounding at most 1.8e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     5.9e-8; not proven).
-float[4] sh4_henyey_greenstein(float g) {
+ZONAL_HIGHP float[4] sh4_henyey_greenstein(ZONAL_HIGHP float g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = g * g;
     return float[4](
         0.2820948,
@@ -161,7 +190,11 @@ float[4] sh4_henyey_greenstein(float g) {
 // Operations: 20 (20 mul, 0 add, 0 fma); 4 constants, 16 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-float[16] sh4_convolve(float[4] g, float[16] c) {
+ZONAL_HIGHP float[16] sh4_convolve(ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     float t2 = 1.3398491 * g[3];
@@ -193,7 +226,11 @@ float[16] sh4_convolve(float[4] g, float[16] c) {
 // Operations: 52 (52 mul, 0 add, 0 fma); 4 constants, 16 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
-vec3[16] sh4_convolve_rgb(float[4] g, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_convolve_rgb(ZONAL_HIGHP float[4] g, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     float t2 = 1.3398491 * g[3];
@@ -225,7 +262,11 @@ vec3[16] sh4_convolve_rgb(float[4] g, vec3[16] c) {
 // Operations: 9 (9 mul, 0 add, 0 fma); 4 constants, 9 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-float[16] sh4_convolve_cosine(float[16] c) {
+ZONAL_HIGHP float[16] sh4_convolve_cosine(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[16](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -254,7 +295,11 @@ float[16] sh4_convolve_cosine(float[16] c) {
 // Operations: 27 (27 mul, 0 add, 0 fma); 4 constants, 9 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
-vec3[16] sh4_convolve_cosine_rgb(vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_convolve_cosine_rgb(ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[16](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -285,7 +330,11 @@ vec3[16] sh4_convolve_cosine_rgb(vec3[16] c) {
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.7e-7).
-float sh4_irradiance(vec3 dir, float[16] c) {
+ZONAL_HIGHP float sh4_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.8385255 * dir.z;
     float t2 = (0.7431239 * t0 - 0.24770796) * c[6] + 0.88622695 * c[0] + 1.0233268 * dir.z * c[2] - 1.0233268 * dir.x * (c[3] + c[7] * t1);
@@ -304,7 +353,11 @@ float sh4_irradiance(vec3 dir, float[16] c) {
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.7e-7).
-vec3 sh4_irradiance_rgb(vec3 dir, vec3[16] c) {
+ZONAL_HIGHP vec3 sh4_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.8385255 * dir.z;
     vec3 t2 = (0.7431239 * t0 - 0.24770796) * c[6] + 0.88622695 * c[0] + 1.0233268 * dir.z * c[2] - 1.0233268 * dir.x * (c[3] + c[7] * t1);
@@ -323,7 +376,11 @@ vec3 sh4_irradiance_rgb(vec3 dir, vec3[16] c) {
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
-float[16] sh4_light_directional(vec3 dir, float light, float[16] c) {
+ZONAL_HIGHP float[16] sh4_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float light, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -365,7 +422,11 @@ float[16] sh4_light_directional(vec3 dir, float light, float[16] c) {
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
-vec3[16] sh4_light_directional_rgb(vec3 dir, vec3 light, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -409,7 +470,11 @@ vec3[16] sh4_light_directional_rgb(vec3 dir, vec3 light, vec3[16] c) {
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
-float[16] sh4_light_sphere(vec3 dir, float s, float light, float[16] c) {
+ZONAL_HIGHP float[16] sh4_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP float light, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -457,7 +522,11 @@ float[16] sh4_light_sphere(vec3 dir, float s, float light, float[16] c) {
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
-vec3[16] sh4_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -503,7 +572,11 @@ vec3[16] sh4_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[16] c) {
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
-float[16] sh4_light_cone(vec3 dir, float cos, float light, float[16] c) {
+ZONAL_HIGHP float[16] sh4_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP float light, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = t0 * (cos + 1.0);
     float t2 = 1.5349901 * t1;
@@ -549,7 +622,11 @@ float[16] sh4_light_cone(vec3 dir, float cos, float light, float[16] c) {
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
-vec3[16] sh4_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = t0 * (cos + 1.0);
     float t2 = 1.5349901 * t1;
@@ -596,7 +673,11 @@ vec3[16] sh4_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[16] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-float[16] sh4_light_hemisphere(vec3 dir, float top, float bottom, float[16] c) {
+ZONAL_HIGHP float[16] sh4_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float top, ZONAL_HIGHP float bottom, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0233268 * (top - bottom);
     return float[16](
         c[0] + 1.7724539 * (top + bottom),
@@ -630,7 +711,11 @@ float[16] sh4_light_hemisphere(vec3 dir, float top, float bottom, float[16] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-vec3[16] sh4_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 top, ZONAL_HIGHP vec3 bottom, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.0233268 * (top - bottom);
     return vec3[16](
         c[0] + 1.7724539 * (top + bottom),
@@ -664,7 +749,11 @@ vec3[16] sh4_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[16] c) {
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
-float[16] sh4_light_gaussian(vec3 dir, float kappa, float light, float[16] c) {
+ZONAL_HIGHP float[16] sh4_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP float light, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -738,7 +827,11 @@ float[16] sh4_light_gaussian(vec3 dir, float kappa, float light, float[16] c) {
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
-vec3[16] sh4_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[16] c) {
+ZONAL_HIGHP vec3[16] sh4_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -809,7 +902,11 @@ vec3[16] sh4_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[16] c) {
 //     reciprocals; 3 constants, 5 live values.
 // Error: f32 rounding at most 3.2e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.1e-7; not proven).
-vec3 sh4_dominant(float[16] c) {
+ZONAL_HIGHP vec3 sh4_dominant(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -832,7 +929,11 @@ vec3 sh4_dominant(float[16] c) {
 //     reciprocals; 12 constants, 8 live values.
 // Error: f32 rounding at most 1.5e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 4.9e-7; not proven).
-float[5] sh4_light_fit(float[16] c) {
+ZONAL_HIGHP float[5] sh4_light_fit(ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -867,7 +968,11 @@ float[5] sh4_light_fit(float[16] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).
-float[2] sh4_light_fit_along(vec3 dir, float[16] c) {
+ZONAL_HIGHP float[2] sh4_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.31444705 * dir.z;
     float t2 = 2.1432505 * dir.z * c[2] + (0.58364815 * t0 - 0.19454937) * c[6] - 2.1432505 * dir.x * (c[3] + c[7] * t1);
@@ -890,7 +995,11 @@ float[2] sh4_light_fit_along(vec3 dir, float[16] c) {
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).
-vec3[2] sh4_light_fit_along_rgb(vec3 dir, vec3[16] c) {
+ZONAL_HIGHP vec3[2] sh4_light_fit_along_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.31444705 * dir.z;
     vec3 t2 = 2.1432505 * dir.z * c[2] + (0.58364815 * t0 - 0.19454937) * c[6] - 2.1432505 * dir.x * (c[3] + c[7] * t1);

@@ -2,9 +2,18 @@
 // lights; do not edit, generate it again.
 // Convention: real orthonormal harmonics with the Condon-Shortley phase (band 1 is -y, z, -x), index l(l+1)+m,
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
+// In GLSL ES every number is highp, whatever precision the shader around this sets: mediump makes NaN of some.
 
 #ifndef ZONAL_SH6_LIGHTING_GLSL
 #define ZONAL_SH6_LIGHTING_GLSL
+
+#ifndef ZONAL_HIGHP
+#ifdef GL_ES
+#define ZONAL_HIGHP highp
+#else
+#define ZONAL_HIGHP
+#endif
+#endif
 
 // `cap:6`: The zonal coefficients of order 6 of a cap, which is one within an angle of the axis and
 // zero beyond: a sphere of radius r and radiance one whose centre is as far as d has s = r^2 / d^2.
@@ -16,7 +25,11 @@
 //     11 constants, 7 live values.
 // Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
-float[6] sh6_cap(float s) {
+ZONAL_HIGHP float[6] sh6_cap(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -41,7 +54,11 @@ float[6] sh6_cap(float s) {
 //     two); 39 constants, 12 live values.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
-float[6] sh6_gaussian(float kappa) {
+ZONAL_HIGHP float[6] sh6_gaussian(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -94,7 +111,11 @@ float[6] sh6_gaussian(float kappa) {
 //     reciprocals; 34 constants, 12 live values.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
-float[6] sh6_gaussian_narrow(float kappa) {
+ZONAL_HIGHP float[6] sh6_gaussian_narrow(ZONAL_HIGHP float kappa) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (max(kappa, 12.0));
     float t1 = min(kappa, 12.0);
     float t2 = t1 * t1;
@@ -141,7 +162,11 @@ float[6] sh6_gaussian_narrow(float kappa) {
 //     live values.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
-float[6] sh6_phong(float s) {
+ZONAL_HIGHP float[6] sh6_phong(ZONAL_HIGHP float s) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 / (s + 1.0);
     float t1 = 1.0 / (s + 2.0);
     float t2 = 3.9633274 * t0 * (1.0 / (s + 3.0) * s);
@@ -163,7 +188,11 @@ float[6] sh6_phong(float s) {
 // Operations: 9 (9 mul, 0 add, 0 fma); 6 constants, 5 live values.
 // Error: f32 rounding at most 2.2e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     7.3e-8; not proven).
-float[6] sh6_henyey_greenstein(float g) {
+ZONAL_HIGHP float[6] sh6_henyey_greenstein(ZONAL_HIGHP float g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = g * g;
     float t1 = g * t0;
     float t2 = g * t1;
@@ -185,7 +214,11 @@ float[6] sh6_henyey_greenstein(float g) {
 // Operations: 42 (42 mul, 0 add, 0 fma); 6 constants, 36 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
-float[36] sh6_convolve(float[6] g, float[36] c) {
+ZONAL_HIGHP float[36] sh6_convolve(ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     float t2 = 1.3398491 * g[3];
@@ -239,7 +272,11 @@ float[36] sh6_convolve(float[6] g, float[36] c) {
 // Operations: 114 (114 mul, 0 add, 0 fma); 6 constants, 36 live values.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
-vec3[36] sh6_convolve_rgb(float[6] g, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_convolve_rgb(ZONAL_HIGHP float[6] g, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 2.0466535 * g[1];
     float t1 = 1.585331 * g[2];
     float t2 = 1.3398491 * g[3];
@@ -293,7 +330,11 @@ vec3[36] sh6_convolve_rgb(float[6] g, vec3[36] c) {
 // Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-float[36] sh6_convolve_cosine(float[36] c) {
+ZONAL_HIGHP float[36] sh6_convolve_cosine(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return float[36](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -342,7 +383,11 @@ float[36] sh6_convolve_cosine(float[36] c) {
 // Operations: 54 (54 mul, 0 add, 0 fma); 5 constants, 18 live values.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
-vec3[36] sh6_convolve_cosine_rgb(vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_convolve_cosine_rgb(ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     return vec3[36](
         3.1415927 * c[0],
         2.0943952 * c[1],
@@ -393,7 +438,11 @@ vec3[36] sh6_convolve_cosine_rgb(vec3[36] c) {
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
-float sh6_irradiance(vec3 dir, float[36] c) {
+ZONAL_HIGHP float sh6_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.7431239 * t0 - 0.24770796;
     float t2 = c[6] * t1 + 0.88622695 * c[0] + (0.043080475 + (0.3416215 - 0.6521865 * t0) * t1) * c[20];
@@ -421,7 +470,11 @@ float sh6_irradiance(vec3 dir, float[36] c) {
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
-vec3 sh6_irradiance_rgb(vec3 dir, vec3[36] c) {
+ZONAL_HIGHP vec3 sh6_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.7431239 * t0 - 0.24770796;
     vec3 t2 = c[6] * t1 + 0.88622695 * c[0] + (0.043080475 + (0.3416215 - 0.6521865 * t0) * t1) * c[20];
@@ -449,7 +502,11 @@ vec3 sh6_irradiance_rgb(vec3 dir, vec3[36] c) {
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
-float[36] sh6_light_directional(vec3 dir, float light, float[36] c) {
+ZONAL_HIGHP float[36] sh6_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float light, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -531,7 +588,11 @@ float[36] sh6_light_directional(vec3 dir, float light, float[36] c) {
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
-vec3[36] sh6_light_directional_rgb(vec3 dir, vec3 light, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 0.48860252 * dir.y;
     float t1 = 0.48860252 * dir.z;
     float t2 = 0.48860252 * dir.x;
@@ -615,7 +676,11 @@ vec3[36] sh6_light_directional_rgb(vec3 dir, vec3 light, vec3[36] c) {
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
-float[36] sh6_light_sphere(vec3 dir, float s, float light, float[36] c) {
+ZONAL_HIGHP float[36] sh6_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP float light, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -707,7 +772,11 @@ float[36] sh6_light_sphere(vec3 dir, float s, float light, float[36] c) {
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
-vec3[36] sh6_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = min(s, 1.0);
     float t1 = 1.5349901 * t0;
     float t2 = sqrt(1.0 - t0);
@@ -797,7 +866,11 @@ vec3[36] sh6_light_sphere_rgb(vec3 dir, float s, vec3 light, vec3[36] c) {
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
-float[36] sh6_light_cone(vec3 dir, float cos, float light, float[36] c) {
+ZONAL_HIGHP float[36] sh6_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP float light, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = t0 * (cos + 1.0);
     float t2 = 1.5349901 * t1;
@@ -887,7 +960,11 @@ float[36] sh6_light_cone(vec3 dir, float cos, float light, float[36] c) {
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
-vec3[36] sh6_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0 - cos;
     float t1 = t0 * (cos + 1.0);
     float t2 = 1.5349901 * t1;
@@ -978,7 +1055,11 @@ vec3[36] sh6_light_cone_rgb(vec3 dir, float cos, vec3 light, vec3[36] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-float[36] sh6_light_hemisphere(vec3 dir, float top, float bottom, float[36] c) {
+ZONAL_HIGHP float[36] sh6_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float top, ZONAL_HIGHP float bottom, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = 1.0233268 * (top - bottom);
     return float[36](
         c[0] + 1.7724539 * (top + bottom),
@@ -1032,7 +1113,11 @@ float[36] sh6_light_hemisphere(vec3 dir, float top, float bottom, float[36] c) {
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
-vec3[36] sh6_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 top, ZONAL_HIGHP vec3 bottom, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     vec3 t0 = 1.0233268 * (top - bottom);
     return vec3[36](
         c[0] + 1.7724539 * (top + bottom),
@@ -1086,7 +1171,11 @@ vec3[36] sh6_light_hemisphere_rgb(vec3 dir, vec3 top, vec3 bottom, vec3[36] c) {
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
-float[36] sh6_light_gaussian(vec3 dir, float kappa, float light, float[36] c) {
+ZONAL_HIGHP float[36] sh6_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP float light, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -1206,7 +1295,11 @@ float[36] sh6_light_gaussian(vec3 dir, float kappa, float light, float[36] c) {
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
-vec3[36] sh6_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[36] c) {
+ZONAL_HIGHP vec3[36] sh6_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float kappa, ZONAL_HIGHP vec3 light, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(kappa, 10.0);
     float t1 = 1.0 / (t0);
     float t2 = exp2(-(2.88539 * t0));
@@ -1323,7 +1416,11 @@ vec3[36] sh6_light_gaussian_rgb(vec3 dir, float kappa, vec3 light, vec3[36] c) {
 //     reciprocals; 3 constants, 5 live values.
 // Error: f32 rounding at most 3.3e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.1e-7; not proven).
-vec3 sh6_dominant(float[36] c) {
+ZONAL_HIGHP vec3 sh6_dominant(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -1346,7 +1443,11 @@ vec3 sh6_dominant(float[36] c) {
 //     reciprocals; 24 constants, 10 live values.
 // Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.4e-7; not proven).
-float[5] sh6_light_fit(float[36] c) {
+ZONAL_HIGHP float[5] sh6_light_fit(ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
     float t1 = 1.0 / (t0);
     float t2 = c[3] * t1;
@@ -1390,7 +1491,11 @@ float[5] sh6_light_fit(float[36] c) {
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
-float[2] sh6_light_fit_along(vec3 dir, float[36] c) {
+ZONAL_HIGHP float[2] sh6_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.58364815 * t0 - 0.19454937;
     float t2 = c[20] * ((0.10869775 * t0 - 0.056936916) * t1 - 0.005639221) + c[6] * t1 + 2.1432505 * dir.z * c[2];
@@ -1422,7 +1527,11 @@ float[2] sh6_light_fit_along(vec3 dir, float[36] c) {
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
-vec3[2] sh6_light_fit_along_rgb(vec3 dir, vec3[36] c) {
+ZONAL_HIGHP vec3[2] sh6_light_fit_along_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
     float t0 = dir.z * dir.z;
     float t1 = 0.58364815 * t0 - 0.19454937;
     vec3 t2 = c[20] * ((0.10869775 * t0 - 0.056936916) * t1 - 0.005639221) + c[6] * t1 + 2.1432505 * dir.z * c[2];

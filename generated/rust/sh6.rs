@@ -5971,12 +5971,13 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// zero beyond: a sphere of radius r and radiance one whose centre is as far as d has s = r^2 / d^2.
 /// Exact for a cap of any size; s above one, inside of the sphere, is taken for a hemisphere; s that is
 /// not a number makes all of them so.
-/// s: the squared sine of the half-angle, r^2 / d^2 of a sphere.
-/// Returns the zonal coefficients, one a band.
-/// Operations: 14 (7 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root, reciprocal);
-///     11 constants, 7 live values.
-/// Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
-///     1.5e-7; not proven).
+///
+/// - s: the squared sine of the half-angle, r^2 / d^2 of a sphere.
+/// - Returns the zonal coefficients, one a band.
+/// - Operations: 14 (7 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root,
+///   reciprocal); 11 constants, 7 live values.
+/// - Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256
+///   measured, 1.5e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn cap<T: Real>(s: T) -> [T; 6] {
@@ -5999,12 +6000,13 @@ pub fn cap<T: Real>(s: T) -> [T; 6] {
 /// `gaussian:6`: The zonal coefficients of order 6 of the spherical Gaussian exp(kappa (cos - 1)), for
 /// every sharpness kappa >= 0: downward from band 20 up to kappa = 10, upward above, of which one is
 /// selected. Kappa that is not a number makes all of them so.
-/// kappa: the sharpness, not negative.
-/// Returns the zonal coefficients, one a band.
-/// Operations: 85 (49 mul, 3 add, 25 fma, 8 min, max or select) and 3 special (reciprocal, power of
-///     two); 39 constants, 12 live values.
-/// Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
-///     measured, 4.5e-7; not proven).
+///
+/// - kappa: the sharpness, not negative.
+/// - Returns the zonal coefficients, one a band.
+/// - Operations: 85 (49 mul, 3 add, 25 fma, 8 min, max or select) and 3 special (reciprocal, power of
+///   two); 39 constants, 12 live values.
+/// - Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
+///   measured, 4.5e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn gaussian<T: Real>(kappa: T) -> [T; 6] {
@@ -6060,12 +6062,13 @@ pub fn gaussian<T: Real>(kappa: T) -> [T; 6] {
 
 /// `gaussian:6:f32`: What `gaussian:6` gives, as exact as f32 is and no more: within 2e-8 of the first
 /// coefficient, downward from band 16 up to kappa = 12, upward above and without a power.
-/// kappa: the sharpness, not negative.
-/// Returns the zonal coefficients, one a band.
-/// Operations: 73 (43 mul, 1 add, 21 fma, 8 min, max or select) and 2 inverse square roots or
-///     reciprocals; 34 constants, 12 live values.
-/// Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
-///     measured, 3.4e-7; not proven).
+///
+/// - kappa: the sharpness, not negative.
+/// - Returns the zonal coefficients, one a band.
+/// - Operations: 73 (43 mul, 1 add, 21 fma, 8 min, max or select) and 2 inverse square roots or
+///   reciprocals; 34 constants, 12 live values.
+/// - Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
+///   measured, 3.4e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn gaussian_narrow<T: Real>(kappa: T) -> [T; 6] {
@@ -6115,12 +6118,13 @@ pub fn gaussian_narrow<T: Real>(kappa: T) -> [T; 6] {
 /// `phong:6`: The zonal coefficients of order 6 of the lobe max(0, cos)^s, s any real number >= 0: s =
 /// 1 is the clamped cosine, whose coefficients are constants in `convolve_cosine:6`. S that is not a
 /// number makes all of them so.
-/// s: the exponent, not negative.
-/// Returns the zonal coefficients, one a band.
-/// Operations: 23 (14 mul, 9 add, 0 fma) and 6 inverse square roots or reciprocals; 12 constants, 7
-///     live values.
-/// Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
-///     2.1e-7; not proven).
+///
+/// - s: the exponent, not negative.
+/// - Returns the zonal coefficients, one a band.
+/// - Operations: 23 (14 mul, 9 add, 0 fma) and 6 inverse square roots or reciprocals; 12 constants, 7
+///   live values.
+/// - Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256
+///   measured, 2.1e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn phong<T: Real>(s: T) -> [T; 6] {
@@ -6140,11 +6144,12 @@ pub fn phong<T: Real>(s: T) -> [T; 6] {
 
 /// `henyey_greenstein:6`: The zonal coefficients of order 6 of the phase function (1 - g^2) / (4 pi (1
 /// + g^2 - 2 g cos)^(3/2)) (Henyey and Greenstein 1941), whose integral is one.
-/// g: the mean cosine, from -1 (all backward) to 1 (all forward).
-/// Returns the zonal coefficients, one a band.
-/// Operations: 9 (9 mul, 0 add, 0 fma); 6 constants, 5 live values.
-/// Error: f32 rounding at most 2.2e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
-///     7.3e-8; not proven).
+///
+/// - g: the mean cosine, from -1 (all backward) to 1 (all forward).
+/// - Returns the zonal coefficients, one a band.
+/// - Operations: 9 (9 mul, 0 add, 0 fma); 6 constants, 5 live values.
+/// - Error: f32 rounding at most 2.2e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
+///   7.3e-8; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn henyey_greenstein<T: Real>(g: T) -> [T; 6] {
@@ -6163,12 +6168,13 @@ pub fn henyey_greenstein<T: Real>(g: T) -> [T; 6] {
 
 /// `convolve:6`: Convolves a signal of order 6 with the function of the angle whose zonal coefficients
 /// are given: band l times sqrt(4 pi / (2l+1)) g_l (Funk 1916, Hecke 1918).
-/// g: the zonal coefficients of the function, one a band.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the convolved coefficients.
-/// Operations: 42 (42 mul, 0 add, 0 fma); 6 constants, 36 live values.
-/// Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
+///
+/// - g: the zonal coefficients of the function, one a band.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the convolved coefficients.
+/// - Operations: 42 (42 mul, 0 add, 0 fma); 6 constants, 36 live values.
+/// - Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn convolve<T: Real, V: Signal<T>>(g: &[T; 6], c: &[V; 36]) -> [V; 36] {
@@ -6226,11 +6232,12 @@ pub fn convolve_rgb<T: Real>(g: &[T; 6], c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// `convolve_cosine:6`: Convolves a signal of order 6 with the clamped cosine: radiance becomes
 /// irradiance, band l times pi, 2 pi/3, pi/4, 0, -pi/24, 0, pi/64 and so on (Ramamoorthi and Hanrahan
 /// 2001). Divided by pi it is what a white surface sends out.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients of the irradiance.
-/// Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
-/// Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
-///     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of the irradiance.
+/// - Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
+/// - Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn convolve_cosine<T: Real, V: Signal<T>>(c: &[V; 36]) -> [V; 36] {
@@ -6283,13 +6290,14 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 /// `irradiance:6`: The irradiance of a surface that faces a direction, from the coefficients of the
 /// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
 /// sends out.
-/// dir: the direction, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the irradiance.
-/// Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
-/// Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     4.2e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+/// - Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   4.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> V {
@@ -6319,14 +6327,15 @@ pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [T; 3] {
 
 /// `light_directional:6`: Adds a directional light to coefficients of order 6: light is the irradiance
 /// of a surface that faces it.
-/// dir: the direction, of unit length.
-/// light: the light's irradiance, one number a channel.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients with the light added.
-/// Operations: 101 (46 mul, 0 add, 55 fma); 34 constants, 45 live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
-///     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
-///     measured is 3.1e-7).
+///
+/// - dir: the direction, of unit length.
+/// - light: the light's irradiance, one number a channel.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients with the light added.
+/// - Operations: 101 (46 mul, 0 add, 55 fma); 34 constants, 45 live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
+///   added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
+///   measured is 3.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_directional<T: Real, V: Signal<T>>(dir: [T; 3], light: V, c: &[V; 36]) -> [V; 36] {
@@ -6411,16 +6420,17 @@ pub fn light_directional_rgb<T: Real>(dir: [T; 3], light: [T; 3], c: &[[T; 3]; 3
 
 /// `light_sphere:6`: Adds a spherical light to coefficients of order 6: light is its radiance. Exact
 /// for a sphere of any size; inside of it, where s is above one, it is a hemisphere about its centre.
-/// dir: the direction, of unit length.
-/// s: the squared sine of the half-angle, r^2 / d^2 of a sphere.
-/// light: the light's radiance, one number a channel.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients with the light added.
-/// Operations: 117 (55 mul, 1 add, 60 fma, 1 min, max or select) and 2 special (square root,
-///     reciprocal); 41 constants, 43 live values.
-/// Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
-///     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
-///     not proven).
+///
+/// - dir: the direction, of unit length.
+/// - s: the squared sine of the half-angle, r^2 / d^2 of a sphere.
+/// - light: the light's radiance, one number a channel.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients with the light added.
+/// - Operations: 117 (55 mul, 1 add, 60 fma, 1 min, max or select) and 2 special (square root,
+///   reciprocal); 41 constants, 43 live values.
+/// - Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
+///   added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
+///   not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_sphere<T: Real, V: Signal<T>>(dir: [T; 3], s: T, light: V, c: &[V; 36]) -> [V; 36] {
@@ -6513,15 +6523,16 @@ pub fn light_sphere_rgb<T: Real>(dir: [T; 3], s: T, light: [T; 3], c: &[[T; 3]; 
 
 /// `light_cone:6`: Adds a light that fills a cone to coefficients of order 6: light is its radiance.
 /// The cone may be wider than a hemisphere, up to the whole sphere at cos = -1.
-/// dir: the direction, of unit length.
-/// cos: the cosine of the cone's half-angle, from -1 to 1.
-/// light: the light's radiance, one number a channel.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients with the light added.
-/// Operations: 117 (56 mul, 2 add, 59 fma); 42 constants, 43 live values.
-/// Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
-///     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
-///     not proven).
+///
+/// - dir: the direction, of unit length.
+/// - cos: the cosine of the cone's half-angle, from -1 to 1.
+/// - light: the light's radiance, one number a channel.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients with the light added.
+/// - Operations: 117 (56 mul, 2 add, 59 fma); 42 constants, 43 live values.
+/// - Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
+///   added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
+///   not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_cone<T: Real, V: Signal<T>>(dir: [T; 3], cos: T, light: V, c: &[V; 36]) -> [V; 36] {
@@ -6614,15 +6625,16 @@ pub fn light_cone_rgb<T: Real>(dir: [T; 3], cos: T, light: [T; 3], c: &[[T; 3]; 
 /// `light_hemisphere:6`: Adds a sky and a ground to coefficients of order 6: the radiance is top in the
 /// direction, bottom against it, and linear in the cosine between, so that only the bands 0 and 1
 /// change.
-/// dir: the direction, of unit length.
-/// top: the radiance in the direction, one number a channel.
-/// bottom: the radiance against the direction, one number a channel.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients with the light added.
-/// Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
-/// Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
-///     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
-///     measured is 2.6e-7).
+///
+/// - dir: the direction, of unit length.
+/// - top: the radiance in the direction, one number a channel.
+/// - bottom: the radiance against the direction, one number a channel.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients with the light added.
+/// - Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+/// - Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
+///   added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
+///   measured is 2.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_hemisphere<T: Real, V: Signal<T>>(dir: [T; 3], top: V, bottom: V, c: &[V; 36]) -> [V; 36] {
@@ -6675,16 +6687,17 @@ pub fn light_hemisphere_rgb<T: Real>(dir: [T; 3], top: [T; 3], bottom: [T; 3], c
 
 /// `light_gaussian:6`: Adds a spherical Gaussian, light exp(kappa (cos - 1)), to coefficients of order
 /// 6, for every sharpness kappa >= 0: light is its radiance at the centre.
-/// dir: the direction, of unit length.
-/// kappa: the sharpness, not negative.
-/// light: the light's radiance, one number a channel.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the coefficients with the light added.
-/// Operations: 188 (97 mul, 3 add, 80 fma, 8 min, max or select) and 3 special (reciprocal, power of
-///     two); 69 constants, 43 live values.
-/// Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
-///     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
-///     6.1e-7; not proven).
+///
+/// - dir: the direction, of unit length.
+/// - kappa: the sharpness, not negative.
+/// - light: the light's radiance, one number a channel.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients with the light added.
+/// - Operations: 188 (97 mul, 3 add, 80 fma, 8 min, max or select) and 3 special (reciprocal, power of
+///   two); 69 constants, 43 live values.
+/// - Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
+///   added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
+///   6.1e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_gaussian<T: Real, V: Signal<T>>(dir: [T; 3], kappa: T, light: V, c: &[V; 36]) -> [V; 36] {
@@ -6811,12 +6824,13 @@ pub fn light_gaussian_rgb<T: Real>(dir: [T; 3], kappa: T, light: [T; 3], c: &[[T
 /// `dominant:6`: The dominant direction of a signal of order 6, in which the irradiance of its bands 0
 /// and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
 /// so small that its reciprocal overflows.
-/// c: the coefficients of one channel, index l(l+1)+m.
-/// Returns the direction, of unit length.
-/// Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-///     reciprocals; 3 constants, 5 live values.
-/// Error: f32 rounding at most 3.3e-7 of one, for c with each band of norm one (3 times the worst of
-///     256 measured, 1.1e-7; not proven).
+///
+/// - c: the coefficients of one channel, index l(l+1)+m.
+/// - Returns the direction, of unit length.
+/// - Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
+///   reciprocals; 3 constants, 5 live values.
+/// - Error: f32 rounding at most 3.3e-7 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 1.1e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dominant<T: Real>(c: &[T; 36]) -> [T; 3] {
@@ -6836,12 +6850,13 @@ pub fn dominant<T: Real>(c: &[T; 36]) -> [T; 3] {
 /// `light_fit:6`: The directional light in the dominant direction of a signal of order 6, and the
 /// ambient radiance, whose irradiance together is nearest to that of the signal (Sloan 2008). Of an RGB
 /// signal give the luminance, then take `light_fit_along:6:rgb`. The light of zeros is zero, from z.
-/// c: the coefficients of one channel, index l(l+1)+m.
-/// Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-/// Operations: 61 (26 mul, 0 add, 30 fma, 5 min, max or select) and 2 inverse square roots or
-///     reciprocals; 24 constants, 10 live values.
-/// Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
-///     256 measured, 5.4e-7; not proven).
+///
+/// - c: the coefficients of one channel, index l(l+1)+m.
+/// - Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
+/// - Operations: 61 (26 mul, 0 add, 30 fma, 5 min, max or select) and 2 inverse square roots or
+///   reciprocals; 24 constants, 10 live values.
+/// - Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 5.4e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_fit<T: Real>(c: &[T; 36]) -> [T; 5] {
@@ -6882,13 +6897,14 @@ pub fn light_fit<T: Real>(c: &[T; 36]) -> [T; 5] {
 /// `light_fit_along:6`: The directional light from a given direction, and the ambient radiance, whose
 /// irradiance together is nearest to that of a signal of order 6 (Sloan 2008): what `light_fit` does,
 /// in each channel, where the direction is known.
-/// dir: the direction, of unit length.
-/// c: the coefficients, index l(l+1)+m.
-/// Returns the light's irradiance, the ambient radiance.
-/// Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
-/// Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
-///     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///     3.1e-7).
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the light's irradiance, the ambient radiance.
+/// - Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   3.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_fit_along<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> [V; 2] {
@@ -6918,5 +6934,2033 @@ pub fn light_fit_along<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 36]) -> [V; 2
 #[inline(always)]
 pub fn light_fit_along_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 2] {
     light_fit_along::<T, Channels<T, 3>>(dir, &c.map(Channels)).map(|v| v.0)
+}
+
+#[allow(clippy::all, unused_variables)]
+#[inline(always)]
+fn product_part_0<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> [V; 87] {
+    let t0 = a[0] * T::lit(0.28209479177387814);
+    let t1 = b[0] * T::lit(0.28209479177387814);
+    let t2 = a[2].times(b[2]);
+    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
+    let t4 = a[2].times(b[12]) + a[12].times(b[2]);
+    let t5 = a[6].fma(T::lit(0.24776669508347607), a[20] * T::lit(0.24623252122982908));
+    let t6 = b[6].fma(T::lit(0.24776669508347607), b[20] * T::lit(0.24623252122982908));
+    let t7 = a[6].times(b[6]);
+    let t8 = t7.fma(T::lit(0.18022375157286857), t2.fma(T::lit(0.252313252202016), t4 * T::lit(0.24776669508347607)));
+    let t9 = t8 + b[6].times(a[20].fma(T::lit(0.24179553580618127), t0)) + a[6].times(b[20].fma(T::lit(0.24179553580618127), t1));
+    let t10 = a[6].times(b[30]) + a[30].times(b[6]);
+    let t11 = a[12].fma(T::lit(0.23961469724456466), a[30] * T::lit(0.08086963211603077));
+    let t12 = b[12].fma(T::lit(0.23961469724456466), b[30] * T::lit(0.08086963211603077));
+    let t13 = a[25].times(b[4]) + a[35].times(b[8]) + a[8].times(b[35]) + a[4].times(b[25]);
+    let t14 = a[25].times(b[8]) - a[35].times(b[4]) - a[4].times(b[35]) + a[8].times(b[25]);
+    let t15 = a[15].fms(T::lit(0.2455320005465369), a[33] * T::lit(0.06264134767986153));
+    let t16 = a[9].fms(T::lit(0.2455320005465369), a[27] * T::lit(0.06264134767986153));
+    let t17 = b[15].fms(T::lit(0.2455320005465369), b[33] * T::lit(0.06264134767986153));
+    let t18 = b[9].fms(T::lit(0.2455320005465369), b[27] * T::lit(0.06264134767986153));
+    let t19 = a[12].times(b[12]);
+    let t20 = t19.fma(T::lit(0.15386988642211535), t4.fma(T::lit(0.24623252122982908), t7 * T::lit(0.24179553580618127)));
+    let t21 = t10.fma(T::lit(0.23961469724456466), a[2].times(t6) + b[2].times(t5)) + b[12].times(a[20].fma(T::lit(0.15386988642211535), a[6].fma(T::lit(0.168208834801344), t0)));
+    let t22 = t21 + a[12].times(b[20].fma(T::lit(0.15386988642211535), b[6].fma(T::lit(0.168208834801344), t1)));
+    let t23 = a[20].times(b[20]);
+    let t24 = t23.fma(T::lit(0.16383977415715326), t19.fma(T::lit(0.168208834801344), t9 + b[30].times(t11) + a[30].times(t12)));
+    let t25 = t23.fma(T::lit(0.13696110769441036), t20) + b[20].times(a[6].fma(T::lit(0.16383977415715326), t0));
+    let t26 = a[20].times(b[30]) + a[30].times(b[20]);
+    let t27 = t26.fma(T::lit(0.06509879810166419), t10.fma(T::lit(0.08086963211603077), b[6].times(t11)) + a[6].times(t12));
+    let t28 = a[30].fma(T::lit(0.06509879810166419), a[2].fma(T::lit(0.2455320005465369), a[12] * T::lit(0.14837393116990472)));
+    let t29 = b[30].fma(T::lit(0.06509879810166419), b[2].fma(T::lit(0.2455320005465369), b[12] * T::lit(0.14837393116990472)));
+    let t30 = t25 + a[20].times(b[6].fma(T::lit(0.16383977415715326), t1)) + b[30].times(t28) + a[30].times(t29);
+    let t31 = a[25].times(b[18]) + a[35].times(b[22]) + a[22].times(b[35]) + a[18].times(b[25]);
+    let t32 = a[25].times(b[22]) - a[35].times(b[18]) - a[18].times(b[35]) + a[22].times(b[25]);
+    let t33 = a[15].fnma(T::lit(0.09814013073014567), a[33] * T::lit(0.13019759620332838));
+    let t34 = a[9].fnma(T::lit(0.09814013073014567), a[27] * T::lit(0.13019759620332838));
+    let t35 = b[8].times(t15) - b[4].times(t16) + a[8].times(t17) - a[4].times(t18) + b[22].times(t33) - b[18].times(t34);
+    let t36 = b[4].times(t15) + b[8].times(t16) + a[8].times(t18) + a[4].times(t17) + b[22].times(t34) + b[18].times(t33);
+    let t37 = b[15].fnma(T::lit(0.09814013073014567), b[33] * T::lit(0.13019759620332838));
+    let t38 = b[9].fnma(T::lit(0.09814013073014567), b[27] * T::lit(0.13019759620332838));
+    let t39 = a[25].times(b[17]) + a[35].times(b[23]) + a[23].times(b[35]) + a[17].times(b[25]);
+    let t40 = a[25].times(b[23]) - a[35].times(b[17]) - a[17].times(b[35]) + a[23].times(b[25]);
+    let t41 = a[14].fms(T::lit(0.1499115259279181), a[32] * T::lit(0.0994400566505079));
+    let t42 = a[10].fms(T::lit(0.1499115259279181), a[28] * T::lit(0.0994400566505079));
+    let t43 = b[14].fms(T::lit(0.1499115259279181), b[32] * T::lit(0.0994400566505079));
+    let t44 = b[10].fms(T::lit(0.1499115259279181), b[28] * T::lit(0.0994400566505079));
+    let t45 = t35 + a[22].times(t37) - a[18].times(t38) + b[23].times(t41) - b[17].times(t42) + a[23].times(t43);
+    let t46 = t36 + a[22].times(t38) + a[18].times(t37) + b[23].times(t42) + b[17].times(t41) + a[23].times(t44);
+    let t47 = a[25].times(b[16]) + a[35].times(b[24]) + a[24].times(b[35]) + a[16].times(b[25]);
+    let t48 = a[25].times(b[24]) - a[35].times(b[16]) - a[16].times(b[35]) + a[24].times(b[25]);
+    let t49 = a[31].fma(T::lit(0.05315294607251315), a[3].fms(T::lit(0.2329321080554292), a[13] * T::lit(0.13408494503421883)));
+    let t50 = a[29].fma(T::lit(0.05315294607251315), a[1].fms(T::lit(0.2329321080554292), a[11] * T::lit(0.13408494503421883)));
+    let t51 = b[31].fma(T::lit(0.05315294607251315), b[3].fms(T::lit(0.2329321080554292), b[13] * T::lit(0.13408494503421883)));
+    let t52 = b[29].fma(T::lit(0.05315294607251315), b[1].fms(T::lit(0.2329321080554292), b[11] * T::lit(0.13408494503421883)));
+    let t53 = t45 - a[17].times(t44) + b[24].times(t49) - b[16].times(t50) + a[24].times(t51) - a[16].times(t52);
+    let t54 = t46 + a[17].times(t43) + b[24].times(t50) + b[16].times(t49) + a[24].times(t52) + a[16].times(t51);
+    let t55 = a[25].times(b[26]) + a[35].times(b[34]) + a[34].times(b[35]) + a[26].times(b[25]);
+    let t56 = a[25].times(b[34]) - a[35].times(b[26]) - a[26].times(b[35]) + a[34].times(b[25]);
+    let t57 = a[7].fms(T::lit(0.13288236518128288), a[21] * T::lit(0.13019759620332838));
+    let t58 = a[5].fms(T::lit(0.13288236518128288), a[19] * T::lit(0.13019759620332838));
+    let t59 = b[7].fms(T::lit(0.13288236518128288), b[21] * T::lit(0.13019759620332838));
+    let t60 = b[5].fms(T::lit(0.13288236518128288), b[19] * T::lit(0.13019759620332838));
+    let t61 = a[25].times(b[25]) + a[35].times(b[35]);
+    let t62 = a[20].fma(T::lit(0.13019759620332838), a[6].fnma(T::lit(0.24260889634809232), t0));
+    let t63 = t53 + b[34].times(t57) - b[26].times(t58) + a[34].times(t59) - a[26].times(t60) + b[35].times(t62);
+    let t64 = t54 + b[34].times(t58) + b[26].times(t57) + a[34].times(t60) + a[26].times(t59) + b[25].times(t62);
+    let t65 = b[20].fma(T::lit(0.13019759620332838), b[6].fnma(T::lit(0.24260889634809232), t1));
+    let t66 = a[20].fma(T::lit(1.639096232595449), a[0].fma(T::lit(2.646033610427959), a[6] * T::lit(4.226582849415041)));
+    let t67 = a[30].fnma(T::lit(0.3747251633606226), a[12].fma(T::lit(3.300104650786707), a[2].fma(T::lit(4.123649063941215), t66)));
+    let t68 = t66.fms(T::lit(2.0), t67);
+    let t69 = a[31].fma(T::lit(3.1791243126220716), a[13].fma(T::lit(2.850976660256774), a[3]));
+    let t70 = a[29].fma(T::lit(3.1791243126220716), a[11].fma(T::lit(2.850976660256774), a[1]));
+    let t71 = a[21].fma(T::lit(3.2858021679538254), a[7].fma(T::lit(2.0119200410389686), t69));
+    let t72 = a[19].fma(T::lit(3.2858021679538254), a[5].fma(T::lit(2.0119200410389686), t70));
+    let t73 = t69.fms(T::lit(2.0), t71);
+    let t74 = t70.fms(T::lit(2.0), t72);
+    let t75 = a[8].fma(T::lit(0.4878979781844136), a[22] * T::lit(1.9719364075246857));
+    let t76 = a[4].fma(T::lit(0.4878979781844136), a[18] * T::lit(1.9719364075246857));
+    let t77 = a[32].fma(T::lit(2.7517509397242503), a[14].fma(T::lit(1.1614586506541722), t75));
+    let t78 = a[28].fma(T::lit(2.7517509397242503), a[10].fma(T::lit(1.1614586506541722), t76));
+    let t79 = t75.fms(T::lit(2.0), t77);
+    let t80 = t76.fms(T::lit(2.0), t78);
+    let t81 = b[20].fma(T::lit(1.639096232595449), b[0].fma(T::lit(2.646033610427959), b[6] * T::lit(4.226582849415041)));
+    let t82 = b[30].fnma(T::lit(0.3747251633606226), b[12].fma(T::lit(3.300104650786707), b[2].fma(T::lit(4.123649063941215), t81)));
+    let t83 = t81.fms(T::lit(2.0), t82);
+    let t84 = b[31].fma(T::lit(3.1791243126220716), b[13].fma(T::lit(2.850976660256774), b[3]));
+    let t85 = b[29].fma(T::lit(3.1791243126220716), b[11].fma(T::lit(2.850976660256774), b[1]));
+    let t86 = b[21].fma(T::lit(3.2858021679538254), b[7].fma(T::lit(2.0119200410389686), t84));
+    let t87 = b[19].fma(T::lit(3.2858021679538254), b[5].fma(T::lit(2.0119200410389686), t85));
+    let t88 = t84.fms(T::lit(2.0), t86);
+    let t89 = t85.fms(T::lit(2.0), t87);
+    let t90 = b[8].fma(T::lit(0.4878979781844136), b[22] * T::lit(1.9719364075246857));
+    let t91 = b[4].fma(T::lit(0.4878979781844136), b[18] * T::lit(1.9719364075246857));
+    let t92 = b[32].fma(T::lit(2.7517509397242503), b[14].fma(T::lit(1.1614586506541722), t90));
+    let t93 = b[28].fma(T::lit(2.7517509397242503), b[10].fma(T::lit(1.1614586506541722), t91));
+    let t94 = t90.fms(T::lit(2.0), t92);
+    let t95 = t91.fms(T::lit(2.0), t93);
+    let t96 = t72.times(t87);
+    let t97 = t96 + t71.times(t86) + t77.times(t92) + t78.times(t93);
+    let t98 = t67.times(t92) + t77.times(t82) + t71.times(t86) - t96;
+    let t99 = t67.times(t93) + t78.times(t82) + t71.times(t87) + t72.times(t86);
+    let t100 = t67.times(t86) + t71.times(t82) + t71.times(t92) + t72.times(t93) + t77.times(t86) + t78.times(t87);
+    let t101 = t67.times(t87) + t72.times(t82) - t72.times(t92) + t71.times(t93) - t77.times(t87) + t78.times(t86);
+    let t102 = t97 + t73.times(t88) + t74.times(t89) + t79.times(t94) + t80.times(t95);
+    let t103 = t98 + t79.times(t83) + t68.times(t94) + t73.times(t88) - t74.times(t89);
+    let t104 = t99 + t80.times(t83) + t68.times(t95) + t73.times(t89) + t74.times(t88);
+    let t105 = t100 + t73.times(t83) + t68.times(t88) + t73.times(t94) + t74.times(t95) + t79.times(t88);
+    let t106 = t101 + t74.times(t83) + t68.times(t89) - t74.times(t94) + t73.times(t95) - t79.times(t89);
+    let t107 = t105 + t80.times(t89);
+    let t108 = t106 + t80.times(t88);
+    let t109 = t97.fms(T::lit(2.0), t102);
+    let t110 = t109.fma(T::lit(0.010391458875082667), t26.fma(T::lit(0.2455320005465369), t3 + b[12].times(t5) + a[12].times(t6)));
+    let t111 = t109.fnma(T::lit(0.0009442949834336472), t27 + b[20].times(t28) + a[20].times(t29) + b[30].times(t0) + a[30].times(t1));
+    let t112 = t100.fms(T::lit(2.0), t107);
+    let t113 = t101.fms(T::lit(2.0), t108);
+    let t114 = t103.fma(T::lit(0.0012294867232697155), b[25].times(t16) + b[35].times(t15) + a[35].times(t17) + a[25].times(t18));
+    let t115 = t104.fma(T::lit(0.0012294867232697155), b[25].times(t15) - b[35].times(t16) - a[35].times(t18) + a[25].times(t17));
+    let t116 = t103.fma(T::lit(0.004969214345191218), b[25].times(t34) + b[35].times(t33) + a[35].times(t37) + a[25].times(t38));
+    let t117 = t104.fma(T::lit(0.004969214345191218), b[25].times(t33) - b[35].times(t34) - a[35].times(t38) + a[25].times(t37));
+    let t118 = t98.fms(T::lit(2.0), t103);
+    let t119 = t99.fms(T::lit(2.0), t104);
+    let t120 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
+    let t121 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t120)));
+    let t122 = t120.fms(T::lit(2.0), t121);
+    let t123 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
+    let t124 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
+    let t125 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t123));
+    let t126 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t124));
+    let t127 = t123.fms(T::lit(2.0), t125);
+    let t128 = t124.fms(T::lit(2.0), t126);
+    let t129 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
+    let t130 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
+    let t131 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t129));
+    let t132 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t130));
+    let t133 = t129.fms(T::lit(2.0), t131);
+    let t134 = t130.fms(T::lit(2.0), t132);
+    let t135 = b[20].fnma(T::lit(1.9991069660714271), b[0].fma(T::lit(1.5692882581599668), b[6] * T::lit(0.6592490641857499)));
+    let t136 = b[30].fnma(T::lit(1.697080933979498), b[12].fnma(T::lit(0.9940469026237083), b[2].fma(T::lit(1.8406512194319236), t135)));
+    let t137 = t135.fms(T::lit(2.0), t136);
+    let t138 = b[31].fnma(T::lit(0.9306452529497676), b[13].fma(T::lit(1.2094030886562595), b[3]));
+    let t139 = b[29].fnma(T::lit(0.9306452529497676), b[11].fma(T::lit(1.2094030886562595), b[1]));
+    let t140 = b[21].fma(T::lit(0.19479165213376157), b[7].fma(T::lit(1.5142345544161826), t138));
+    let t141 = b[19].fma(T::lit(0.19479165213376157), b[5].fma(T::lit(1.5142345544161826), t139));
+    let t142 = t138.fms(T::lit(2.0), t140);
+    let t143 = t139.fms(T::lit(2.0), t141);
+    let t144 = b[8].fma(T::lit(0.8226624025400736), b[22] * T::lit(1.5745558683324827));
+    let t145 = b[4].fma(T::lit(0.8226624025400736), b[18] * T::lit(1.5745558683324827));
+    let t146 = b[32].fma(T::lit(0.9184107467781507), b[14].fma(T::lit(1.4739366566229546), t144));
+    let t147 = b[28].fma(T::lit(0.9184107467781507), b[10].fma(T::lit(1.4739366566229546), t145));
+    let t148 = t144.fms(T::lit(2.0), t146);
+    let t149 = t145.fms(T::lit(2.0), t147);
+    let t150 = t126.times(t141);
+    let t151 = t150 + t125.times(t140) + t131.times(t146) + t132.times(t147);
+    let t152 = t121.times(t146) + t131.times(t136) + t125.times(t140) - t150;
+    let t153 = t121.times(t147) + t132.times(t136) + t125.times(t141) + t126.times(t140);
+    let t154 = t121.times(t140) + t125.times(t136) + t125.times(t146) + t126.times(t147) + t131.times(t140);
+    let t155 = t121.times(t141) + t126.times(t136) - t126.times(t146) + t125.times(t147) - t131.times(t141);
+    let t156 = t154 + t132.times(t141);
+    let t157 = t155 + t132.times(t140);
+    let t158 = t151 + t127.times(t142) + t128.times(t143) + t133.times(t148) + t134.times(t149);
+    let t159 = t152 + t133.times(t137) + t122.times(t148) + t127.times(t142) - t128.times(t143);
+    let t160 = t153 + t134.times(t137) + t122.times(t149) + t127.times(t143) + t128.times(t142);
+    let t161 = t156 + t127.times(t137) + t122.times(t142) + t127.times(t148) + t128.times(t149) + t133.times(t142);
+    let t162 = t157 + t128.times(t137) + t122.times(t143) - t128.times(t148) + t127.times(t149) - t133.times(t143);
+    let t163 = t161 + t134.times(t143);
+    let t164 = t162 + t134.times(t142);
+    let t165 = t158.fma(T::lit(0.013211131239356699), t102.fma(T::lit(0.010650848600547212), t61.fnma(T::lit(0.24260889634809232), t24)));
+    let t166 = t158.fnma(T::lit(0.040061436451035166), t102.fma(T::lit(0.00413046814343592), t61.fma(T::lit(0.13019759620332838), t30)));
+    let t167 = t151.fms(T::lit(2.0), t158);
+    let t168 = t167.fnma(T::lit(0.019920368191736457), t109.fma(T::lit(0.008316154267827863), t26.fma(T::lit(0.14837393116990472), t22)));
+    let t169 = t163.fma(T::lit(0.020039666276468665), t47.fma(T::lit(0.2329321080554292), t107 * T::lit(0.0025199668337321933)));
+    let t170 = t164.fma(T::lit(0.020039666276468665), t48.fma(T::lit(0.2329321080554292), t108 * T::lit(0.0025199668337321933)));
+    let t171 = t163.fma(T::lit(0.024236034290401887), t47.fnma(T::lit(0.13408494503421883), t107 * T::lit(0.007184366627591646)));
+    let t172 = t164.fma(T::lit(0.024236034290401887), t48.fnma(T::lit(0.13408494503421883), t108 * T::lit(0.007184366627591646)));
+    let t173 = t163.fnma(T::lit(0.01864982029089311), t47.fma(T::lit(0.05315294607251315), t107 * T::lit(0.008011287828119277)));
+    let t174 = t164.fnma(T::lit(0.01864982029089311), t48.fma(T::lit(0.05315294607251315), t108 * T::lit(0.008011287828119277)));
+    let t175 = t156.fms(T::lit(2.0), t163);
+    let t176 = t157.fms(T::lit(2.0), t164);
+    let t177 = t175.fma(T::lit(0.030344755134797532), t55.fma(T::lit(0.13288236518128288), t112 * T::lit(0.0050699717755393146)));
+    let t178 = t176.fma(T::lit(0.030344755134797532), t56.fma(T::lit(0.13288236518128288), t113 * T::lit(0.0050699717755393146)));
+    let t179 = t175.fma(T::lit(0.003903559702202557), t55.fnma(T::lit(0.13019759620332838), t112 * T::lit(0.008280112485448979)));
+    let t180 = t176.fma(T::lit(0.003903559702202557), t56.fnma(T::lit(0.13019759620332838), t113 * T::lit(0.008280112485448979)));
+    let t181 = t152.fms(T::lit(2.0), t159);
+    let t182 = t153.fms(T::lit(2.0), t160);
+    let t183 = t181.fma(T::lit(0.029537198711378), t39.fma(T::lit(0.1499115259279181), t118 * T::lit(0.00292683727839986)));
+    let t184 = t182.fma(T::lit(0.029537198711378), t40.fma(T::lit(0.1499115259279181), t119 * T::lit(0.00292683727839986)));
+    let t185 = t181.fma(T::lit(0.01840464487015651), t39.fnma(T::lit(0.0994400566505079), t118 * T::lit(0.006934321102796507)));
+    let t186 = t182.fma(T::lit(0.01840464487015651), t40.fnma(T::lit(0.0994400566505079), t119 * T::lit(0.006934321102796507)));
+    let t187 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
+    let t188 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t187)));
+    let t189 = t187.fms(T::lit(2.0), t188);
+    let t190 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
+    let t191 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
+    let t192 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t190));
+    let t193 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t191));
+    let t194 = t190.fms(T::lit(2.0), t192);
+    let t195 = t191.fms(T::lit(2.0), t193);
+    let t196 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
+    let t197 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
+    let t198 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t196));
+    let t199 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t197));
+    let t200 = t196.fms(T::lit(2.0), t198);
+    let t201 = t197.fms(T::lit(2.0), t199);
+    let t202 = b[20].fnma(T::lit(0.16132509906089973), b[0].fms(T::lit(1.2392903192096825), b[6] * T::lit(0.837489157184048)));
+    let t203 = b[30].fma(T::lit(1.2808493539441659), b[12].fnma(T::lit(1.393446400028713), b[2].fma(T::lit(0.779436646470071), t202)));
+    let t204 = t202.fms(T::lit(2.0), t203);
+    let t205 = b[31].fnma(T::lit(0.44577235050135805), b[13].fnma(T::lit(0.31872236213909216), b[3]));
+    let t206 = b[29].fnma(T::lit(0.44577235050135805), b[11].fnma(T::lit(0.31872236213909216), b[1]));
+    let t207 = b[21].fnma(T::lit(1.0327339184455793), b[7].fma(T::lit(0.8119553329326552), t205));
+    let t208 = b[19].fnma(T::lit(1.0327339184455793), b[5].fma(T::lit(0.8119553329326552), t206));
+    let t209 = t205.fms(T::lit(2.0), t207);
+    let t210 = t206.fms(T::lit(2.0), t208);
+    let t211 = b[8].fms(T::lit(1.0417207564076638), b[22] * T::lit(0.0694840612355858));
+    let t212 = b[4].fms(T::lit(1.0417207564076638), b[18] * T::lit(0.0694840612355858));
+    let t213 = b[32].fnma(T::lit(1.0031478583401439), b[14].fma(T::lit(1.0008004087532434), t211));
+    let t214 = b[28].fnma(T::lit(1.0031478583401439), b[10].fma(T::lit(1.0008004087532434), t212));
+    let t215 = t211.fms(T::lit(2.0), t213);
+    let t216 = t212.fms(T::lit(2.0), t214);
+    let t217 = t193.times(t208);
+    let t218 = t217 + t192.times(t207) + t198.times(t213) + t199.times(t214);
+    let t219 = t188.times(t213) + t198.times(t203) + t192.times(t207) - t217;
+    let t220 = t188.times(t214) + t199.times(t203) + t192.times(t208) + t193.times(t207);
+    let t221 = t188.times(t207) + t192.times(t203) + t192.times(t213) + t193.times(t214) + t198.times(t207);
+    let t222 = t188.times(t208) + t193.times(t203) - t193.times(t213) + t192.times(t214) - t198.times(t208);
+    let t223 = t221 + t199.times(t208);
+    let t224 = t222 + t199.times(t207);
+    let t225 = t218 + t194.times(t209) + t195.times(t210) + t200.times(t215) + t201.times(t216);
+    let t226 = t219 + t200.times(t204) + t189.times(t215) + t194.times(t209) - t195.times(t210);
+    let t227 = t220 + t201.times(t204) + t189.times(t216) + t194.times(t210) + t195.times(t209);
+    let t228 = t223 + t194.times(t204) + t189.times(t209) + t194.times(t215) + t195.times(t216) + t200.times(t209);
+    let t229 = t224 + t195.times(t204) + t189.times(t210) - t195.times(t215) + t194.times(t216) - t200.times(t210);
+    let t230 = t228 + t201.times(t210);
+    let t231 = t229 + t201.times(t209);
+    let t232 = t225.fma(T::lit(0.06363009633316428), t102.fma(T::lit(0.006667916939219108), t158 * T::lit(0.031448012985106535)));
+    let t233 = t218.fms(T::lit(2.0), t225);
+    let t234 = t223.fms(T::lit(2.0), t230);
+    let t235 = t224.fms(T::lit(2.0), t231);
+    let t236 = t219.fms(T::lit(2.0), t226);
+    let t237 = t220.fms(T::lit(2.0), t227);
+    let t238 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t239 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
+    let t240 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
+    let t241 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t242 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t243 = b[20].fma(T::lit(1.299038105676658), b[0].fms(T::lit(1.1547005383792515), b[6] * T::lit(1.2909944487358056)));
+    let t244 = b[31].fma(T::lit(0.9270248108869579), b[13].fnma(T::lit(0.9354143466934853), b[3]));
+    let t245 = b[29].fma(T::lit(0.9270248108869579), b[11].fnma(T::lit(0.9354143466934853), b[1]));
+    let t246 = b[8].fms(T::lit(1.118033988749895), b[22] * T::lit(0.9682458365518543));
+    let t247 = b[4].fms(T::lit(1.118033988749895), b[18] * T::lit(0.9682458365518543));
+    let t248 = t240.times(t245);
+    let t249 = t248 + t239.times(t244) + t241.times(t246) + t242.times(t247);
+    let t250 = t238.times(t246) + t241.times(t243) + t239.times(t244) - t248;
+    let t251 = t238.times(t247) + t242.times(t243) + t239.times(t245) + t240.times(t244);
+    let t252 = t238.times(t244) + t239.times(t243) + t239.times(t246) + t240.times(t247) + t241.times(t244);
+    let t253 = t238.times(t245) + t240.times(t243) - t240.times(t246) + t239.times(t247) - t241.times(t245);
+    let t254 = t252 + t242.times(t245);
+    let t255 = t253 + t242.times(t244);
+    let t256 = t250.fma(T::lit(0.07610677502899925), t226.fma(T::lit(0.05348608881633756), t159.fma(T::lit(0.016485880005101004), t114)));
+    let t257 = t251.fma(T::lit(0.07610677502899925), t227.fma(T::lit(0.05348608881633756), t160.fma(T::lit(0.016485880005101004), t115)));
+    let t258 = t250.fnma(T::lit(0.0659104005752205), t226.fnma(T::lit(0.0035675881926192548), t159.fma(T::lit(0.03155357413503829), t116)));
+    let t259 = t251.fnma(T::lit(0.0659104005752205), t227.fnma(T::lit(0.0035675881926192548), t160.fma(T::lit(0.03155357413503829), t117)));
+    let t260 = a[20].fnma(T::lit(1.963388407777743), a[0].fma(T::lit(1.66360809064034), a[6] * T::lit(1.0317259399151721)));
+    let t261 = a[30].fnma(T::lit(2.163100207451403), a[12].fnma(T::lit(0.6477071599333407), a[2].fma(T::lit(2.074313293051943), t260)));
+    let t262 = t260.fms(T::lit(2.0), t261);
+    let t263 = a[31].fnma(T::lit(0.5704768066996664), a[13].fma(T::lit(1.488400433900275), a[3]));
+    let t264 = a[29].fnma(T::lit(0.5704768066996664), a[11].fma(T::lit(1.488400433900275), a[1]));
+    let t265 = a[21].fma(T::lit(0.6186850943160107), a[7].fma(T::lit(1.6097102204150644), t263));
+    let t266 = a[19].fma(T::lit(0.6186850943160107), a[5].fma(T::lit(1.6097102204150644), t264));
+    let t267 = t263.fms(T::lit(2.0), t265);
+    let t268 = t264.fms(T::lit(2.0), t266);
+    let t269 = a[8].fma(T::lit(0.7760207803743538), a[22] * T::lit(1.7659110370218514));
+    let t270 = a[4].fma(T::lit(0.7760207803743538), a[18] * T::lit(1.7659110370218514));
+    let t271 = a[32].fma(T::lit(1.3595955572308356), a[14].fma(T::lit(1.4780361980480519), t269));
+    let t272 = a[28].fma(T::lit(1.3595955572308356), a[10].fma(T::lit(1.4780361980480519), t270));
+    let t273 = t269.fms(T::lit(2.0), t271);
+    let t274 = t270.fms(T::lit(2.0), t272);
+    let t275 = a[15].fma(T::lit(0.5817884435470521), a[33] * T::lit(1.767538284065846));
+    let t276 = a[9].fma(T::lit(0.5817884435470521), a[27] * T::lit(1.767538284065846));
+    let t277 = a[23].fma(T::lit(1.2564610912377556), t275);
+    let t278 = a[17].fma(T::lit(1.2564610912377556), t276);
+    let t279 = t275.fms(T::lit(2.0), t277);
+    let t280 = t276.fms(T::lit(2.0), t278);
+    let t281 = a[24].fma(T::lit(0.42831146138203857), a[34] * T::lit(1.0226304917781994));
+    let t282 = a[16].fma(T::lit(0.42831146138203857), a[26] * T::lit(1.0226304917781994));
+    let t283 = a[24].fms(T::lit(0.8566229227640771), t281);
+    let t284 = a[16].fms(T::lit(0.8566229227640771), t282);
+    let t285 = b[20].fnma(T::lit(1.963388407777743), b[0].fma(T::lit(1.66360809064034), b[6] * T::lit(1.0317259399151721)));
+    let t286 = b[30].fnma(T::lit(2.163100207451403), b[12].fnma(T::lit(0.6477071599333407), b[2].fma(T::lit(2.074313293051943), t285)));
+    let t287 = t285.fms(T::lit(2.0), t286);
+    let t288 = b[31].fnma(T::lit(0.5704768066996664), b[13].fma(T::lit(1.488400433900275), b[3]));
+    let t289 = b[29].fnma(T::lit(0.5704768066996664), b[11].fma(T::lit(1.488400433900275), b[1]));
+    let t290 = b[21].fma(T::lit(0.6186850943160107), b[7].fma(T::lit(1.6097102204150644), t288));
+    let t291 = b[19].fma(T::lit(0.6186850943160107), b[5].fma(T::lit(1.6097102204150644), t289));
+    let t292 = t288.fms(T::lit(2.0), t290);
+    let t293 = t289.fms(T::lit(2.0), t291);
+    let t294 = b[8].fma(T::lit(0.7760207803743538), b[22] * T::lit(1.7659110370218514));
+    let t295 = b[4].fma(T::lit(0.7760207803743538), b[18] * T::lit(1.7659110370218514));
+    let t296 = b[32].fma(T::lit(1.3595955572308356), b[14].fma(T::lit(1.4780361980480519), t294));
+    let t297 = b[28].fma(T::lit(1.3595955572308356), b[10].fma(T::lit(1.4780361980480519), t295));
+    let t298 = t294.fms(T::lit(2.0), t296);
+    let t299 = t295.fms(T::lit(2.0), t297);
+    let t300 = b[15].fma(T::lit(0.5817884435470521), b[33] * T::lit(1.767538284065846));
+    let t301 = b[9].fma(T::lit(0.5817884435470521), b[27] * T::lit(1.767538284065846));
+    let t302 = b[23].fma(T::lit(1.2564610912377556), t300);
+    let t303 = b[17].fma(T::lit(1.2564610912377556), t301);
+    let t304 = t300.fms(T::lit(2.0), t302);
+    let t305 = t301.fms(T::lit(2.0), t303);
+    let t306 = b[24].fma(T::lit(0.42831146138203857), b[34] * T::lit(1.0226304917781994));
+    let t307 = b[16].fma(T::lit(0.42831146138203857), b[26] * T::lit(1.0226304917781994));
+    let t308 = b[24].fms(T::lit(0.8566229227640771), t306);
+    let t309 = b[16].fms(T::lit(0.8566229227640771), t307);
+    let t310 = t278.times(t291);
+    let t311 = t278.times(t290);
+    let t312 = t261.times(t302) + t277.times(t286) + t265.times(t296) - t266.times(t297) + t271.times(t290);
+    let t313 = t261.times(t303) + t278.times(t286) + t265.times(t297) + t266.times(t296) + t272.times(t290);
+    let t314 = t278.times(t303) + t277.times(t302) + t281.times(t306) + t282.times(t307);
+    let t315 = t278.times(t297) + t277.times(t296) + t271.times(t302) + t272.times(t303) + t281.times(t302);
+    let t316 = t278.times(t296) - t277.times(t297) - t272.times(t302) + t271.times(t303) - t281.times(t303);
+    let t317 = t261.times(t306) + t281.times(t286) + t265.times(t302) - t266.times(t303) + t277.times(t290);
+    let t318 = t261.times(t307) + t282.times(t286) + t265.times(t303) + t266.times(t302) + t311 + t277.times(t291);
+    let t319 = t312 - t272.times(t291) + t281.times(t290) + t282.times(t291) + t265.times(t306) + t266.times(t307);
+    let t320 = t313 + t271.times(t291) - t281.times(t291) + t282.times(t290) - t266.times(t306) + t265.times(t307);
+    let t321 = t315 + t282.times(t303) + t277.times(t306) + t278.times(t307);
+    let t322 = t316 + t282.times(t302) - t278.times(t306) + t277.times(t307);
+    let t323 = t317 - t310 + t271.times(t296) - t272.times(t297);
+    let t324 = t318 + t271.times(t297) + t272.times(t296);
+    let t325 = t310 + t277.times(t290) + t265.times(t302) + t266.times(t303) + t271.times(t306) + t272.times(t307);
+    let t326 = t311 - t277.times(t291) - t266.times(t302) + t265.times(t303) - t272.times(t306) + t271.times(t307);
+    let t327 = t325 + t281.times(t296) + t282.times(t297);
+    let t328 = t326 - t281.times(t297) + t282.times(t296);
+    let t329 = t319 + t279.times(t287) + t262.times(t304) + t267.times(t298) - t268.times(t299) + t273.times(t292);
+    let t330 = t320 + t280.times(t287) + t262.times(t305) + t267.times(t299) + t268.times(t298) + t274.times(t292);
+    let t331 = t314 + t279.times(t304) + t280.times(t305) + t283.times(t308) + t284.times(t309);
+    let t332 = t321 + t279.times(t298) + t280.times(t299) + t273.times(t304) + t274.times(t305) + t283.times(t304);
+    let t333 = t322 - t279.times(t299) + t280.times(t298) - t274.times(t304) + t273.times(t305) - t283.times(t305);
+    let t334 = t323 + t283.times(t287) + t262.times(t308) + t267.times(t304) - t268.times(t305) + t279.times(t292);
+    let t335 = t324 + t284.times(t287) + t262.times(t309) + t267.times(t305) + t268.times(t304) + t280.times(t292);
+    let t336 = t329 - t274.times(t293) + t283.times(t292) + t284.times(t293) + t267.times(t308) + t268.times(t309);
+    let t337 = t330 + t273.times(t293) - t283.times(t293) + t284.times(t292) - t268.times(t308) + t267.times(t309);
+    let t338 = t332 + t284.times(t305) + t279.times(t308) + t280.times(t309);
+    let t339 = t333 + t284.times(t304) - t280.times(t308) + t279.times(t309);
+    let t340 = t334 - t280.times(t293) + t273.times(t298) - t274.times(t299);
+    let t341 = t335 + t279.times(t293) + t273.times(t299) + t274.times(t298);
+    let t342 = t327 + t279.times(t292) + t280.times(t293) + t267.times(t304) + t268.times(t305) + t273.times(t308);
+    let t343 = t328 - t279.times(t293) + t280.times(t292) - t268.times(t304) + t267.times(t305) - t274.times(t308);
+    let t344 = t342 + t274.times(t309) + t283.times(t298) + t284.times(t299);
+    let t345 = t343 + t273.times(t309) - t283.times(t299) + t284.times(t298);
+    let t346 = t331.fma(T::lit(0.0186235912221337), t249.fnma(T::lit(0.087880534100294), t225.fnma(T::lit(0.04300002584026091), t165)));
+    let t347 = t331.fnma(T::lit(0.03544094579974892), t249.fma(T::lit(0.08842808166626058), t225.fnma(T::lit(0.008283072525531045), t166)));
+    let t348 = t314.fms(T::lit(2.0), t331);
+    let t349 = t348.fma(T::lit(0.03744324082770821), t233.fma(T::lit(0.040019378939486226), t167.fma(T::lit(0.036886036168790846), t110)));
+    let t350 = t348.fnma(T::lit(0.03904592535436272), t233.fma(T::lit(0.06576390254683251), t167.fnma(T::lit(0.034008935561106894), t111)));
+    let t351 = t338.fma(T::lit(0.018050909162625993), t254.fma(T::lit(0.06807196900525034), t230.fma(T::lit(0.051343979168450474), t169)));
+    let t352 = t339.fma(T::lit(0.018050909162625993), t255.fma(T::lit(0.06807196900525034), t231.fma(T::lit(0.051343979168450474), t170)));
+    let t353 = t338.fma(T::lit(0.02686698102994698), t254.fnma(T::lit(0.06367549641518543), t230.fnma(T::lit(0.016364474322188877), t171)));
+    let t354 = t339.fma(T::lit(0.02686698102994698), t255.fnma(T::lit(0.06367549641518543), t231.fnma(T::lit(0.016364474322188877), t172)));
+    let t355 = t338.fnma(T::lit(0.010297625017120626), t254.fma(T::lit(0.06310440419379505), t230.fnma(T::lit(0.022887726278012933), t173)));
+    let t356 = t339.fnma(T::lit(0.010297625017120626), t255.fma(T::lit(0.06310440419379505), t231.fnma(T::lit(0.022887726278012933), t174)));
+    let t357 = t321.fms(T::lit(2.0), t338);
+    let t358 = t322.fms(T::lit(2.0), t339);
+    let t359 = t327.fms(T::lit(2.0), t344);
+    let t360 = t328.fms(T::lit(2.0), t345);
+    let t361 = t336.fma(T::lit(0.010501810346333398), t13.fms(T::lit(0.2455320005465369), t31 * T::lit(0.09814013073014567)));
+    let t362 = t337.fma(T::lit(0.010501810346333398), t14.fms(T::lit(0.2455320005465369), t32 * T::lit(0.09814013073014567)));
+    let t363 = t336.fma(T::lit(0.031905673007136405), t13.fnma(T::lit(0.06264134767986153), t31 * T::lit(0.13019759620332838)));
+    let t364 = t337.fma(T::lit(0.031905673007136405), t14.fnma(T::lit(0.06264134767986153), t32 * T::lit(0.13019759620332838)));
+    let t365 = t319.fms(T::lit(2.0), t336).fma(T::lit(0.02268026502430666), b[25].times(t42) + b[35].times(t41) + a[35].times(t43) + a[25].times(t44));
+    let t366 = t320.fms(T::lit(2.0), t337).fma(T::lit(0.02268026502430666), b[25].times(t41) - b[35].times(t42) - a[35].times(t44) + a[25].times(t43));
+    let t367 = t340.fma(T::lit(0.00773141128271877), b[25].times(t50) + b[35].times(t49) + a[35].times(t51) + a[25].times(t52));
+    let t368 = t341.fma(T::lit(0.00773141128271877), b[25].times(t49) - b[35].times(t50) - a[35].times(t52) + a[25].times(t51));
+    let t369 = t323.fms(T::lit(2.0), t340).fma(T::lit(0.018459410114019827), b[25].times(t58) + b[35].times(t57) + a[35].times(t59) + a[25].times(t60));
+    let t370 = t324.fms(T::lit(2.0), t341).fma(T::lit(0.018459410114019827), b[25].times(t57) - b[35].times(t58) - a[35].times(t60) + a[25].times(t59));
+    let t371 = a[20].fnma(T::lit(0.3199545553183085), a[0].fms(T::lit(1.2512959098827643), a[6] * T::lit(0.7760207803743538)));
+    let t372 = a[30].fma(T::lit(1.1987201479376166), a[12].fnma(T::lit(1.439914208502916), a[2].fma(T::lit(0.8349996181244668), t371)));
+    let t373 = t371.fms(T::lit(2.0), t372);
+    let t374 = a[31].fnma(T::lit(0.5704768066996664), a[13].fnma(T::lit(0.2411813049756278), a[3]));
+    let t375 = a[29].fnma(T::lit(0.5704768066996664), a[11].fnma(T::lit(0.2411813049756278), a[1]));
+    let t376 = a[21].fnma(T::lit(1.0345144789043033), a[7].fma(T::lit(0.8614907658382753), t374));
+    let t377 = a[19].fnma(T::lit(1.0345144789043033), a[5].fma(T::lit(0.8614907658382753), t375));
+    let t378 = t374.fms(T::lit(2.0), t376);
+    let t379 = t375.fms(T::lit(2.0), t377);
+    let t380 = a[8].fma(T::lit(1.0317259399151721), a[22] * T::lit(0.03487590833984519));
+    let t381 = a[4].fma(T::lit(1.0317259399151721), a[18] * T::lit(0.03487590833984519));
+    let t382 = a[32].fnma(T::lit(0.9673946043343371), a[14].fma(T::lit(1.0516688109181285), t380));
+    let t383 = a[28].fnma(T::lit(0.9673946043343371), a[10].fma(T::lit(1.0516688109181285), t381));
+    let t384 = t380.fms(T::lit(2.0), t382);
+    let t385 = t381.fms(T::lit(2.0), t383);
+    let t386 = a[15].fma(T::lit(1.0283645282517744), a[33] * T::lit(0.2864129707543106));
+    let t387 = a[9].fma(T::lit(1.0283645282517744), a[27] * T::lit(0.2864129707543106));
+    let t388 = a[23].fma(T::lit(1.188595186621004), t386);
+    let t389 = a[17].fma(T::lit(1.188595186621004), t387);
+    let t390 = t386.fms(T::lit(2.0), t388);
+    let t391 = t387.fms(T::lit(2.0), t389);
+    let t392 = a[24].fma(T::lit(1.006543833436964), a[34] * T::lit(1.2861589955674015));
+    let t393 = a[16].fma(T::lit(1.006543833436964), a[26] * T::lit(1.2861589955674015));
+    let t394 = a[24].fms(T::lit(2.013087666873928), t392);
+    let t395 = a[16].fms(T::lit(2.013087666873928), t393);
+    let t396 = b[20].fnma(T::lit(0.3199545553183085), b[0].fms(T::lit(1.2512959098827643), b[6] * T::lit(0.7760207803743538)));
+    let t397 = b[30].fma(T::lit(1.1987201479376166), b[12].fnma(T::lit(1.439914208502916), b[2].fma(T::lit(0.8349996181244668), t396)));
+    let t398 = t396.fms(T::lit(2.0), t397);
+    let t399 = b[31].fnma(T::lit(0.5704768066996664), b[13].fnma(T::lit(0.2411813049756278), b[3]));
+    [t2, t7, t19, t23, t61, t63, t64, t65, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t346, t347, t348, t349, t350, t351, t352, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]
+}
+
+#[allow(clippy::all, unused_variables)]
+#[inline(always)]
+fn product_part_1<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36], [t2, t7, t19, t23, t61, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t348, t357, t358, t359, t360, t367, t368, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]: [V; 66]) -> [V; 33] {
+    let t400 = b[29].fnma(T::lit(0.5704768066996664), b[11].fnma(T::lit(0.2411813049756278), b[1]));
+    let t401 = b[21].fnma(T::lit(1.0345144789043033), b[7].fma(T::lit(0.8614907658382753), t399));
+    let t402 = b[19].fnma(T::lit(1.0345144789043033), b[5].fma(T::lit(0.8614907658382753), t400));
+    let t403 = t399.fms(T::lit(2.0), t401);
+    let t404 = t400.fms(T::lit(2.0), t402);
+    let t405 = b[8].fma(T::lit(1.0317259399151721), b[22] * T::lit(0.03487590833984519));
+    let t406 = b[4].fma(T::lit(1.0317259399151721), b[18] * T::lit(0.03487590833984519));
+    let t407 = b[32].fnma(T::lit(0.9673946043343371), b[14].fma(T::lit(1.0516688109181285), t405));
+    let t408 = b[28].fnma(T::lit(0.9673946043343371), b[10].fma(T::lit(1.0516688109181285), t406));
+    let t409 = t405.fms(T::lit(2.0), t407);
+    let t410 = t406.fms(T::lit(2.0), t408);
+    let t411 = b[15].fma(T::lit(1.0283645282517744), b[33] * T::lit(0.2864129707543106));
+    let t412 = b[9].fma(T::lit(1.0283645282517744), b[27] * T::lit(0.2864129707543106));
+    let t413 = b[23].fma(T::lit(1.188595186621004), t411);
+    let t414 = b[17].fma(T::lit(1.188595186621004), t412);
+    let t415 = t411.fms(T::lit(2.0), t413);
+    let t416 = t412.fms(T::lit(2.0), t414);
+    let t417 = b[24].fma(T::lit(1.006543833436964), b[34] * T::lit(1.2861589955674015));
+    let t418 = b[16].fma(T::lit(1.006543833436964), b[26] * T::lit(1.2861589955674015));
+    let t419 = b[24].fms(T::lit(2.013087666873928), t417);
+    let t420 = b[16].fms(T::lit(2.013087666873928), t418);
+    let t421 = t389.times(t402);
+    let t422 = t389.times(t401);
+    let t423 = t372.times(t413) + t388.times(t397) + t376.times(t407) - t377.times(t408) + t382.times(t401);
+    let t424 = t372.times(t414) + t389.times(t397) + t376.times(t408) + t377.times(t407) + t383.times(t401);
+    let t425 = t389.times(t414) + t388.times(t413) + t392.times(t417) + t393.times(t418);
+    let t426 = t389.times(t408) + t388.times(t407) + t382.times(t413) + t383.times(t414) + t392.times(t413);
+    let t427 = t389.times(t407) - t388.times(t408) - t383.times(t413) + t382.times(t414) - t392.times(t414);
+    let t428 = t372.times(t417) + t392.times(t397) + t376.times(t413) - t377.times(t414) + t388.times(t401);
+    let t429 = t372.times(t418) + t393.times(t397) + t376.times(t414) + t377.times(t413) + t422 + t388.times(t402);
+    let t430 = t423 - t383.times(t402) + t392.times(t401) + t393.times(t402) + t376.times(t417) + t377.times(t418);
+    let t431 = t424 + t382.times(t402) - t392.times(t402) + t393.times(t401) - t377.times(t417) + t376.times(t418);
+    let t432 = t426 + t393.times(t414) + t388.times(t417) + t389.times(t418);
+    let t433 = t427 + t393.times(t413) - t389.times(t417) + t388.times(t418);
+    let t434 = t428 - t421 + t382.times(t407) - t383.times(t408);
+    let t435 = t429 + t382.times(t408) + t383.times(t407);
+    let t436 = t421 + t388.times(t401) + t376.times(t413) + t377.times(t414) + t382.times(t417) + t383.times(t418);
+    let t437 = t422 - t388.times(t402) - t377.times(t413) + t376.times(t414) - t383.times(t417) + t382.times(t418);
+    let t438 = t436 + t392.times(t407) + t393.times(t408);
+    let t439 = t437 - t392.times(t408) + t393.times(t407);
+    let t440 = t430 + t390.times(t398) + t373.times(t415) + t378.times(t409) - t379.times(t410) + t384.times(t403);
+    let t441 = t431 + t391.times(t398) + t373.times(t416) + t378.times(t410) + t379.times(t409) + t385.times(t403);
+    let t442 = t425 + t390.times(t415) + t391.times(t416) + t394.times(t419) + t395.times(t420);
+    let t443 = t432 + t390.times(t409) + t391.times(t410) + t384.times(t415) + t385.times(t416) + t394.times(t415);
+    let t444 = t433 - t390.times(t410) + t391.times(t409) - t385.times(t415) + t384.times(t416) - t394.times(t416);
+    let t445 = t434 + t394.times(t398) + t373.times(t419) + t378.times(t415) - t379.times(t416) + t390.times(t403);
+    let t446 = t435 + t395.times(t398) + t373.times(t420) + t378.times(t416) + t379.times(t415) + t391.times(t403);
+    let t447 = t440 - t385.times(t404) + t394.times(t403) + t395.times(t404) + t378.times(t419) + t379.times(t420);
+    let t448 = t441 + t384.times(t404) - t394.times(t404) + t395.times(t403) - t379.times(t419) + t378.times(t420);
+    let t449 = t443 + t395.times(t416) + t390.times(t419) + t391.times(t420);
+    let t450 = t444 + t395.times(t415) - t391.times(t419) + t390.times(t420);
+    let t451 = t445 - t391.times(t404) + t384.times(t409) - t385.times(t410);
+    let t452 = t446 + t390.times(t404) + t384.times(t410) + t385.times(t409);
+    let t453 = t438 + t390.times(t403) + t391.times(t404) + t378.times(t415) + t379.times(t416) + t384.times(t419);
+    let t454 = t439 - t390.times(t404) + t391.times(t403) - t379.times(t415) + t378.times(t416) - t385.times(t419);
+    let t455 = t453 + t385.times(t420) + t394.times(t409) + t395.times(t410);
+    let t456 = t454 + t384.times(t420) - t394.times(t410) + t395.times(t409);
+    let t457 = t442.fma(T::lit(0.06628151260452116), t331.fma(T::lit(0.03002963852635845), t249.fma(T::lit(0.0786027392588983), t232)));
+    let t458 = t425.fms(T::lit(2.0), t442);
+    let t459 = t458.fnma(T::lit(0.07627267939304382), t348.fnma(T::lit(0.011691703107939199), t233.fnma(T::lit(0.07154508293542654), t168)));
+    let t460 = t432.fms(T::lit(2.0), t449);
+    let t461 = t433.fms(T::lit(2.0), t450);
+    let t462 = t460.fma(T::lit(0.045633419404318275), t357.fma(T::lit(0.029056732966862994), t234.fma(T::lit(0.04168901769980652), t177)));
+    let t463 = t461.fma(T::lit(0.045633419404318275), t358.fma(T::lit(0.029056732966862994), t235.fma(T::lit(0.04168901769980652), t178)));
+    let t464 = t460.fnma(T::lit(0.05479853640653197), t357.fma(T::lit(0.011167828437769005), t234.fnma(T::lit(0.05302466879522206), t179)));
+    let t465 = t461.fnma(T::lit(0.05479853640653197), t358.fma(T::lit(0.011167828437769005), t235.fnma(T::lit(0.05302466879522206), t180)));
+    let t466 = t438.fms(T::lit(2.0), t455);
+    let t467 = t439.fms(T::lit(2.0), t456);
+    let t468 = t466.fma(T::lit(0.055707206421846754), t359.fma(T::lit(0.02667989715003847), t236.fma(T::lit(0.051385075338803245), t183)));
+    let t469 = t467.fma(T::lit(0.055707206421846754), t360.fma(T::lit(0.02667989715003847), t237.fma(T::lit(0.051385075338803245), t184)));
+    let t470 = t466.fnma(T::lit(0.051243176897093554), t359.fma(T::lit(0.024541935901483684), t236.fnma(T::lit(0.05150560274149205), t185)));
+    let t471 = t467.fnma(T::lit(0.051243176897093554), t360.fma(T::lit(0.024541935901483684), t237.fnma(T::lit(0.05150560274149205), t186)));
+    let t472 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
+    let t473 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
+    let t474 = a[24] * T::lit(1.2808688457449497);
+    let t475 = a[16] * T::lit(1.2808688457449497);
+    let t476 = b[15].fms(T::lit(1.20761472884912), b[33] * T::lit(1.0013012367248264));
+    let t477 = b[9].fms(T::lit(1.20761472884912), b[27] * T::lit(1.0013012367248264));
+    let t478 = b[24] * T::lit(1.2808688457449497);
+    let t479 = b[16] * T::lit(1.2808688457449497);
+    let t480 = t245.times(t473);
+    let t481 = t244.times(t473);
+    let t482 = t238.times(t476) + t243.times(t472) + t239.times(t246) - t240.times(t247) + t241.times(t244);
+    let t483 = t238.times(t477) + t243.times(t473) + t239.times(t247) + t240.times(t246) + t242.times(t244);
+    let t484 = t473.times(t477) + t472.times(t476) + t474.times(t478) + t475.times(t479);
+    let t485 = t247.times(t473) + t246.times(t472) + t241.times(t476) + t242.times(t477) + t474.times(t476);
+    let t486 = t246.times(t473) - t247.times(t472) - t242.times(t476) + t241.times(t477) - t474.times(t477);
+    let t487 = t238.times(t478) + t243.times(t474) + t239.times(t476) - t240.times(t477) + t244.times(t472);
+    let t488 = t238.times(t479) + t243.times(t475) + t239.times(t477) + t240.times(t476) + t481 + t245.times(t472);
+    let t489 = t482 - t242.times(t245) + t244.times(t474) + t245.times(t475) + t239.times(t478) + t240.times(t479);
+    let t490 = t483 + t241.times(t245) - t245.times(t474) + t244.times(t475) - t240.times(t478) + t239.times(t479);
+    let t491 = t485 + t475.times(t477) + t472.times(t478) + t473.times(t479);
+    let t492 = t486 + t475.times(t476) - t473.times(t478) + t472.times(t479);
+    let t493 = t480 + t244.times(t472) + t239.times(t476) + t240.times(t477) + t241.times(t478) + t242.times(t479);
+    let t494 = t481 - t245.times(t472) - t240.times(t476) + t239.times(t477) - t242.times(t478) + t241.times(t479);
+    let t495 = t493 + t246.times(t474) + t247.times(t475);
+    let t496 = t494 - t247.times(t474) + t246.times(t475);
+    let t497 = t495.fma(T::lit(0.0807193068489386), t455.fma(T::lit(0.05465082667560701), t344.fma(T::lit(0.014007880614847599), t256)));
+    let t498 = t496.fma(T::lit(0.0807193068489386), t456.fma(T::lit(0.05465082667560701), t345.fma(T::lit(0.014007880614847599), t257)));
+    let t499 = t495.fnma(T::lit(0.06990497030705205), t455.fma(T::lit(0.001847387128787269), t344.fma(T::lit(0.03187629971856011), t258)));
+    let t500 = t496.fnma(T::lit(0.06990497030705205), t456.fma(T::lit(0.001847387128787269), t345.fma(T::lit(0.03187629971856011), t259)));
+    let t501 = (t487 - t480 + t241.times(t246) - t242.times(t247)).fma(T::lit(0.09247558341990712), t451.fma(T::lit(0.05331692308432929), t367));
+    let t502 = (t488 + t241.times(t247) + t242.times(t246)).fma(T::lit(0.09247558341990712), t452.fma(T::lit(0.05331692308432929), t368));
+    let t503 = (t2 + a[0].times(b[0]) + t7 + t19 + t23 + a[30].times(b[30]) + t61).fma(T::lit(0.28209479177387814), t484.fma(T::lit(0.08336654163822546), t457));
+    [t430, t431, t434, t435, t442, t447, t448, t449, t450, t451, t452, t458, t459, t462, t463, t464, t465, t468, t469, t470, t471, t484, t489, t490, t491, t492, t497, t498, t499, t500, t501, t502, t503]
+}
+
+/// `product:6`: Multiplies two functions of order 6; what the product has beyond that order is cut off.
+///
+/// - a: the coefficients of a function of order 6, index l(l+1)+m.
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 1370 (189 mul, 14 add, 1167 fma); 219 constants, 93 live values.
+/// - Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 4e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> [V; 36] {
+    let [t2, t7, t19, t23, t61, t63, t64, t65, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t346, t347, t348, t349, t350, t351, t352, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399] = product_part_0::<T, V>(a, b);
+    let [t430, t431, t434, t435, t442, t447, t448, t449, t450, t451, t452, t458, t459, t462, t463, t464, t465, t468, t469, t470, t471, t484, t489, t490, t491, t492, t497, t498, t499, t500, t501, t502, t503] = product_part_1::<T, V>(a, b, [t2, t7, t19, t23, t61, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t348, t357, t358, t359, t360, t367, t368, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]);
+    [
+        t503,
+        t492.fma(T::lit(0.07219754288435642), t450.fma(T::lit(0.052970294301314516), t352)),
+        t458.fma(T::lit(0.04423017551353824), t349),
+        t491.fma(T::lit(0.07219754288435642), t449.fma(T::lit(0.052970294301314516), t351)),
+        t498,
+        t463,
+        t484.fnma(T::lit(0.0932066270760694), t442.fnma(T::lit(0.041106049120365286), t346)),
+        t462,
+        t497,
+        t490.fma(T::lit(0.08718681617386478), t448.fma(T::lit(0.05447277171052896), t362)),
+        t469,
+        t492.fnma(T::lit(0.06753461741004516), t450.fnma(T::lit(0.012775444704534096), t354)),
+        t459,
+        t491.fnma(T::lit(0.06753461741004516), t449.fnma(T::lit(0.012775444704534096), t353)),
+        t468,
+        t489.fma(T::lit(0.08718681617386478), t447.fma(T::lit(0.05447277171052896), t361)),
+        t502,
+        t431.fms(T::lit(2.0), t448).fma(T::lit(0.06296023684044044), t366),
+        t500,
+        t465,
+        t484.fma(T::lit(0.09378735934300364), t442.fnma(T::lit(0.016948086958257016), t347)),
+        t464,
+        t499,
+        t430.fms(T::lit(2.0), t447).fma(T::lit(0.06296023684044044), t365),
+        t501,
+        t64 + a[25].times(t65),
+        t435.fms(T::lit(2.0), t452).fma(T::lit(0.06812822051348834), t370),
+        t490.fnma(T::lit(0.07229148897859977), t448.fma(T::lit(0.01517137935256962), t364)),
+        t471,
+        t492.fma(T::lit(0.06692891353887354), t450.fnma(T::lit(0.030218324342955443), t356)),
+        t458.fma(T::lit(0.06349655902117082), t350),
+        t491.fma(T::lit(0.06692891353887354), t449.fnma(T::lit(0.030218324342955443), t355)),
+        t470,
+        t489.fnma(T::lit(0.07229148897859977), t447.fma(T::lit(0.01517137935256962), t363)),
+        t434.fms(T::lit(2.0), t451).fma(T::lit(0.06812822051348834), t369),
+        t63 + a[35].times(t65),
+    ]
+}
+
+/// [`product`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_rgb<T: Real>(a: &[[T; 3]; 36], b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `square:6`: Multiplies a function of order 6 by itself; what the square has beyond that order is cut
+/// off.
+///
+/// - a: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 854 (156 mul, 20 add, 678 fma); 175 constants, 64 live values.
+/// - Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 7.3e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn square<T: Real, V: Signal<T>>(a: &[V; 36]) -> [V; 36] {
+    let t0 = a[0] * T::lit(0.5641895835477563);
+    let t1 = a[2].times(a[2]);
+    let t2 = a[2].times(a[12]);
+    let t3 = a[6].fma(T::lit(0.49553339016695214), a[20] * T::lit(0.49246504245965816));
+    let t4 = a[6].times(a[6]);
+    let t5 = t4.fma(T::lit(0.18022375157286857), t1.fma(T::lit(0.252313252202016), t2 * T::lit(0.49553339016695214)));
+    let t6 = a[6].times(a[30]);
+    let t7 = a[12].fma(T::lit(0.4792293944891293), a[30] * T::lit(0.16173926423206153));
+    let t8 = a[12].times(a[12]);
+    let t9 = t8.fma(T::lit(0.168208834801344), t5 + a[6].times(a[20].fma(T::lit(0.48359107161236253), t0)) + a[30].times(t7));
+    let t10 = t8.fma(T::lit(0.15386988642211535), t2.fma(T::lit(0.49246504245965816), t4 * T::lit(0.24179553580618127)));
+    let t11 = t6 * T::lit(0.4792293944891293) + a[2].times(t3) + a[12].times(a[20].fma(T::lit(0.3077397728442307), a[6].fma(T::lit(0.336417669602688), t0)));
+    let t12 = a[9].times(a[25]) + a[15].times(a[35]);
+    let t13 = a[15].times(a[25]) - a[9].times(a[35]);
+    let t14 = a[8].fms(T::lit(0.4910640010930738), a[22] * T::lit(0.19628026146029134));
+    let t15 = a[4].fms(T::lit(0.4910640010930738), a[18] * T::lit(0.19628026146029134));
+    let t16 = a[20].times(a[20]);
+    let t17 = t16.fma(T::lit(0.13696110769441036), t10) + a[20].times(a[6].fma(T::lit(0.3276795483143065), t0));
+    let t18 = a[20].times(a[30]);
+    let t19 = t18.fma(T::lit(0.4910640010930738), a[12].times(t3) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0)));
+    let t20 = t18.fma(T::lit(0.13019759620332838), t6.fma(T::lit(0.16173926423206153), a[6].times(t7)));
+    let t21 = a[30].fma(T::lit(0.13019759620332838), a[2].fma(T::lit(0.4910640010930738), a[12] * T::lit(0.29674786233980943)));
+    let t22 = a[17].times(a[25]) + a[23].times(a[35]);
+    let t23 = a[23].times(a[25]) - a[17].times(a[35]);
+    let t24 = a[14].fms(T::lit(0.2998230518558362), a[32] * T::lit(0.1988801133010158));
+    let t25 = a[10].fms(T::lit(0.2998230518558362), a[28] * T::lit(0.1988801133010158));
+    let t26 = a[16].times(a[25]) + a[24].times(a[35]);
+    let t27 = a[24].times(a[25]) - a[16].times(a[35]);
+    let t28 = a[31].fma(T::lit(0.1063058921450263), a[3].fms(T::lit(0.4658642161108584), a[13] * T::lit(0.26816989006843767)));
+    let t29 = a[29].fma(T::lit(0.1063058921450263), a[1].fms(T::lit(0.4658642161108584), a[11] * T::lit(0.26816989006843767)));
+    let t30 = a[15].times(t14) - a[9].times(t15) + a[23].times(t24) - a[17].times(t25) + a[24].times(t28);
+    let t31 = a[9].times(t14) + a[15].times(t15) + a[23].times(t25) + a[17].times(t24) + a[24].times(t29);
+    let t32 = a[25].times(a[27]) + a[33].times(a[35]);
+    let t33 = a[25].times(a[33]) - a[27].times(a[35]);
+    let t34 = a[8].fnma(T::lit(0.12528269535972306), a[22] * T::lit(0.26039519240665676));
+    let t35 = a[4].fnma(T::lit(0.12528269535972306), a[18] * T::lit(0.26039519240665676));
+    let t36 = a[25].times(a[26]) + a[34].times(a[35]);
+    let t37 = a[25].times(a[34]) - a[26].times(a[35]);
+    let t38 = a[7].fms(T::lit(0.26576473036256576), a[21] * T::lit(0.26039519240665676));
+    let t39 = a[5].fms(T::lit(0.26576473036256576), a[19] * T::lit(0.26039519240665676));
+    let t40 = t30 - a[16].times(t29) + a[33].times(t34) - a[27].times(t35) + a[34].times(t38) - a[26].times(t39);
+    let t41 = t31 + a[16].times(t28) + a[33].times(t35) + a[27].times(t34) + a[34].times(t39) + a[26].times(t38);
+    let t42 = a[25].times(a[25]) + a[35].times(a[35]);
+    let t43 = a[20].fma(T::lit(0.26039519240665676), a[6].fnma(T::lit(0.48521779269618465), t0));
+    let t44 = a[20].fma(T::lit(1.639096232595449), a[0].fma(T::lit(2.646033610427959), a[6] * T::lit(4.226582849415041)));
+    let t45 = a[30].fnma(T::lit(0.3747251633606226), a[12].fma(T::lit(3.300104650786707), a[2].fma(T::lit(4.123649063941215), t44)));
+    let t46 = t44.fms(T::lit(2.0), t45);
+    let t47 = a[31].fma(T::lit(3.1791243126220716), a[13].fma(T::lit(2.850976660256774), a[3]));
+    let t48 = a[29].fma(T::lit(3.1791243126220716), a[11].fma(T::lit(2.850976660256774), a[1]));
+    let t49 = a[21].fma(T::lit(3.2858021679538254), a[7].fma(T::lit(2.0119200410389686), t47));
+    let t50 = a[19].fma(T::lit(3.2858021679538254), a[5].fma(T::lit(2.0119200410389686), t48));
+    let t51 = t47.fms(T::lit(2.0), t49);
+    let t52 = t48.fms(T::lit(2.0), t50);
+    let t53 = a[8].fma(T::lit(0.4878979781844136), a[22] * T::lit(1.9719364075246857));
+    let t54 = a[4].fma(T::lit(0.4878979781844136), a[18] * T::lit(1.9719364075246857));
+    let t55 = a[32].fma(T::lit(2.7517509397242503), a[14].fma(T::lit(1.1614586506541722), t53));
+    let t56 = a[28].fma(T::lit(2.7517509397242503), a[10].fma(T::lit(1.1614586506541722), t54));
+    let t57 = t53.fms(T::lit(2.0), t55);
+    let t58 = t54.fms(T::lit(2.0), t56);
+    let t59 = a[15].fma(T::lit(0.22997277470592745), a[33] * T::lit(1.1986508117809245));
+    let t60 = a[9].fma(T::lit(0.22997277470592745), a[27] * T::lit(1.1986508117809245));
+    let t61 = a[23].fma(T::lit(0.6207595283058499), t59);
+    let t62 = a[17].fma(T::lit(0.6207595283058499), t60);
+    let t63 = t59.fms(T::lit(2.0), t61);
+    let t64 = t60.fms(T::lit(2.0), t62);
+    let t65 = a[24].fma(T::lit(0.10644535098525212), a[34] * T::lit(0.3176499237781023));
+    let t66 = a[16].fma(T::lit(0.10644535098525212), a[26] * T::lit(0.3176499237781023));
+    let t67 = a[24].fms(T::lit(0.21289070197050425), t65);
+    let t68 = a[16].fms(T::lit(0.21289070197050425), t66);
+    let t69 = t49.times(t55);
+    let t70 = t50.times(t55);
+    let t71 = t49.times(t56);
+    let t72 = t50.times(t50) + t49.times(t49) + t55.times(t55) + t56.times(t56) + t61.times(t61) + t62.times(t62);
+    let t73 = t49.times(t61);
+    let t74 = t49.times(t49 * T::lit(0.5)) + t45.times(t55) - t50.times(t50 * T::lit(0.5)) + t73 + t50.times(t62);
+    let t75 = t49.times(t62);
+    let t76 = t72 + t65.times(t65) + t66.times(t66);
+    let t77 = t69 + t45.times(t61) - t50.times(t56) + t49.times(t65) + t50.times(t66);
+    let t78 = t71 + t45.times(t62) + t70 - t50.times(t65) + t49.times(t66);
+    let t79 = t69 + t45.times(t49) + t50.times(t56) + t55.times(t61) + t56.times(t62) + t61.times(t65) + t62.times(t66);
+    let t80 = t45.times(t50) - t70 + t71 - t56.times(t61) + t55.times(t62) - t62.times(t65) + t61.times(t66);
+    let t81 = t73 + t45.times(t65) - t50.times(t62) + t55.times(t55 * T::lit(0.5)) - t56.times(t56 * T::lit(0.5));
+    let t82 = t75 + t45.times(t66) + t50.times(t61) + t55.times(t56);
+    let t83 = t74 + t55.times(t65) + t56.times(t66);
+    let t84 = t49.times(t50) + t45.times(t56) - t50.times(t61) + t75 - t56.times(t65) + t55.times(t66);
+    let t85 = t76 + t51.times(t51) + t52.times(t52) + t57.times(t57) + t58.times(t58) + t63.times(t63) + t64.times(t64);
+    let t86 = t83 + t46.times(t57) + t51.times(t51 * T::lit(0.5)) - t52.times(t52 * T::lit(0.5)) + t51.times(t63);
+    let t87 = t85 + t67.times(t67) + t68.times(t68);
+    let t88 = t77 + t46.times(t63) + t51.times(t57) - t52.times(t58) + t51.times(t67) + t52.times(t68);
+    let t89 = t78 + t46.times(t64) + t51.times(t58) + t52.times(t57) - t52.times(t67) + t51.times(t68);
+    let t90 = t79 + t46.times(t51) + t51.times(t57) + t52.times(t58) + t57.times(t63) + t58.times(t64) + t63.times(t67);
+    let t91 = t80 + t46.times(t52) - t52.times(t57) + t51.times(t58) - t58.times(t63) + t57.times(t64) - t64.times(t67);
+    let t92 = t90 + t64.times(t68);
+    let t93 = t91 + t63.times(t68);
+    let t94 = t81 + t46.times(t67) + t51.times(t63) - t52.times(t64) + t57.times(t57 * T::lit(0.5)) - t58.times(t58 * T::lit(0.5));
+    let t95 = t82 + t46.times(t68) + t51.times(t64) + t52.times(t63) + t57.times(t58);
+    let t96 = t86 + t52.times(t64) + t57.times(t67) + t58.times(t68);
+    let t97 = t84 + t46.times(t58) + t51.times(t52) - t52.times(t63) + t51.times(t64) - t58.times(t67) + t57.times(t68);
+    let t98 = t87.fma(T::lit(0.010650848600547212), t42.fnma(T::lit(0.24260889634809232), t16.fma(T::lit(0.16383977415715326), t9)));
+    let t99 = t87.fma(T::lit(0.00413046814343592), t42.fma(T::lit(0.13019759620332838), t17 + a[30].times(t21)));
+    let t100 = t76.fms(T::lit(2.0), t87);
+    let t101 = t79.fms(T::lit(2.0), t92);
+    let t102 = t80.fms(T::lit(2.0), t93);
+    let t103 = t96.fma(T::lit(0.002458973446539431), t12.fms(T::lit(0.4910640010930738), t32 * T::lit(0.12528269535972306)));
+    let t104 = t97.fma(T::lit(0.002458973446539431), t13.fms(T::lit(0.4910640010930738), t33 * T::lit(0.12528269535972306)));
+    let t105 = t96.fma(T::lit(0.009938428690382436), t12.fnma(T::lit(0.19628026146029134), t32 * T::lit(0.26039519240665676)));
+    let t106 = t97.fma(T::lit(0.009938428690382436), t13.fnma(T::lit(0.19628026146029134), t33 * T::lit(0.26039519240665676)));
+    let t107 = t83.fms(T::lit(2.0), t96);
+    let t108 = t84.fms(T::lit(2.0), t97);
+    let t109 = t77.fms(T::lit(2.0), t88).fma(T::lit(0.003128586846107965), a[25].times(t25) + a[35].times(t24));
+    let t110 = t78.fms(T::lit(2.0), t89).fma(T::lit(0.003128586846107965), a[25].times(t24) - a[35].times(t25));
+    let t111 = t81.fms(T::lit(2.0), t94).fma(T::lit(0.0016009345453167538), a[25].times(t39) + a[35].times(t38));
+    let t112 = t82.fms(T::lit(2.0), t95).fma(T::lit(0.0016009345453167538), a[25].times(t38) - a[35].times(t39));
+    let t113 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
+    let t114 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t113)));
+    let t115 = t113.fms(T::lit(2.0), t114);
+    let t116 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
+    let t117 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
+    let t118 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t116));
+    let t119 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t117));
+    let t120 = t116.fms(T::lit(2.0), t118);
+    let t121 = t117.fms(T::lit(2.0), t119);
+    let t122 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
+    let t123 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
+    let t124 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t122));
+    let t125 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t123));
+    let t126 = t122.fms(T::lit(2.0), t124);
+    let t127 = t123.fms(T::lit(2.0), t125);
+    let t128 = a[15].fma(T::lit(0.6538252483314623), a[33] * T::lit(1.6953448249209755));
+    let t129 = a[9].fma(T::lit(0.6538252483314623), a[27] * T::lit(1.6953448249209755));
+    let t130 = a[23].fma(T::lit(1.3282844621033014), t128);
+    let t131 = a[17].fma(T::lit(1.3282844621033014), t129);
+    let t132 = t128.fms(T::lit(2.0), t130);
+    let t133 = t129.fms(T::lit(2.0), t131);
+    let t134 = a[24].fma(T::lit(0.5102753528655176), a[34] * T::lit(1.146064564227057));
+    let t135 = a[16].fma(T::lit(0.5102753528655176), a[26] * T::lit(1.146064564227057));
+    let t136 = a[24].fms(T::lit(1.0205507057310352), t134);
+    let t137 = a[16].fms(T::lit(1.0205507057310352), t135);
+    let t138 = t118.times(t124);
+    let t139 = t119.times(t124);
+    let t140 = t118.times(t125);
+    let t141 = t119.times(t119) + t118.times(t118) + t124.times(t124) + t125.times(t125) + t130.times(t130);
+    let t142 = t118.times(t130);
+    let t143 = t118.times(t118 * T::lit(0.5)) + t114.times(t124) - t119.times(t119 * T::lit(0.5)) + t142;
+    let t144 = t118.times(t131);
+    let t145 = t141 + t131.times(t131) + t134.times(t134) + t135.times(t135);
+    let t146 = t138 + t114.times(t130) - t119.times(t125) + t118.times(t134) + t119.times(t135);
+    let t147 = t140 + t114.times(t131) + t139 - t119.times(t134) + t118.times(t135);
+    let t148 = t138 + t114.times(t118) + t119.times(t125) + t124.times(t130) + t125.times(t131) + t130.times(t134);
+    let t149 = t148 + t131.times(t135);
+    let t150 = t114.times(t119) - t139 + t140 - t125.times(t130) + t124.times(t131) - t131.times(t134) + t130.times(t135);
+    let t151 = t142 + t114.times(t134) - t119.times(t131) + t124.times(t124 * T::lit(0.5)) - t125.times(t125 * T::lit(0.5));
+    let t152 = t144 + t114.times(t135) + t119.times(t130) + t124.times(t125);
+    let t153 = t143 + t119.times(t131) + t124.times(t134) + t125.times(t135);
+    let t154 = t118.times(t119) + t114.times(t125) - t119.times(t130) + t144 - t125.times(t134) + t124.times(t135);
+    let t155 = t153 + t115.times(t126) + t120.times(t120 * T::lit(0.5)) - t121.times(t121 * T::lit(0.5));
+    let t156 = t145 + t120.times(t120) + t121.times(t121) + t126.times(t126) + t127.times(t127) + t132.times(t132);
+    let t157 = t149 + t115.times(t120) + t120.times(t126) + t121.times(t127) + t126.times(t132) + t127.times(t133);
+    let t158 = t150 + t115.times(t121) - t121.times(t126) + t120.times(t127) - t127.times(t132) + t126.times(t133);
+    let t159 = t156 + t133.times(t133) + t136.times(t136) + t137.times(t137);
+    let t160 = t146 + t115.times(t132) + t120.times(t126) - t121.times(t127) + t120.times(t136) + t121.times(t137);
+    let t161 = t147 + t115.times(t133) + t120.times(t127) + t121.times(t126) - t121.times(t136) + t120.times(t137);
+    let t162 = t157 + t132.times(t136) + t133.times(t137);
+    let t163 = t158 - t133.times(t136) + t132.times(t137);
+    let t164 = t151 + t115.times(t136) + t120.times(t132) - t121.times(t133) + t126.times(t126 * T::lit(0.5));
+    let t165 = t164 - t127.times(t127 * T::lit(0.5));
+    let t166 = t152 + t115.times(t137) + t120.times(t133) + t121.times(t132) + t126.times(t127);
+    let t167 = t154 + t115.times(t127) + t120.times(t121) - t121.times(t132) + t120.times(t133) - t127.times(t136);
+    let t168 = t155 + t120.times(t132) + t121.times(t133) + t126.times(t136) + t127.times(t137);
+    let t169 = t167 + t126.times(t137);
+    let t170 = t145.fms(T::lit(2.0), t159);
+    let t171 = t170.fnma(T::lit(0.019920368191736457), t100.fma(T::lit(0.008316154267827863), t18.fma(T::lit(0.29674786233980943), t11)));
+    let t172 = t170.fnma(T::lit(0.034008935561106894), t100.fnma(T::lit(0.0009442949834336472), t20 + a[20].times(t21) + a[30].times(t0)));
+    let t173 = t162.fma(T::lit(0.04007933255293733), t26.fma(T::lit(0.4658642161108584), t92 * T::lit(0.005039933667464387)));
+    let t174 = t163.fma(T::lit(0.04007933255293733), t27.fma(T::lit(0.4658642161108584), t93 * T::lit(0.005039933667464387)));
+    let t175 = t162.fma(T::lit(0.04847206858080377), t26.fnma(T::lit(0.26816989006843767), t92 * T::lit(0.014368733255183293)));
+    let t176 = t163.fma(T::lit(0.04847206858080377), t27.fnma(T::lit(0.26816989006843767), t93 * T::lit(0.014368733255183293)));
+    let t177 = t162.fnma(T::lit(0.03729964058178622), t26.fma(T::lit(0.1063058921450263), t92 * T::lit(0.016022575656238554)));
+    let t178 = t163.fnma(T::lit(0.03729964058178622), t27.fma(T::lit(0.1063058921450263), t93 * T::lit(0.016022575656238554)));
+    let t179 = t149.fms(T::lit(2.0), t162);
+    let t180 = t150.fms(T::lit(2.0), t163);
+    let t181 = t179.fma(T::lit(0.060689510269595064), t36.fma(T::lit(0.26576473036256576), t101 * T::lit(0.010139943551078629)));
+    let t182 = t180.fma(T::lit(0.060689510269595064), t37.fma(T::lit(0.26576473036256576), t102 * T::lit(0.010139943551078629)));
+    let t183 = t179.fma(T::lit(0.007807119404405114), t36.fnma(T::lit(0.26039519240665676), t101 * T::lit(0.016560224970897958)));
+    let t184 = t180.fma(T::lit(0.007807119404405114), t37.fnma(T::lit(0.26039519240665676), t102 * T::lit(0.016560224970897958)));
+    let t185 = t153.fms(T::lit(2.0), t168);
+    let t186 = t154.fms(T::lit(2.0), t169);
+    let t187 = t185.fma(T::lit(0.059074397422756), t22.fma(T::lit(0.2998230518558362), t107 * T::lit(0.00585367455679972)));
+    let t188 = t186.fma(T::lit(0.059074397422756), t23.fma(T::lit(0.2998230518558362), t108 * T::lit(0.00585367455679972)));
+    let t189 = t185.fma(T::lit(0.03680928974031302), t22.fnma(T::lit(0.1988801133010158), t107 * T::lit(0.013868642205593014)));
+    let t190 = t186.fma(T::lit(0.03680928974031302), t23.fnma(T::lit(0.1988801133010158), t108 * T::lit(0.013868642205593014)));
+    let t191 = t160.fma(T::lit(0.02620487955938351), t88.fma(T::lit(0.0011590475298406061), a[25].times(t15) + a[35].times(t14)));
+    let t192 = t161.fma(T::lit(0.02620487955938351), t89.fma(T::lit(0.0011590475298406061), a[25].times(t14) - a[35].times(t15)));
+    let t193 = t160.fma(T::lit(0.06794828902990908), t88.fma(T::lit(0.006041120581828199), a[25].times(t35) + a[35].times(t34)));
+    let t194 = t161.fma(T::lit(0.06794828902990908), t89.fma(T::lit(0.006041120581828199), a[25].times(t34) - a[35].times(t35)));
+    let t195 = t165.fma(T::lit(0.02045149556106452), t94.fma(T::lit(0.0005364775081756356), a[25].times(t29) + a[35].times(t28)));
+    let t196 = t166.fma(T::lit(0.02045149556106452), t95.fma(T::lit(0.0005364775081756356), a[25].times(t28) - a[35].times(t29)));
+    let t197 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
+    let t198 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t197)));
+    let t199 = t197.fms(T::lit(2.0), t198);
+    let t200 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
+    let t201 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
+    let t202 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t200));
+    let t203 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t201));
+    let t204 = t200.fms(T::lit(2.0), t202);
+    let t205 = t201.fms(T::lit(2.0), t203);
+    let t206 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
+    let t207 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
+    let t208 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t206));
+    let t209 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t207));
+    let t210 = t206.fms(T::lit(2.0), t208);
+    let t211 = t207.fms(T::lit(2.0), t209);
+    let t212 = a[15].fma(T::lit(1.0483855431212021), a[33] * T::lit(0.16228383047049297));
+    let t213 = a[9].fma(T::lit(1.0483855431212021), a[27] * T::lit(0.16228383047049297));
+    let t214 = a[23].fma(T::lit(1.1420612985906038), t212);
+    let t215 = a[17].fma(T::lit(1.1420612985906038), t213);
+    let t216 = t212.fms(T::lit(2.0), t214);
+    let t217 = t213.fms(T::lit(2.0), t215);
+    let t218 = a[24].fma(T::lit(1.036080728846176), a[34] * T::lit(1.247777283818818));
+    let t219 = a[16].fma(T::lit(1.036080728846176), a[26] * T::lit(1.247777283818818));
+    let t220 = a[24].fms(T::lit(2.072161457692352), t218);
+    let t221 = a[16].fms(T::lit(2.072161457692352), t219);
+    let t222 = t202.times(t208);
+    let t223 = t203.times(t208);
+    let t224 = t202.times(t209);
+    let t225 = t203.times(t203) + t202.times(t202) + t208.times(t208) + t209.times(t209) + t214.times(t214);
+    let t226 = t202.times(t214);
+    let t227 = t202.times(t202 * T::lit(0.5)) + t198.times(t208) - t203.times(t203 * T::lit(0.5)) + t226;
+    let t228 = t202.times(t215);
+    let t229 = t225 + t215.times(t215) + t218.times(t218) + t219.times(t219);
+    let t230 = t222 + t198.times(t214) - t203.times(t209) + t202.times(t218) + t203.times(t219);
+    let t231 = t224 + t198.times(t215) + t223 - t203.times(t218) + t202.times(t219);
+    let t232 = t222 + t198.times(t202) + t203.times(t209) + t208.times(t214) + t209.times(t215) + t214.times(t218);
+    let t233 = t232 + t215.times(t219);
+    let t234 = t198.times(t203) - t223 + t224 - t209.times(t214) + t208.times(t215) - t215.times(t218) + t214.times(t219);
+    let t235 = t226 + t198.times(t218) - t203.times(t215) + t208.times(t208 * T::lit(0.5)) - t209.times(t209 * T::lit(0.5));
+    let t236 = t228 + t198.times(t219) + t203.times(t214) + t208.times(t209);
+    let t237 = t227 + t203.times(t215) + t208.times(t218) + t209.times(t219);
+    let t238 = t202.times(t203) + t198.times(t209) - t203.times(t214) + t228 - t209.times(t218) + t208.times(t219);
+    let t239 = t237 + t199.times(t210) + t204.times(t204 * T::lit(0.5)) - t205.times(t205 * T::lit(0.5));
+    let t240 = t229 + t204.times(t204) + t205.times(t205) + t210.times(t210) + t211.times(t211) + t216.times(t216);
+    let t241 = t233 + t199.times(t204) + t204.times(t210) + t205.times(t211) + t210.times(t216) + t211.times(t217);
+    let t242 = t234 + t199.times(t205) - t205.times(t210) + t204.times(t211) - t211.times(t216) + t210.times(t217);
+    let t243 = t240 + t217.times(t217) + t220.times(t220) + t221.times(t221);
+    let t244 = t230 + t199.times(t216) + t204.times(t210) - t205.times(t211) + t204.times(t220) + t205.times(t221);
+    let t245 = t231 + t199.times(t217) + t204.times(t211) + t205.times(t210) - t205.times(t220) + t204.times(t221);
+    let t246 = t241 + t216.times(t220) + t217.times(t221);
+    let t247 = t242 - t217.times(t220) + t216.times(t221);
+    let t248 = t235 + t199.times(t220) + t204.times(t216) - t205.times(t217) + t210.times(t210 * T::lit(0.5));
+    let t249 = t248 - t211.times(t211 * T::lit(0.5));
+    let t250 = t236 + t199.times(t221) + t204.times(t217) + t205.times(t216) + t210.times(t211);
+    let t251 = t238 + t199.times(t211) + t204.times(t205) - t205.times(t216) + t204.times(t217) - t211.times(t220);
+    let t252 = t239 + t204.times(t216) + t205.times(t217) + t210.times(t220) + t211.times(t221);
+    let t253 = t251 + t210.times(t221);
+    let t254 = t243.fma(T::lit(0.06363009633316428), t87.fma(T::lit(0.006667916939219108), t159 * T::lit(0.031448012985106535)));
+    let t255 = t229.fms(T::lit(2.0), t243);
+    let t256 = t255.fma(T::lit(0.040019378939486226), t170.fma(T::lit(0.036886036168790846), t100.fma(T::lit(0.010391458875082667), t19)));
+    let t257 = t233.fms(T::lit(2.0), t246);
+    let t258 = t234.fms(T::lit(2.0), t247);
+    let t259 = t237.fms(T::lit(2.0), t252);
+    let t260 = t238.fms(T::lit(2.0), t253);
+    let t261 = t230.fms(T::lit(2.0), t244).fma(T::lit(0.11727594304785892), t146.fms(T::lit(2.0), t160).fma(T::lit(0.05323675468153769), t109));
+    let t262 = t231.fms(T::lit(2.0), t245).fma(T::lit(0.11727594304785892), t147.fms(T::lit(2.0), t161).fma(T::lit(0.05323675468153769), t110));
+    let t263 = t235.fms(T::lit(2.0), t249).fma(T::lit(0.1281317017345182), t151.fms(T::lit(2.0), t165).fma(T::lit(0.045933502796793424), t111));
+    let t264 = t236.fms(T::lit(2.0), t250).fma(T::lit(0.1281317017345182), t152.fms(T::lit(2.0), t166).fma(T::lit(0.045933502796793424), t112));
+    let t265 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t266 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
+    let t267 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
+    let t268 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t269 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t270 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
+    let t271 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
+    let t272 = a[24] * T::lit(1.2808688457449497);
+    let t273 = a[16] * T::lit(1.2808688457449497);
+    let t274 = t266.times(t268);
+    let t275 = t267.times(t268);
+    let t276 = t266.times(t269);
+    let t277 = t267.times(t267) + t266.times(t266) + t268.times(t268) + t269.times(t269) + t270.times(t270);
+    let t278 = t266.times(t270);
+    let t279 = t266.times(t266 * T::lit(0.5)) + t265.times(t268) - t267.times(t267 * T::lit(0.5)) + t278;
+    let t280 = t266.times(t271);
+    let t281 = t277 + t271.times(t271) + t272.times(t272) + t273.times(t273);
+    let t282 = t274 + t265.times(t270) - t267.times(t269) + t266.times(t272) + t267.times(t273);
+    let t283 = t276 + t265.times(t271) + t275 - t267.times(t272) + t266.times(t273);
+    let t284 = t274 + t265.times(t266) + t267.times(t269) + t268.times(t270) + t269.times(t271) + t270.times(t272);
+    let t285 = t284 + t271.times(t273);
+    let t286 = t265.times(t267) - t275 + t276 - t269.times(t270) + t268.times(t271) - t271.times(t272) + t270.times(t273);
+    let t287 = t278 + t265.times(t272) - t267.times(t271) + t268.times(t268 * T::lit(0.5)) - t269.times(t269 * T::lit(0.5));
+    let t288 = t279 + t267.times(t271) + t268.times(t272) + t269.times(t273);
+    let t289 = t266.times(t267) + t265.times(t269) - t267.times(t270) + t280 - t269.times(t272) + t268.times(t273);
+    let t290 = t281.fnma(T::lit(0.087880534100294), t243.fnma(T::lit(0.04300002584026091), t159.fma(T::lit(0.013211131239356699), t98)));
+    let t291 = t281.fma(T::lit(0.08842808166626058), t243.fnma(T::lit(0.008283072525531045), t159.fnma(T::lit(0.040061436451035166), t99)));
+    let t292 = t288.fma(T::lit(0.1522135500579985), t252.fma(T::lit(0.10697217763267512), t168.fma(T::lit(0.03297176001020201), t103)));
+    let t293 = t289.fma(T::lit(0.1522135500579985), t253.fma(T::lit(0.10697217763267512), t169.fma(T::lit(0.03297176001020201), t104)));
+    let t294 = t288.fnma(T::lit(0.131820801150441), t252.fnma(T::lit(0.0071351763852385095), t168.fma(T::lit(0.06310714827007657), t105)));
+    let t295 = t289.fnma(T::lit(0.131820801150441), t253.fnma(T::lit(0.0071351763852385095), t169.fma(T::lit(0.06310714827007657), t106)));
+    let t296 = (t280 + t265.times(t273) + t267.times(t270) + t268.times(t269)).fma(T::lit(0.174382528734682), t250.fma(T::lit(0.10639301471742209), t196));
+    let t297 = (t1 + a[0].times(a[0]) + t4 + t8 + t16 + a[30].times(a[30]) + t42).fma(T::lit(0.28209479177387814), t281.fma(T::lit(0.0786027392588983), t254));
+    [
+        t297,
+        t286.fma(T::lit(0.13614393801050068), t247.fma(T::lit(0.10268795833690095), t174)),
+        t256,
+        t285.fma(T::lit(0.13614393801050068), t246.fma(T::lit(0.10268795833690095), t173)),
+        t293,
+        t258.fma(T::lit(0.08337803539961304), t182),
+        t290,
+        t257.fma(T::lit(0.08337803539961304), t181),
+        t292,
+        t283.fma(T::lit(0.16440942478500217), t245.fma(T::lit(0.10765657097303928), t192)),
+        t260.fma(T::lit(0.10277015067760649), t188),
+        t286.fnma(T::lit(0.12735099283037085), t247.fnma(T::lit(0.03272894864437775), t176)),
+        t255.fnma(T::lit(0.07154508293542654), t171),
+        t285.fnma(T::lit(0.12735099283037085), t246.fnma(T::lit(0.03272894864437775), t175)),
+        t259.fma(T::lit(0.10277015067760649), t187),
+        t282.fma(T::lit(0.16440942478500217), t244.fma(T::lit(0.10765657097303928), t191)),
+        t296,
+        t262,
+        t295,
+        t258.fnma(T::lit(0.10604933759044412), t184),
+        t291,
+        t257.fnma(T::lit(0.10604933759044412), t183),
+        t294,
+        t261,
+        t287.fma(T::lit(0.174382528734682), t249.fma(T::lit(0.10639301471742209), t195)),
+        t41 + a[25].times(t43),
+        t264,
+        t283.fnma(T::lit(0.13632109350250243), t245.fma(T::lit(0.016664595222106678), t194)),
+        t260.fnma(T::lit(0.1030112054829841), t190),
+        t286.fma(T::lit(0.1262088083875901), t247.fnma(T::lit(0.045775452556025865), t178)),
+        t255.fma(T::lit(0.06576390254683251), t172),
+        t285.fma(T::lit(0.1262088083875901), t246.fnma(T::lit(0.045775452556025865), t177)),
+        t259.fnma(T::lit(0.1030112054829841), t189),
+        t282.fnma(T::lit(0.13632109350250243), t244.fma(T::lit(0.016664595222106678), t193)),
+        t263,
+        t40 + a[35].times(t43),
+    ]
+}
+
+/// [`square`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn square_rgb<T: Real>(a: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    square::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
+}
+
+/// `dot:6`: The integral over the sphere of the product of two functions of order 6: the sum of a_i
+/// b_i.
+///
+/// - a: the coefficients of a function of order 6, index l(l+1)+m.
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the integral of the product.
+/// - Operations: 36 (1 mul, 0 add, 35 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 6.8e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 2.3e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn dot<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> V {
+    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
+    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
+    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
+    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
+    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
+    let t5 = t4 + a[25].times(b[25]) + a[26].times(b[26]) + a[27].times(b[27]) + a[28].times(b[28]) + a[29].times(b[29]);
+    let t6 = t5 + a[30].times(b[30]) + a[31].times(b[31]) + a[32].times(b[32]) + a[33].times(b[33]) + a[34].times(b[34]);
+    t6 + a[35].times(b[35])
+}
+
+/// [`dot`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn dot_rgb<T: Real>(a: &[[T; 3]; 36], b: &[[T; 3]; 36]) -> [T; 3] {
+    dot::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).0
+}
+
+/// `product_zonal:6`: Multiplies a zonal function about z and any function, both of order 6; the
+/// product is cut off at it.
+///
+/// - g: the 6 coefficients of the zonal function at m = 0, about its own axis.
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 256 (69 mul, 0 add, 187 fma); 82 constants, 37 live values.
+/// - Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 3.9e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 6], b: &[V; 36]) -> [V; 36] {
+    let t0 = g[0] * T::lit(0.28209479177387814);
+    let t1 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t2 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
+    let t3 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
+    let t4 = b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + b[12].times(t2) + b[20].times(t3);
+    let t5 = g[4] * T::lit(0.2455320005465369);
+    let t6 = b[6].times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t0)));
+    let t7 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
+    let t8 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
+    let t9 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
+    let t10 = b[6].times(t7) + b[2].times(t2) + b[12].times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t0)));
+    let t11 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
+    let t12 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
+    let t13 = b[6].times(t8) + b[2].times(t3) + b[12].times(t11) + b[20].times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t0)));
+    let t14 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
+    let t15 = b[6].times(t9) + b[2].times(t5) + b[12].times(t12) + b[20].times(t14) + b[30].times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t0)));
+    let t16 = g[2].fnma(T::lit(0.126156626101008), t0);
+    let t17 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t18 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
+    let t19 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
+    let t20 = g[4] * T::lit(0.19018826981554557);
+    let t21 = b[7].times(t17) + b[3].times(t16) + b[13].times(t18) + b[21].times(t19) + b[31].times(t20);
+    let t22 = b[5].times(t17) + b[1].times(t16) + b[11].times(t18) + b[19].times(t19) + b[29].times(t20);
+    let t23 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t0));
+    let t24 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
+    let t25 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
+    let t26 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
+    let t27 = b[7].times(t23) + b[3].times(t17) + b[13].times(t24) + b[21].times(t25) + b[31].times(t26);
+    let t28 = b[5].times(t23) + b[1].times(t17) + b[11].times(t24) + b[19].times(t25) + b[29].times(t26);
+    let t29 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t0));
+    let t30 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
+    let t31 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
+    let t32 = b[7].times(t24) + b[3].times(t18) + b[13].times(t29) + b[21].times(t30) + b[31].times(t31);
+    let t33 = b[5].times(t24) + b[1].times(t18) + b[11].times(t29) + b[19].times(t30) + b[29].times(t31);
+    let t34 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t0));
+    let t35 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
+    let t36 = b[7].times(t25) + b[3].times(t19) + b[13].times(t30) + b[21].times(t34) + b[31].times(t35);
+    let t37 = b[5].times(t25) + b[1].times(t19) + b[11].times(t30) + b[19].times(t34) + b[29].times(t35);
+    let t38 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t0));
+    let t39 = b[7].times(t26) + b[3].times(t20) + b[13].times(t31) + b[21].times(t35) + b[31].times(t38);
+    let t40 = b[5].times(t26) + b[1].times(t20) + b[11].times(t31) + b[19].times(t35) + b[29].times(t38);
+    let t41 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t0));
+    let t42 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
+    let t43 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
+    let t44 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
+    let t45 = g[4].fnma(T::lit(0.17951486749246792), t0);
+    let t46 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
+    let t47 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
+    let t48 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t0));
+    let t49 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
+    let t50 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t0));
+    let t51 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t0));
+    let t52 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
+    let t53 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
+    let t54 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t0));
+    let t55 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
+    let t56 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t0));
+    let t57 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t0));
+    let t58 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
+    let t59 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t0));
+    let t60 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t0));
+    let t61 = b[0] * T::lit(0.28209479177387814);
+    let t62 = t6 + b[2].times(t1) + b[12].times(t7) + b[20].times(t8) + b[30].times(t9) + g[2].times(t61);
+    let t63 = g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6]) + g[3].times(b[12]) + g[4].times(b[20]);
+    [
+        (t63 + g[5].times(b[30])) * T::lit(0.28209479177387814),
+        t22,
+        t4 + b[30].times(t5) + g[1].times(t61),
+        t21,
+        b[10].times(t42) + b[4].times(t41) + b[18].times(t43) + b[28].times(t44),
+        t28,
+        t62,
+        t27,
+        b[14].times(t42) + b[8].times(t41) + b[22].times(t43) + b[32].times(t44),
+        b[17].times(t52) + b[9].times(t51) + b[27].times(t53),
+        b[10].times(t45) + b[4].times(t42) + b[18].times(t46) + b[28].times(t47),
+        t33,
+        t10 + b[20].times(t11) + b[30].times(t12) + g[3].times(t61),
+        t32,
+        b[14].times(t45) + b[8].times(t42) + b[22].times(t46) + b[32].times(t47),
+        b[23].times(t52) + b[15].times(t51) + b[33].times(t53),
+        b[26].times(t58) + b[16].times(t57),
+        b[17].times(t54) + b[9].times(t52) + b[27].times(t55),
+        b[10].times(t46) + b[4].times(t43) + b[18].times(t48) + b[28].times(t49),
+        t37,
+        t13 + b[30].times(t14) + g[4].times(t61),
+        t36,
+        b[14].times(t46) + b[8].times(t43) + b[22].times(t48) + b[32].times(t49),
+        b[23].times(t54) + b[15].times(t52) + b[33].times(t55),
+        b[34].times(t58) + b[24].times(t57),
+        b[25].times(t60),
+        b[26].times(t59) + b[16].times(t58),
+        b[17].times(t55) + b[9].times(t53) + b[27].times(t56),
+        b[10].times(t47) + b[4].times(t44) + b[18].times(t49) + b[28].times(t50),
+        t40,
+        t15 + g[5].times(t61),
+        t39,
+        b[14].times(t47) + b[8].times(t44) + b[22].times(t49) + b[32].times(t50),
+        b[23].times(t55) + b[15].times(t53) + b[33].times(t56),
+        b[34].times(t59) + b[24].times(t58),
+        b[35].times(t60),
+    ]
+}
+
+/// [`product_zonal`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_rgb<T: Real>(g: &[[T; 3]; 6], b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product_zonal::<T, Channels<T, 3>>(&g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_zonal_about:6`: Multiplies a zonal function about a direction and any function, both of
+/// order 6; the product is cut off at it.
+///
+/// - dir: the axis, of unit length.
+/// - g: the 6 coefficients of the zonal function at m = 0, about its own axis.
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 722 (211 mul, 3 add, 508 fma) and 1 inverse square root or reciprocal; 117 constants,
+///   72 live values.
+/// - Error: f32 rounding at most 8e-7 of the product of both factors' norms, for every dir of unit
+///   length (3 times the worst of 256 measured, 2.7e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 6], b: &[V; 36]) -> [V; 36] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = t1 * t2;
+    let t6 = dir[2] * t5;
+    let t7 = t5 * t5;
+    let t8 = T::lit(0.5) * t7;
+    let t9 = dir[2].fms(dir[2], t7);
+    let t10 = T::lit(2.0) * t6;
+    let t11 = t5.fnma(t10, dir[2] * t9);
+    let t12 = dir[2].fma(t10, t5 * t9);
+    let t13 = T::lit(4.0) * t6;
+    let t14 = t10.fnma(t13, T::lit(1.0));
+    let t15 = t9 * t13;
+    let t16 = t5.fnma(t15, dir[2] * t14);
+    let t17 = dir[2].fma(t15, t5 * t14);
+    let t18 = T::lit(2.0) * t4;
+    let t19 = t4.fnma(t18, T::lit(1.0));
+    let t20 = t3 * t18;
+    let t21 = t4.fnma(t20, t3 * t19);
+    let t22 = t3.fma(t20, t4 * t19);
+    let t23 = T::lit(2.0) * t20;
+    let t24 = t20.fnma(t23, T::lit(1.0));
+    let t25 = t19 * t23;
+    let t26 = t4.fnma(t25, t3 * t24);
+    let t27 = t3.fma(t25, t4 * t24);
+    let t28 = b[3].fma(t3, b[1] * t4);
+    let t29 = b[1].fms(t3, b[3] * t4);
+    let t30 = b[2].fnma(dir[2], t28 * t5);
+    let t31 = t28.fma(dir[2], b[2] * t5);
+    let t32 = b[7].fma(t3, b[5] * t4);
+    let t33 = b[5].fms(t3, b[7] * t4);
+    let t34 = b[8].fma(t19, b[4] * t20);
+    let t35 = b[4].fms(t19, b[8] * t20);
+    let t36 = b[6].fnma(T::lit(1.7320508075688772), t34);
+    let t37 = t32.fms(t9, t36 * t6);
+    let t38 = t36.fms(t8, t32 * t6);
+    let t39 = t34 - t38;
+    let t40 = t38.fma(T::lit(1.7320508075688772), b[6]);
+    let t41 = t33.fms(dir[2], t35 * t5);
+    let t42 = t35.fma(dir[2], t33 * t5);
+    let t43 = b[11].fms(t3, b[13] * t4);
+    let t44 = b[14].fma(t19, b[10] * t20);
+    let t45 = b[10].fms(t19, b[14] * t20);
+    let t46 = b[15].fma(t21, b[9] * t22);
+    let t47 = b[9].fms(t21, b[15] * t22);
+    let t48 = t44.fnma(T::lit(0.3419987131196464), b[12]);
+    let t49 = t48.fma(T::lit(0.6123724356957945), t44);
+    let t50 = t49.fnma(T::lit(0.3419987131196464), t48);
+    let t51 = t46.fms(T::lit(0.12701665379258312), b[13].fma(t3, b[11] * t4));
+    let t52 = t51.fms(T::lit(0.25), t46);
+    let t53 = t52.fnma(T::lit(0.12701665379258312), t51);
+    let t54 = t50.fma(t11, t53 * t12);
+    let t55 = t53.fms(t11, t50 * t12);
+    let t56 = t54.fnma(T::lit(0.3419987131196464), t49.fma(dir[2], t52 * t5));
+    let t57 = t56.fma(T::lit(0.6123724356957945), t54);
+    let t58 = t57.fnma(T::lit(0.3419987131196464), t56);
+    let t59 = t55.fms(T::lit(0.12701665379258312), t52.fms(dir[2], t49 * t5));
+    let t60 = t59.fms(T::lit(0.25), t55);
+    let t61 = t60.fnma(T::lit(0.12701665379258312), t59);
+    let t62 = t47.fnma(T::lit(0.6123724356957945), t43 * T::lit(0.7905694150420949));
+    let t63 = t45.fma(t9, t62 * t10);
+    let t64 = t45.fnma(t10, t62.fms(t9, t62));
+    let t65 = t64.fnma(T::lit(0.6123724356957945), t47);
+    let t66 = t64.fma(T::lit(0.7905694150420949), t43);
+    let t67 = b[19].fms(t3, b[21] * t4);
+    let t68 = b[22].fma(t19, b[18] * t20);
+    let t69 = b[23].fma(t21, b[17] * t22);
+    let t70 = b[24].fma(t24, b[16] * t25);
+    let t71 = b[16].fms(t24, b[24] * t25);
+    let t72 = t69.fnma(T::lit(0.18267581368159952), b[21].fma(t3, b[19] * t4));
+    let t73 = t72.fma(T::lit(0.3535533905932738), t69);
+    let t74 = t73.fnma(T::lit(0.18267581368159952), t72);
+    let t75 = b[20].fma(T::lit(0.739509972887452), t70.fms(T::lit(0.125), t68 * T::lit(0.6614378277661477)));
+    let t76 = b[20].fma(T::lit(0.5590169943749475), t70.fnma(T::lit(0.6614378277661477), t68 * T::lit(0.5)));
+    let t77 = t74.fma(t14, t75 * t15);
+    let t78 = t74.fnma(t15, t75.fms(t14, t75));
+    let t79 = t73.fnma(t10, t76.fms(t9, t76));
+    let t80 = t77.fnma(T::lit(0.18267581368159952), t73.fma(t9, t76 * t10));
+    let t81 = t80.fma(T::lit(0.3535533905932738), t77);
+    let t82 = t81.fnma(T::lit(0.18267581368159952), t80);
+    let t83 = t79.fnma(T::lit(0.6614378277661477), t78.fma(T::lit(0.125), t70));
+    let t84 = t79.fma(T::lit(0.5), t78.fnma(T::lit(0.6614378277661477), t68));
+    let t85 = t79.fma(T::lit(0.5590169943749475), t78.fma(T::lit(0.739509972887452), b[20]));
+    let t86 = t67.fnma(T::lit(0.37796447300922725), b[17].fms(t21, b[23] * t22));
+    let t87 = t86.fma(T::lit(0.6614378277661477), t67);
+    let t88 = t87.fnma(T::lit(0.37796447300922725), t86);
+    let t89 = t71.fnma(T::lit(0.18267581368159952), b[18].fms(t19, b[22] * t20));
+    let t90 = t89.fma(T::lit(0.3535533905932738), t71);
+    let t91 = t90.fnma(T::lit(0.18267581368159952), t89);
+    let t92 = t91.fms(t11, t88 * t12);
+    let t93 = t87.fnma(dir[2], t90 * t5);
+    let t94 = t93.fnma(T::lit(0.37796447300922725), t88.fma(t11, t91 * t12));
+    let t95 = t94.fma(T::lit(0.6614378277661477), t93);
+    let t96 = t95.fnma(T::lit(0.37796447300922725), t94);
+    let t97 = t92.fnma(T::lit(0.18267581368159952), t90.fma(dir[2], t87 * t5));
+    let t98 = t97.fma(T::lit(0.3535533905932738), t92);
+    let t99 = t98.fnma(T::lit(0.18267581368159952), t97);
+    let t100 = b[29].fms(t3, b[31] * t4);
+    let t101 = b[32].fma(t19, b[28] * t20);
+    let t102 = b[27].fms(t21, b[33] * t22);
+    let t103 = b[34].fma(t24, b[26] * t25);
+    let t104 = b[26].fms(t24, b[34] * t25);
+    let t105 = b[35].fma(t26, b[25] * t27);
+    let t106 = b[25].fms(t26, b[35] * t27);
+    let t107 = t101.fms(T::lit(0.07470077493066175), b[30]);
+    let t108 = t107.fms(T::lit(0.14857248482346963), t101);
+    let t109 = t108.fnma(T::lit(0.07470077493066175), t107);
+    let t110 = t108.fma(T::lit(0.4782913363666992), t109.fnma(T::lit(0.6642175991330467), t103));
+    let t111 = t110.fnma(T::lit(1.1976423537605236), t103);
+    let t112 = t110.fma(T::lit(0.795495128834866), t109);
+    let t113 = t110.fnma(T::lit(0.57282196186948), t108);
+    let t114 = t105.fnma(T::lit(0.4472135954999579), b[33].fma(t21, b[27] * t22));
+    let t115 = t105.fma(T::lit(0.9660917830792959), b[31].fma(t3, b[29] * t4));
+    let t116 = t115.fms(T::lit(0.9057110466368399), t114.fma(T::lit(0.4192627457812106), t105));
+    let t117 = t116.fma(T::lit(0.4472135954999579), t114);
+    let t118 = t116.fnma(T::lit(0.9660917830792959), t115);
+    let t119 = t111.fma(t16, t116 * t17);
+    let t120 = t116.fms(t16, t111 * t17);
+    let t121 = t112.fma(t11, t117 * t12);
+    let t122 = t121.fms(T::lit(0.07470077493066175), t113.fma(dir[2], t118 * t5));
+    let t123 = t122.fms(T::lit(0.14857248482346963), t121);
+    let t124 = t123.fnma(T::lit(0.07470077493066175), t122);
+    let t125 = t123.fma(T::lit(0.5857848612461443), t124.fnma(T::lit(0.5716674888222586), t119));
+    let t126 = t125.fnma(T::lit(1.1976423537605236), t119);
+    let t127 = t125.fma(T::lit(0.6846531968814576), t124);
+    let t128 = t125.fnma(T::lit(0.701560760020114), t123);
+    let t129 = t120.fnma(T::lit(0.4472135954999579), t117.fms(t11, t112 * t12));
+    let t130 = t120.fma(T::lit(0.9660917830792959), t118.fms(dir[2], t113 * t5));
+    let t131 = t130.fms(T::lit(0.9057110466368399), t129.fma(T::lit(0.4192627457812106), t120));
+    let t132 = t131.fma(T::lit(0.4472135954999579), t129);
+    let t133 = t131.fnma(T::lit(0.9660917830792959), t130);
+    let t134 = t104.fms(T::lit(0.2679491924311227), b[28].fms(t19, b[32] * t20));
+    let t135 = t134.fms(T::lit(0.5), t104);
+    let t136 = t135.fnma(T::lit(0.2679491924311227), t134);
+    let t137 = t100.fnma(T::lit(0.57282196186948), t106.fnma(T::lit(0.19764235376052372), t102 * T::lit(0.795495128834866)));
+    let t138 = t100.fnma(T::lit(0.6614378277661477), t106.fms(T::lit(0.6846531968814576), t102 * T::lit(0.30618621784789724)));
+    let t139 = t136.fma(t14, t137 * t15);
+    let t140 = t136.fnma(t15, t137.fms(t14, t137));
+    let t141 = t135.fnma(t10, t138.fms(t9, t138));
+    let t142 = t139.fms(T::lit(0.2679491924311227), t135.fma(t9, t138 * t10));
+    let t143 = t142.fms(T::lit(0.5), t139);
+    let t144 = t143.fnma(T::lit(0.2679491924311227), t142);
+    let t145 = t141.fnma(T::lit(0.30618621784789724), t140.fma(T::lit(0.795495128834866), t102));
+    let t146 = t141.fnma(T::lit(0.6614378277661477), t140.fnma(T::lit(0.57282196186948), t100));
+    let t147 = g[0] * T::lit(0.28209479177387814);
+    let t148 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t149 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
+    let t150 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
+    let t151 = t40.times(t148) - t30.times(g[2].fma(T::lit(0.252313252202016), t147)) + t57.times(t149) + t85.times(t150);
+    let t152 = g[4] * T::lit(0.2455320005465369);
+    let t153 = t40.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t147)));
+    let t154 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
+    let t155 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
+    let t156 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
+    let t157 = t40.times(t154) - t30.times(t149) + t57.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t147)));
+    let t158 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
+    let t159 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
+    let t160 = t40.times(t155) - t30.times(t150) + t57.times(t158) + t85.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t147)));
+    let t161 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
+    let t162 = t40.times(t156) - t30.times(t152) + t57.times(t159) + t85.times(t161) + t128.times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t147)));
+    let t163 = g[2].fnma(T::lit(0.126156626101008), t147);
+    let t164 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t165 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
+    let t166 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
+    let t167 = g[4] * T::lit(0.19018826981554557);
+    let t168 = t37.times(t164) + t31.times(t163) + t60.times(t165) + t81.times(t166) + t133.times(t167);
+    let t169 = t41.times(t164) + t29.times(t163) + t66.times(t165) - t95.times(t166) + t146.times(t167);
+    let t170 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t147));
+    let t171 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
+    let t172 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
+    let t173 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
+    let t174 = t37.times(t170) + t31.times(t164) + t60.times(t171) + t81.times(t172) + t133.times(t173);
+    let t175 = t41.times(t170) + t29.times(t164) + t66.times(t171) - t95.times(t172) + t146.times(t173);
+    let t176 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t147));
+    let t177 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
+    let t178 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
+    let t179 = t41.times(t171) + t29.times(t165) + t66.times(t176) - t95.times(t177) + t146.times(t178);
+    let t180 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t147));
+    let t181 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
+    let t182 = t41.times(t172) + t29.times(t166) + t66.times(t177) - t95.times(t180) + t146.times(t181);
+    let t183 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t147));
+    let t184 = t41.times(t173) + t29.times(t167) + t66.times(t178) - t95.times(t181) + t146.times(t183);
+    let t185 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t147));
+    let t186 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
+    let t187 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
+    let t188 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
+    let t189 = t58.times(t186) + t39.times(t185) + t84.times(t187) + t127.times(t188);
+    let t190 = t63.times(t186) + t42.times(t185) + t98.times(t187) + t143.times(t188);
+    let t191 = g[4].fnma(T::lit(0.17951486749246792), t147);
+    let t192 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
+    let t193 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
+    let t194 = t58.times(t191) + t39.times(t186) + t84.times(t192) + t127.times(t193);
+    let t195 = t63.times(t191) + t42.times(t186) + t98.times(t192) + t143.times(t193);
+    let t196 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t147));
+    let t197 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
+    let t198 = t58.times(t192) + t39.times(t187) + t84.times(t196) + t127.times(t197);
+    let t199 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t147));
+    let t200 = t58.times(t193) + t39.times(t188) + t84.times(t197) + t127.times(t199);
+    let t201 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t147));
+    let t202 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
+    let t203 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
+    let t204 = t82.times(t202) + t61.times(t201) + t132.times(t203);
+    let t205 = t96.times(t202) + t65.times(t201) + t145.times(t203);
+    let t206 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t147));
+    let t207 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
+    let t208 = t82.times(t206) + t61.times(t202) + t132.times(t207);
+    let t209 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t147));
+    let t210 = t96.times(t207) + t65.times(t203) + t145.times(t209);
+    let t211 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t147));
+    let t212 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
+    let t213 = t126.times(t212) + t83.times(t211);
+    let t214 = t144.times(t212) + t99.times(t211);
+    let t215 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t147));
+    let t216 = t126.times(t215) + t83.times(t212);
+    let t217 = t144.times(t215) + t99.times(t212);
+    let t218 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t147));
+    let t219 = t131.times(t218);
+    let t220 = t141.fma(T::lit(0.6846531968814576), t140.fnma(T::lit(0.19764235376052372), t106)).times(t218);
+    let t221 = b[0] * T::lit(0.28209479177387814);
+    let t222 = t151 + t128.times(t152) + g[1].times(t221);
+    let t223 = t153 - t30.times(t148) + t57.times(t154) + t85.times(t155) + t128.times(t156) + g[2].times(t221);
+    let t224 = t160 + t128.times(t161) + g[4].times(t221);
+    let t225 = g[0].times(b[0]) - g[1].times(t30) + g[2].times(t40) + g[3].times(t57) + g[4].times(t85) + g[5].times(t128);
+    let t226 = t168.fms(dir[2], t222 * t5);
+    let t227 = t223.fnma(T::lit(1.7320508075688772), t189);
+    let t228 = t174.fma(t9, t227 * t6);
+    let t229 = t227.fma(t8, t174 * t6);
+    let t230 = t189 - t229;
+    let t231 = t175.fma(dir[2], t190 * t5);
+    let t232 = t190.fnma(dir[2], t175 * t5);
+    let t233 = t194.fnma(T::lit(0.3419987131196464), t157 + t85.times(t158) + t128.times(t159) + g[3].times(t221));
+    let t234 = t233.fma(T::lit(0.6123724356957945), t194);
+    let t235 = t234.fnma(T::lit(0.3419987131196464), t233);
+    let t236 = t204.fms(T::lit(0.12701665379258312), t37.times(t171) + t31.times(t165) + t60.times(t176) + t81.times(t177) + t133.times(t178));
+    let t237 = t236.fms(T::lit(0.25), t204);
+    let t238 = t237.fnma(T::lit(0.12701665379258312), t236);
+    let t239 = t235.fms(t11, t238 * t12);
+    let t240 = t238.fma(t11, t235 * t12);
+    let t241 = t239.fnma(T::lit(0.3419987131196464), t234.fms(dir[2], t237 * t5));
+    let t242 = t241.fma(T::lit(0.6123724356957945), t239);
+    let t243 = t242.fnma(T::lit(0.3419987131196464), t241);
+    let t244 = t240.fms(T::lit(0.12701665379258312), t237.fma(dir[2], t234 * t5));
+    let t245 = t244.fms(T::lit(0.25), t240);
+    let t246 = t245.fnma(T::lit(0.12701665379258312), t244);
+    let t247 = t205.fnma(T::lit(0.6123724356957945), t179 * T::lit(0.7905694150420949));
+    let t248 = t195.fms(t9, t247 * t10);
+    let t249 = t195.fma(t10, t247.fms(t9, t247));
+    let t250 = t249.fnma(T::lit(0.6123724356957945), t205);
+    let t251 = t249.fma(T::lit(0.7905694150420949), t179);
+    let t252 = t208.fnma(T::lit(0.18267581368159952), t37.times(t172) + t31.times(t166) + t60.times(t177) + t81.times(t180) + t133.times(t181));
+    let t253 = t252.fma(T::lit(0.3535533905932738), t208);
+    let t254 = t253.fnma(T::lit(0.18267581368159952), t252);
+    let t255 = t224.fma(T::lit(0.739509972887452), t213.fms(T::lit(0.125), t198 * T::lit(0.6614378277661477)));
+    let t256 = t224.fma(T::lit(0.5590169943749475), t213.fnma(T::lit(0.6614378277661477), t198 * T::lit(0.5)));
+    let t257 = t254.fms(t14, t255 * t15);
+    let t258 = t254.fma(t15, t255.fms(t14, t255));
+    let t259 = t253.fma(t10, t256.fms(t9, t256));
+    let t260 = t257.fnma(T::lit(0.18267581368159952), t253.fms(t9, t256 * t10));
+    let t261 = t260.fma(T::lit(0.3535533905932738), t257);
+    let t262 = t261.fnma(T::lit(0.18267581368159952), t260);
+    let t263 = t259.fnma(T::lit(0.6614378277661477), t258.fma(T::lit(0.125), t213));
+    let t264 = t259.fma(T::lit(0.5), t258.fnma(T::lit(0.6614378277661477), t198));
+    let t265 = t182.fnma(T::lit(0.37796447300922725), t96.times(t206) + t65.times(t202) + t145.times(t207));
+    let t266 = t265.fma(T::lit(0.6614378277661477), t182);
+    let t267 = t266.fnma(T::lit(0.37796447300922725), t265);
+    let t268 = t214.fnma(T::lit(0.18267581368159952), t63.times(t192) + t42.times(t187) + t98.times(t196) + t143.times(t197));
+    let t269 = t268.fma(T::lit(0.3535533905932738), t214);
+    let t270 = t269.fnma(T::lit(0.18267581368159952), t268);
+    let t271 = t270.fma(t11, t267 * t12);
+    let t272 = t266.fma(dir[2], t269 * t5);
+    let t273 = t272.fma(T::lit(0.37796447300922725), t267.fms(t11, t270 * t12));
+    let t274 = t273.fnma(T::lit(0.6614378277661477), t272);
+    let t275 = t274.fma(T::lit(0.37796447300922725), t273);
+    let t276 = t271.fnma(T::lit(0.18267581368159952), t269.fms(dir[2], t266 * t5));
+    let t277 = t276.fma(T::lit(0.3535533905932738), t271);
+    let t278 = t277.fnma(T::lit(0.18267581368159952), t276);
+    let t279 = t200.fms(T::lit(0.07470077493066175), t162 + g[5].times(t221));
+    let t280 = t279.fms(T::lit(0.14857248482346963), t200);
+    let t281 = t280.fnma(T::lit(0.07470077493066175), t279);
+    let t282 = t280.fma(T::lit(0.4782913363666992), t281.fnma(T::lit(0.6642175991330467), t216));
+    let t283 = t282.fnma(T::lit(1.1976423537605236), t216);
+    let t284 = t282.fma(T::lit(0.795495128834866), t281);
+    let t285 = t282.fnma(T::lit(0.57282196186948), t280);
+    let t286 = t219.fnma(T::lit(0.4472135954999579), t82.times(t207) + t61.times(t203) + t132.times(t209));
+    let t287 = t219.fma(T::lit(0.9660917830792959), t37.times(t173) + t31.times(t167) + t60.times(t178) + t81.times(t181) + t133.times(t183));
+    let t288 = t287.fms(T::lit(0.9057110466368399), t286.fma(T::lit(0.4192627457812106), t219));
+    let t289 = t288.fma(T::lit(0.4472135954999579), t286);
+    let t290 = t288.fnma(T::lit(0.9660917830792959), t287);
+    let t291 = t283.fms(t16, t288 * t17);
+    let t292 = t288.fma(t16, t283 * t17);
+    let t293 = t284.fms(t11, t289 * t12);
+    let t294 = t293.fms(T::lit(0.07470077493066175), t285.fms(dir[2], t290 * t5));
+    let t295 = t294.fms(T::lit(0.14857248482346963), t293);
+    let t296 = t295.fnma(T::lit(0.07470077493066175), t294);
+    let t297 = t295.fma(T::lit(0.5857848612461443), t296.fnma(T::lit(0.5716674888222586), t291));
+    let t298 = t297.fnma(T::lit(1.1976423537605236), t291);
+    let t299 = t297.fma(T::lit(0.6846531968814576), t296);
+    let t300 = t292.fnma(T::lit(0.4472135954999579), t289.fma(t11, t284 * t12));
+    let t301 = t292.fma(T::lit(0.9660917830792959), t290.fma(dir[2], t285 * t5));
+    let t302 = t301.fms(T::lit(0.9057110466368399), t300.fma(T::lit(0.4192627457812106), t292));
+    let t303 = t302.fma(T::lit(0.4472135954999579), t300);
+    let t304 = t302.fnma(T::lit(0.9660917830792959), t301);
+    let t305 = t217.fms(T::lit(0.2679491924311227), t63.times(t193) + t42.times(t188) + t98.times(t197) + t143.times(t199));
+    let t306 = t305.fms(T::lit(0.5), t217);
+    let t307 = t306.fnma(T::lit(0.2679491924311227), t305);
+    let t308 = t184.fnma(T::lit(0.57282196186948), t220.fnma(T::lit(0.19764235376052372), t210 * T::lit(0.795495128834866)));
+    let t309 = t184.fnma(T::lit(0.6614378277661477), t220.fms(T::lit(0.6846531968814576), t210 * T::lit(0.30618621784789724)));
+    let t310 = t307.fms(t14, t308 * t15);
+    let t311 = t307.fma(t15, t308.fms(t14, t308));
+    let t312 = t306.fma(t10, t309.fms(t9, t309));
+    let t313 = t310.fms(T::lit(0.2679491924311227), t306.fms(t9, t309 * t10));
+    let t314 = t313.fms(T::lit(0.5), t310);
+    let t315 = t314.fnma(T::lit(0.2679491924311227), t313);
+    let t316 = t312.fma(T::lit(0.6846531968814576), t311.fnma(T::lit(0.19764235376052372), t220));
+    let t317 = t312.fnma(T::lit(0.30618621784789724), t311.fma(T::lit(0.795495128834866), t210));
+    let t318 = t312.fnma(T::lit(0.6614378277661477), t311.fnma(T::lit(0.57282196186948), t184));
+    [
+        t225 * T::lit(0.28209479177387814),
+        t169.fma(t3, t226 * t4),
+        t222.fma(dir[2], t168 * t5),
+        t226.fms(t3, t169 * t4),
+        t232.fnma(t19, t230 * t20),
+        t231.fma(t3, t228 * t4),
+        t229.fma(T::lit(1.7320508075688772), t223),
+        t228.fms(t3, t231 * t4),
+        t230.fma(t19, t232 * t20),
+        t250.fma(t21, t246 * t22),
+        t248.fma(t19, t243 * t20),
+        t251.fma(t3, t245 * t4),
+        t242,
+        t245.fms(t3, t251 * t4),
+        t243.fms(t19, t248 * t20),
+        t246.fms(t21, t250 * t22),
+        t278.fma(t24, t263 * t25),
+        t275.fma(t21, t262 * t22),
+        t277.fma(t19, t264 * t20),
+        t274.fma(t3, t261 * t4),
+        t259.fma(T::lit(0.5590169943749475), t258.fma(T::lit(0.739509972887452), t224)),
+        t261.fms(t3, t274 * t4),
+        t264.fms(t19, t277 * t20),
+        t262.fms(t21, t275 * t22),
+        t263.fms(t24, t278 * t25),
+        t316.fma(t26, t302 * t27),
+        t315.fma(t24, t298 * t25),
+        t317.fma(t21, t303 * t22),
+        t314.fma(t19, t299 * t20),
+        t318.fma(t3, t304 * t4),
+        t297.fnma(T::lit(0.701560760020114), t295),
+        t304.fms(t3, t318 * t4),
+        t299.fms(t19, t314 * t20),
+        t303.fms(t21, t317 * t22),
+        t298.fms(t24, t315 * t25),
+        t302.fms(t26, t316 * t27),
+    ]
+}
+
+/// [`product_zonal_about`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_about_rgb<T: Real>(dir: [T; 3], g: &[[T; 3]; 6], b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product_zonal_about::<T, Channels<T, 3>>(dir, &g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_zonal_about:6:angles`: Multiplies a zonal function about an axis and any function, both of
+/// order 6, from the multiples that `axis_angles:6` makes; the product is cut off at the order.
+///
+/// - cs: (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ? cos
+///   phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// - g: the 6 coefficients of the zonal function at m = 0, about its own axis.
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 686 (189 mul, 2 add, 495 fma); 114 constants, 51 live values.
+/// - Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every angle (3 times
+///   the worst of 256 measured, 7e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 11], g: &[V; 6], b: &[V; 36]) -> [V; 36] {
+    let t0 = b[3].fma(cs[0][0], b[1] * cs[0][1]);
+    let t1 = b[1].fms(cs[0][0], b[3] * cs[0][1]);
+    let t2 = b[2].fnma(cs[5][0], t0 * cs[5][1]);
+    let t3 = t0.fma(cs[5][0], b[2] * cs[5][1]);
+    let t4 = b[7].fma(cs[0][0], b[5] * cs[0][1]);
+    let t5 = b[5].fms(cs[0][0], b[7] * cs[0][1]);
+    let t6 = b[8].fma(cs[1][0], b[4] * cs[1][1]);
+    let t7 = b[4].fms(cs[1][0], b[8] * cs[1][1]);
+    let t8 = b[6].fnma(T::lit(1.7320508075688772), t6);
+    let t9 = t4.fms(cs[6][0], t8 * cs[10][1]);
+    let t10 = t8.fms(cs[10][0], t4 * cs[10][1]);
+    let t11 = t6 - t10;
+    let t12 = t10.fma(T::lit(1.7320508075688772), b[6]);
+    let t13 = t5.fms(cs[5][0], t7 * cs[5][1]);
+    let t14 = t7.fma(cs[5][0], t5 * cs[5][1]);
+    let t15 = b[11].fms(cs[0][0], b[13] * cs[0][1]);
+    let t16 = b[14].fma(cs[1][0], b[10] * cs[1][1]);
+    let t17 = b[10].fms(cs[1][0], b[14] * cs[1][1]);
+    let t18 = b[15].fma(cs[2][0], b[9] * cs[2][1]);
+    let t19 = b[9].fms(cs[2][0], b[15] * cs[2][1]);
+    let t20 = t16.fnma(T::lit(0.3419987131196464), b[12]);
+    let t21 = t20.fma(T::lit(0.6123724356957945), t16);
+    let t22 = t21.fnma(T::lit(0.3419987131196464), t20);
+    let t23 = t18.fms(T::lit(0.12701665379258312), b[13].fma(cs[0][0], b[11] * cs[0][1]));
+    let t24 = t23.fms(T::lit(0.25), t18);
+    let t25 = t24.fnma(T::lit(0.12701665379258312), t23);
+    let t26 = t22.fma(cs[7][0], t25 * cs[7][1]);
+    let t27 = t25.fms(cs[7][0], t22 * cs[7][1]);
+    let t28 = t26.fnma(T::lit(0.3419987131196464), t21.fma(cs[5][0], t24 * cs[5][1]));
+    let t29 = t28.fma(T::lit(0.6123724356957945), t26);
+    let t30 = t29.fnma(T::lit(0.3419987131196464), t28);
+    let t31 = t27.fms(T::lit(0.12701665379258312), t24.fms(cs[5][0], t21 * cs[5][1]));
+    let t32 = t31.fms(T::lit(0.25), t27);
+    let t33 = t32.fnma(T::lit(0.12701665379258312), t31);
+    let t34 = t19.fnma(T::lit(0.6123724356957945), t15 * T::lit(0.7905694150420949));
+    let t35 = t17.fma(cs[6][0], t34 * cs[6][1]);
+    let t36 = t17.fnma(cs[6][1], t34.fms(cs[6][0], t34));
+    let t37 = t36.fnma(T::lit(0.6123724356957945), t19);
+    let t38 = t36.fma(T::lit(0.7905694150420949), t15);
+    let t39 = b[19].fms(cs[0][0], b[21] * cs[0][1]);
+    let t40 = b[22].fma(cs[1][0], b[18] * cs[1][1]);
+    let t41 = b[23].fma(cs[2][0], b[17] * cs[2][1]);
+    let t42 = b[24].fma(cs[3][0], b[16] * cs[3][1]);
+    let t43 = b[16].fms(cs[3][0], b[24] * cs[3][1]);
+    let t44 = t41.fnma(T::lit(0.18267581368159952), b[21].fma(cs[0][0], b[19] * cs[0][1]));
+    let t45 = t44.fma(T::lit(0.3535533905932738), t41);
+    let t46 = t45.fnma(T::lit(0.18267581368159952), t44);
+    let t47 = b[20].fma(T::lit(0.739509972887452), t42.fms(T::lit(0.125), t40 * T::lit(0.6614378277661477)));
+    let t48 = b[20].fma(T::lit(0.5590169943749475), t42.fnma(T::lit(0.6614378277661477), t40 * T::lit(0.5)));
+    let t49 = t46.fma(cs[8][0], t47 * cs[8][1]);
+    let t50 = t46.fnma(cs[8][1], t47.fms(cs[8][0], t47));
+    let t51 = t45.fnma(cs[6][1], t48.fms(cs[6][0], t48));
+    let t52 = t49.fnma(T::lit(0.18267581368159952), t45.fma(cs[6][0], t48 * cs[6][1]));
+    let t53 = t52.fma(T::lit(0.3535533905932738), t49);
+    let t54 = t53.fnma(T::lit(0.18267581368159952), t52);
+    let t55 = t51.fnma(T::lit(0.6614378277661477), t50.fma(T::lit(0.125), t42));
+    let t56 = t51.fma(T::lit(0.5), t50.fnma(T::lit(0.6614378277661477), t40));
+    let t57 = t51.fma(T::lit(0.5590169943749475), t50.fma(T::lit(0.739509972887452), b[20]));
+    let t58 = t39.fnma(T::lit(0.37796447300922725), b[17].fms(cs[2][0], b[23] * cs[2][1]));
+    let t59 = t58.fma(T::lit(0.6614378277661477), t39);
+    let t60 = t59.fnma(T::lit(0.37796447300922725), t58);
+    let t61 = t43.fnma(T::lit(0.18267581368159952), b[18].fms(cs[1][0], b[22] * cs[1][1]));
+    let t62 = t61.fma(T::lit(0.3535533905932738), t43);
+    let t63 = t62.fnma(T::lit(0.18267581368159952), t61);
+    let t64 = t63.fms(cs[7][0], t60 * cs[7][1]);
+    let t65 = t59.fnma(cs[5][0], t62 * cs[5][1]);
+    let t66 = t65.fnma(T::lit(0.37796447300922725), t60.fma(cs[7][0], t63 * cs[7][1]));
+    let t67 = t66.fma(T::lit(0.6614378277661477), t65);
+    let t68 = t67.fnma(T::lit(0.37796447300922725), t66);
+    let t69 = t64.fnma(T::lit(0.18267581368159952), t62.fma(cs[5][0], t59 * cs[5][1]));
+    let t70 = t69.fma(T::lit(0.3535533905932738), t64);
+    let t71 = t70.fnma(T::lit(0.18267581368159952), t69);
+    let t72 = b[29].fms(cs[0][0], b[31] * cs[0][1]);
+    let t73 = b[32].fma(cs[1][0], b[28] * cs[1][1]);
+    let t74 = b[27].fms(cs[2][0], b[33] * cs[2][1]);
+    let t75 = b[34].fma(cs[3][0], b[26] * cs[3][1]);
+    let t76 = b[26].fms(cs[3][0], b[34] * cs[3][1]);
+    let t77 = b[35].fma(cs[4][0], b[25] * cs[4][1]);
+    let t78 = b[25].fms(cs[4][0], b[35] * cs[4][1]);
+    let t79 = t73.fms(T::lit(0.07470077493066175), b[30]);
+    let t80 = t79.fms(T::lit(0.14857248482346963), t73);
+    let t81 = t80.fnma(T::lit(0.07470077493066175), t79);
+    let t82 = t80.fma(T::lit(0.4782913363666992), t81.fnma(T::lit(0.6642175991330467), t75));
+    let t83 = t82.fnma(T::lit(1.1976423537605236), t75);
+    let t84 = t82.fma(T::lit(0.795495128834866), t81);
+    let t85 = t82.fnma(T::lit(0.57282196186948), t80);
+    let t86 = t77.fnma(T::lit(0.4472135954999579), b[33].fma(cs[2][0], b[27] * cs[2][1]));
+    let t87 = t77.fma(T::lit(0.9660917830792959), b[31].fma(cs[0][0], b[29] * cs[0][1]));
+    let t88 = t87.fms(T::lit(0.9057110466368399), t86.fma(T::lit(0.4192627457812106), t77));
+    let t89 = t88.fma(T::lit(0.4472135954999579), t86);
+    let t90 = t88.fnma(T::lit(0.9660917830792959), t87);
+    let t91 = t83.fma(cs[9][0], t88 * cs[9][1]);
+    let t92 = t88.fms(cs[9][0], t83 * cs[9][1]);
+    let t93 = t84.fma(cs[7][0], t89 * cs[7][1]);
+    let t94 = t93.fms(T::lit(0.07470077493066175), t85.fma(cs[5][0], t90 * cs[5][1]));
+    let t95 = t94.fms(T::lit(0.14857248482346963), t93);
+    let t96 = t95.fnma(T::lit(0.07470077493066175), t94);
+    let t97 = t95.fma(T::lit(0.5857848612461443), t96.fnma(T::lit(0.5716674888222586), t91));
+    let t98 = t97.fnma(T::lit(1.1976423537605236), t91);
+    let t99 = t97.fma(T::lit(0.6846531968814576), t96);
+    let t100 = t97.fnma(T::lit(0.701560760020114), t95);
+    let t101 = t92.fnma(T::lit(0.4472135954999579), t89.fms(cs[7][0], t84 * cs[7][1]));
+    let t102 = t92.fma(T::lit(0.9660917830792959), t90.fms(cs[5][0], t85 * cs[5][1]));
+    let t103 = t102.fms(T::lit(0.9057110466368399), t101.fma(T::lit(0.4192627457812106), t92));
+    let t104 = t103.fma(T::lit(0.4472135954999579), t101);
+    let t105 = t103.fnma(T::lit(0.9660917830792959), t102);
+    let t106 = t76.fms(T::lit(0.2679491924311227), b[28].fms(cs[1][0], b[32] * cs[1][1]));
+    let t107 = t106.fms(T::lit(0.5), t76);
+    let t108 = t107.fnma(T::lit(0.2679491924311227), t106);
+    let t109 = t72.fnma(T::lit(0.57282196186948), t78.fnma(T::lit(0.19764235376052372), t74 * T::lit(0.795495128834866)));
+    let t110 = t72.fnma(T::lit(0.6614378277661477), t78.fms(T::lit(0.6846531968814576), t74 * T::lit(0.30618621784789724)));
+    let t111 = t108.fma(cs[8][0], t109 * cs[8][1]);
+    let t112 = t108.fnma(cs[8][1], t109.fms(cs[8][0], t109));
+    let t113 = t107.fnma(cs[6][1], t110.fms(cs[6][0], t110));
+    let t114 = t111.fms(T::lit(0.2679491924311227), t107.fma(cs[6][0], t110 * cs[6][1]));
+    let t115 = t114.fms(T::lit(0.5), t111);
+    let t116 = t115.fnma(T::lit(0.2679491924311227), t114);
+    let t117 = t113.fnma(T::lit(0.30618621784789724), t112.fma(T::lit(0.795495128834866), t74));
+    let t118 = t113.fnma(T::lit(0.6614378277661477), t112.fnma(T::lit(0.57282196186948), t72));
+    let t119 = g[0] * T::lit(0.28209479177387814);
+    let t120 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t121 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
+    let t122 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
+    let t123 = t12.times(t120) - t2.times(g[2].fma(T::lit(0.252313252202016), t119)) + t29.times(t121) + t57.times(t122);
+    let t124 = g[4] * T::lit(0.2455320005465369);
+    let t125 = t12.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t119)));
+    let t126 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
+    let t127 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
+    let t128 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
+    let t129 = t12.times(t126) - t2.times(t121) + t29.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t119)));
+    let t130 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
+    let t131 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
+    let t132 = t12.times(t127) - t2.times(t122) + t29.times(t130) + t57.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t119)));
+    let t133 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
+    let t134 = t12.times(t128) - t2.times(t124) + t29.times(t131) + t57.times(t133) + t100.times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t119)));
+    let t135 = g[2].fnma(T::lit(0.126156626101008), t119);
+    let t136 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t137 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
+    let t138 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
+    let t139 = g[4] * T::lit(0.19018826981554557);
+    let t140 = t9.times(t136) + t3.times(t135) + t32.times(t137) + t53.times(t138) + t105.times(t139);
+    let t141 = t13.times(t136) + t1.times(t135) + t38.times(t137) - t67.times(t138) + t118.times(t139);
+    let t142 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t119));
+    let t143 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
+    let t144 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
+    let t145 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
+    let t146 = t9.times(t142) + t3.times(t136) + t32.times(t143) + t53.times(t144) + t105.times(t145);
+    let t147 = t13.times(t142) + t1.times(t136) + t38.times(t143) - t67.times(t144) + t118.times(t145);
+    let t148 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t119));
+    let t149 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
+    let t150 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
+    let t151 = t13.times(t143) + t1.times(t137) + t38.times(t148) - t67.times(t149) + t118.times(t150);
+    let t152 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t119));
+    let t153 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
+    let t154 = t13.times(t144) + t1.times(t138) + t38.times(t149) - t67.times(t152) + t118.times(t153);
+    let t155 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t119));
+    let t156 = t13.times(t145) + t1.times(t139) + t38.times(t150) - t67.times(t153) + t118.times(t155);
+    let t157 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t119));
+    let t158 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
+    let t159 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
+    let t160 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
+    let t161 = t30.times(t158) + t11.times(t157) + t56.times(t159) + t99.times(t160);
+    let t162 = t35.times(t158) + t14.times(t157) + t70.times(t159) + t115.times(t160);
+    let t163 = g[4].fnma(T::lit(0.17951486749246792), t119);
+    let t164 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
+    let t165 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
+    let t166 = t30.times(t163) + t11.times(t158) + t56.times(t164) + t99.times(t165);
+    let t167 = t35.times(t163) + t14.times(t158) + t70.times(t164) + t115.times(t165);
+    let t168 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t119));
+    let t169 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
+    let t170 = t30.times(t164) + t11.times(t159) + t56.times(t168) + t99.times(t169);
+    let t171 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t119));
+    let t172 = t30.times(t165) + t11.times(t160) + t56.times(t169) + t99.times(t171);
+    let t173 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t119));
+    let t174 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
+    let t175 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
+    let t176 = t54.times(t174) + t33.times(t173) + t104.times(t175);
+    let t177 = t68.times(t174) + t37.times(t173) + t117.times(t175);
+    let t178 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t119));
+    let t179 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
+    let t180 = t54.times(t178) + t33.times(t174) + t104.times(t179);
+    let t181 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t119));
+    let t182 = t68.times(t179) + t37.times(t175) + t117.times(t181);
+    let t183 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t119));
+    let t184 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
+    let t185 = t98.times(t184) + t55.times(t183);
+    let t186 = t116.times(t184) + t71.times(t183);
+    let t187 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t119));
+    let t188 = t98.times(t187) + t55.times(t184);
+    let t189 = t116.times(t187) + t71.times(t184);
+    let t190 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t119));
+    let t191 = t103.times(t190);
+    let t192 = t113.fma(T::lit(0.6846531968814576), t112.fnma(T::lit(0.19764235376052372), t78)).times(t190);
+    let t193 = b[0] * T::lit(0.28209479177387814);
+    let t194 = t123 + t100.times(t124) + g[1].times(t193);
+    let t195 = t125 - t2.times(t120) + t29.times(t126) + t57.times(t127) + t100.times(t128) + g[2].times(t193);
+    let t196 = t132 + t100.times(t133) + g[4].times(t193);
+    let t197 = g[0].times(b[0]) - g[1].times(t2) + g[2].times(t12) + g[3].times(t29) + g[4].times(t57) + g[5].times(t100);
+    let t198 = t140.fms(cs[5][0], t194 * cs[5][1]);
+    let t199 = t195.fnma(T::lit(1.7320508075688772), t161);
+    let t200 = t146.fma(cs[6][0], t199 * cs[10][1]);
+    let t201 = t199.fma(cs[10][0], t146 * cs[10][1]);
+    let t202 = t161 - t201;
+    let t203 = t147.fma(cs[5][0], t162 * cs[5][1]);
+    let t204 = t162.fnma(cs[5][0], t147 * cs[5][1]);
+    let t205 = t166.fnma(T::lit(0.3419987131196464), t129 + t57.times(t130) + t100.times(t131) + g[3].times(t193));
+    let t206 = t205.fma(T::lit(0.6123724356957945), t166);
+    let t207 = t206.fnma(T::lit(0.3419987131196464), t205);
+    let t208 = t176.fms(T::lit(0.12701665379258312), t9.times(t143) + t3.times(t137) + t32.times(t148) + t53.times(t149) + t105.times(t150));
+    let t209 = t208.fms(T::lit(0.25), t176);
+    let t210 = t209.fnma(T::lit(0.12701665379258312), t208);
+    let t211 = t207.fms(cs[7][0], t210 * cs[7][1]);
+    let t212 = t210.fma(cs[7][0], t207 * cs[7][1]);
+    let t213 = t211.fnma(T::lit(0.3419987131196464), t206.fms(cs[5][0], t209 * cs[5][1]));
+    let t214 = t213.fma(T::lit(0.6123724356957945), t211);
+    let t215 = t214.fnma(T::lit(0.3419987131196464), t213);
+    let t216 = t212.fms(T::lit(0.12701665379258312), t209.fma(cs[5][0], t206 * cs[5][1]));
+    let t217 = t216.fms(T::lit(0.25), t212);
+    let t218 = t217.fnma(T::lit(0.12701665379258312), t216);
+    let t219 = t177.fnma(T::lit(0.6123724356957945), t151 * T::lit(0.7905694150420949));
+    let t220 = t167.fms(cs[6][0], t219 * cs[6][1]);
+    let t221 = t167.fma(cs[6][1], t219.fms(cs[6][0], t219));
+    let t222 = t221.fnma(T::lit(0.6123724356957945), t177);
+    let t223 = t221.fma(T::lit(0.7905694150420949), t151);
+    let t224 = t180.fnma(T::lit(0.18267581368159952), t9.times(t144) + t3.times(t138) + t32.times(t149) + t53.times(t152) + t105.times(t153));
+    let t225 = t224.fma(T::lit(0.3535533905932738), t180);
+    let t226 = t225.fnma(T::lit(0.18267581368159952), t224);
+    let t227 = t196.fma(T::lit(0.739509972887452), t185.fms(T::lit(0.125), t170 * T::lit(0.6614378277661477)));
+    let t228 = t196.fma(T::lit(0.5590169943749475), t185.fnma(T::lit(0.6614378277661477), t170 * T::lit(0.5)));
+    let t229 = t226.fms(cs[8][0], t227 * cs[8][1]);
+    let t230 = t226.fma(cs[8][1], t227.fms(cs[8][0], t227));
+    let t231 = t225.fma(cs[6][1], t228.fms(cs[6][0], t228));
+    let t232 = t229.fnma(T::lit(0.18267581368159952), t225.fms(cs[6][0], t228 * cs[6][1]));
+    let t233 = t232.fma(T::lit(0.3535533905932738), t229);
+    let t234 = t233.fnma(T::lit(0.18267581368159952), t232);
+    let t235 = t231.fnma(T::lit(0.6614378277661477), t230.fma(T::lit(0.125), t185));
+    let t236 = t231.fma(T::lit(0.5), t230.fnma(T::lit(0.6614378277661477), t170));
+    let t237 = t154.fnma(T::lit(0.37796447300922725), t68.times(t178) + t37.times(t174) + t117.times(t179));
+    let t238 = t237.fma(T::lit(0.6614378277661477), t154);
+    let t239 = t238.fnma(T::lit(0.37796447300922725), t237);
+    let t240 = t186.fnma(T::lit(0.18267581368159952), t35.times(t164) + t14.times(t159) + t70.times(t168) + t115.times(t169));
+    let t241 = t240.fma(T::lit(0.3535533905932738), t186);
+    let t242 = t241.fnma(T::lit(0.18267581368159952), t240);
+    let t243 = t242.fma(cs[7][0], t239 * cs[7][1]);
+    let t244 = t238.fma(cs[5][0], t241 * cs[5][1]);
+    let t245 = t244.fma(T::lit(0.37796447300922725), t239.fms(cs[7][0], t242 * cs[7][1]));
+    let t246 = t245.fnma(T::lit(0.6614378277661477), t244);
+    let t247 = t246.fma(T::lit(0.37796447300922725), t245);
+    let t248 = t243.fnma(T::lit(0.18267581368159952), t241.fms(cs[5][0], t238 * cs[5][1]));
+    let t249 = t248.fma(T::lit(0.3535533905932738), t243);
+    let t250 = t249.fnma(T::lit(0.18267581368159952), t248);
+    let t251 = t172.fms(T::lit(0.07470077493066175), t134 + g[5].times(t193));
+    let t252 = t251.fms(T::lit(0.14857248482346963), t172);
+    let t253 = t252.fnma(T::lit(0.07470077493066175), t251);
+    let t254 = t252.fma(T::lit(0.4782913363666992), t253.fnma(T::lit(0.6642175991330467), t188));
+    let t255 = t254.fnma(T::lit(1.1976423537605236), t188);
+    let t256 = t254.fma(T::lit(0.795495128834866), t253);
+    let t257 = t254.fnma(T::lit(0.57282196186948), t252);
+    let t258 = t191.fnma(T::lit(0.4472135954999579), t54.times(t179) + t33.times(t175) + t104.times(t181));
+    let t259 = t191.fma(T::lit(0.9660917830792959), t9.times(t145) + t3.times(t139) + t32.times(t150) + t53.times(t153) + t105.times(t155));
+    let t260 = t259.fms(T::lit(0.9057110466368399), t258.fma(T::lit(0.4192627457812106), t191));
+    let t261 = t260.fma(T::lit(0.4472135954999579), t258);
+    let t262 = t260.fnma(T::lit(0.9660917830792959), t259);
+    let t263 = t255.fms(cs[9][0], t260 * cs[9][1]);
+    let t264 = t260.fma(cs[9][0], t255 * cs[9][1]);
+    let t265 = t256.fms(cs[7][0], t261 * cs[7][1]);
+    let t266 = t265.fms(T::lit(0.07470077493066175), t257.fms(cs[5][0], t262 * cs[5][1]));
+    let t267 = t266.fms(T::lit(0.14857248482346963), t265);
+    let t268 = t267.fnma(T::lit(0.07470077493066175), t266);
+    let t269 = t267.fma(T::lit(0.5857848612461443), t268.fnma(T::lit(0.5716674888222586), t263));
+    let t270 = t269.fnma(T::lit(1.1976423537605236), t263);
+    let t271 = t269.fma(T::lit(0.6846531968814576), t268);
+    let t272 = t264.fnma(T::lit(0.4472135954999579), t261.fma(cs[7][0], t256 * cs[7][1]));
+    let t273 = t264.fma(T::lit(0.9660917830792959), t262.fma(cs[5][0], t257 * cs[5][1]));
+    let t274 = t273.fms(T::lit(0.9057110466368399), t272.fma(T::lit(0.4192627457812106), t264));
+    let t275 = t274.fma(T::lit(0.4472135954999579), t272);
+    let t276 = t274.fnma(T::lit(0.9660917830792959), t273);
+    let t277 = t189.fms(T::lit(0.2679491924311227), t35.times(t165) + t14.times(t160) + t70.times(t169) + t115.times(t171));
+    let t278 = t277.fms(T::lit(0.5), t189);
+    let t279 = t278.fnma(T::lit(0.2679491924311227), t277);
+    let t280 = t156.fnma(T::lit(0.57282196186948), t192.fnma(T::lit(0.19764235376052372), t182 * T::lit(0.795495128834866)));
+    let t281 = t156.fnma(T::lit(0.6614378277661477), t192.fms(T::lit(0.6846531968814576), t182 * T::lit(0.30618621784789724)));
+    let t282 = t279.fms(cs[8][0], t280 * cs[8][1]);
+    let t283 = t279.fma(cs[8][1], t280.fms(cs[8][0], t280));
+    let t284 = t278.fma(cs[6][1], t281.fms(cs[6][0], t281));
+    let t285 = t282.fms(T::lit(0.2679491924311227), t278.fms(cs[6][0], t281 * cs[6][1]));
+    let t286 = t285.fms(T::lit(0.5), t282);
+    let t287 = t286.fnma(T::lit(0.2679491924311227), t285);
+    let t288 = t284.fma(T::lit(0.6846531968814576), t283.fnma(T::lit(0.19764235376052372), t192));
+    let t289 = t284.fnma(T::lit(0.30618621784789724), t283.fma(T::lit(0.795495128834866), t182));
+    let t290 = t284.fnma(T::lit(0.6614378277661477), t283.fnma(T::lit(0.57282196186948), t156));
+    [
+        t197 * T::lit(0.28209479177387814),
+        t141.fma(cs[0][0], t198 * cs[0][1]),
+        t194.fma(cs[5][0], t140 * cs[5][1]),
+        t198.fms(cs[0][0], t141 * cs[0][1]),
+        t204.fnma(cs[1][0], t202 * cs[1][1]),
+        t203.fma(cs[0][0], t200 * cs[0][1]),
+        t201.fma(T::lit(1.7320508075688772), t195),
+        t200.fms(cs[0][0], t203 * cs[0][1]),
+        t202.fma(cs[1][0], t204 * cs[1][1]),
+        t222.fma(cs[2][0], t218 * cs[2][1]),
+        t220.fma(cs[1][0], t215 * cs[1][1]),
+        t223.fma(cs[0][0], t217 * cs[0][1]),
+        t214,
+        t217.fms(cs[0][0], t223 * cs[0][1]),
+        t215.fms(cs[1][0], t220 * cs[1][1]),
+        t218.fms(cs[2][0], t222 * cs[2][1]),
+        t250.fma(cs[3][0], t235 * cs[3][1]),
+        t247.fma(cs[2][0], t234 * cs[2][1]),
+        t249.fma(cs[1][0], t236 * cs[1][1]),
+        t246.fma(cs[0][0], t233 * cs[0][1]),
+        t231.fma(T::lit(0.5590169943749475), t230.fma(T::lit(0.739509972887452), t196)),
+        t233.fms(cs[0][0], t246 * cs[0][1]),
+        t236.fms(cs[1][0], t249 * cs[1][1]),
+        t234.fms(cs[2][0], t247 * cs[2][1]),
+        t235.fms(cs[3][0], t250 * cs[3][1]),
+        t288.fma(cs[4][0], t274 * cs[4][1]),
+        t287.fma(cs[3][0], t270 * cs[3][1]),
+        t289.fma(cs[2][0], t275 * cs[2][1]),
+        t286.fma(cs[1][0], t271 * cs[1][1]),
+        t290.fma(cs[0][0], t276 * cs[0][1]),
+        t269.fnma(T::lit(0.701560760020114), t267),
+        t276.fms(cs[0][0], t290 * cs[0][1]),
+        t271.fms(cs[1][0], t286 * cs[1][1]),
+        t275.fms(cs[2][0], t289 * cs[2][1]),
+        t270.fms(cs[3][0], t287 * cs[3][1]),
+        t274.fms(cs[4][0], t288 * cs[4][1]),
+    ]
+}
+
+/// [`product_zonal_about_angles`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_about_angles_rgb<T: Real>(cs: &[[T; 2]; 11], g: &[[T; 3]; 6], b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product_zonal_about_angles::<T, Channels<T, 3>>(cs, &g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_cosine:6`: Multiplies a function of order 6 by the clamped cosine max(0, z), of which all
+/// bands count; the product is cut off at the order.
+///
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 126 (36 mul, 0 add, 90 fma); 45 constants, 36 live values.
+/// - Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_cosine<T: Real, V: Signal<T>>(b: &[V; 36]) -> [V; 36] {
+    let t0 = b[6].fma(T::lit(0.13975424859373686), b[0].fma(T::lit(0.25), b[2] * T::lit(0.28867513459481287)));
+    let t1 = b[11].fma(T::lit(0.11692679333668567), b[1].fma(T::lit(0.1875), b[5] * T::lit(0.22360679774997896)));
+    let t2 = b[6].fma(T::lit(0.25819888974716115), b[0].fma(T::lit(0.28867513459481287), b[2] * T::lit(0.375)));
+    let t3 = b[13].fma(T::lit(0.11692679333668567), b[3].fma(T::lit(0.1875), b[7] * T::lit(0.22360679774997896)));
+    let t4 = b[18].fma(T::lit(0.1014873520059889), b[4].fma(T::lit(0.15625), b[10] * T::lit(0.18898223650461363)));
+    let t5 = b[11].fma(T::lit(0.23904572186687872), b[1].fma(T::lit(0.22360679774997896), b[5] * T::lit(0.3125)));
+    let t6 = b[6].fma(T::lit(0.3125), b[0].fma(T::lit(0.13975424859373686), b[2] * T::lit(0.25819888974716115)));
+    let t7 = b[13].fma(T::lit(0.23904572186687872), b[3].fma(T::lit(0.22360679774997896), b[7] * T::lit(0.3125)));
+    let t8 = b[22].fma(T::lit(0.1014873520059889), b[8].fma(T::lit(0.15625), b[14] * T::lit(0.18898223650461363)));
+    let t9 = b[27].fma(T::lit(0.09068895911128047), b[9].fma(T::lit(0.13671875), b[17] * T::lit(0.16666666666666666)));
+    let t10 = b[18].fma(T::lit(0.2182178902359924), b[4].fma(T::lit(0.18898223650461363), b[10] * T::lit(0.2734375)));
+    let t11 = b[11].fma(T::lit(0.30078125), b[1].fma(T::lit(0.11692679333668567), b[5] * T::lit(0.23904572186687872)));
+    let t12 = b[12].fma(T::lit(0.328125), b[2].fma(T::lit(0.09547032697824667), b[6] * T::lit(0.253546276418555)));
+    let t13 = b[13].fma(T::lit(0.30078125), b[3].fma(T::lit(0.11692679333668567), b[7] * T::lit(0.23904572186687872)));
+    let t14 = b[22].fma(T::lit(0.2182178902359924), b[8].fma(T::lit(0.18898223650461363), b[14] * T::lit(0.2734375)));
+    let t15 = b[33].fma(T::lit(0.09068895911128047), b[15].fma(T::lit(0.13671875), b[23] * T::lit(0.16666666666666666)));
+    let t16 = b[27].fma(T::lit(0.20100756305184242), b[9].fma(T::lit(0.16666666666666666), b[17] * T::lit(0.24609375)));
+    let t17 = b[18].fma(T::lit(0.28125), b[4].fma(T::lit(0.1014873520059889), b[10] * T::lit(0.2182178902359924)));
+    let t18 = b[19].fma(T::lit(0.31640625), b[5].fma(T::lit(0.09568319307746789), b[11] * T::lit(0.2439750182371333)));
+    let t19 = b[12].fma(T::lit(0.25197631533948484), b[6].fms(T::lit(0.1135503269824112), b[0] * T::lit(0.03125)));
+    let t20 = b[21].fma(T::lit(0.31640625), b[7].fma(T::lit(0.09568319307746789), b[13] * T::lit(0.2439750182371333)));
+    let t21 = b[22].fma(T::lit(0.28125), b[8].fma(T::lit(0.1014873520059889), b[14] * T::lit(0.2182178902359924)));
+    let t22 = b[33].fma(T::lit(0.20100756305184242), b[15].fma(T::lit(0.16666666666666666), b[23] * T::lit(0.24609375)));
+    let t23 = b[27].fma(T::lit(0.26318359375), b[9].fma(T::lit(0.09068895911128047), b[17] * T::lit(0.20100756305184242)));
+    let t24 = b[28].fma(T::lit(0.30078125), b[10].fma(T::lit(0.09068895911128047), b[18] * T::lit(0.23028309323591914)));
+    let t25 = b[19].fma(T::lit(0.24618298195866548), b[11].fms(T::lit(0.10839403848055944), b[1] * T::lit(0.028969525340217434)));
+    let t26 = b[20].fma(T::lit(0.251259453814803), b[12].fms(T::lit(0.10283161391475143), b[2] * T::lit(0.014959798558692783)));
+    let t27 = b[21].fma(T::lit(0.24618298195866548), b[13].fms(T::lit(0.10839403848055944), b[3] * T::lit(0.028969525340217434)));
+    let t28 = b[32].fma(T::lit(0.30078125), b[14].fma(T::lit(0.09068895911128047), b[22] * T::lit(0.23028309323591914)));
+    let t29 = b[33].fma(T::lit(0.26318359375), b[15].fma(T::lit(0.09068895911128047), b[23] * T::lit(0.20100756305184242)));
+    [
+        b[20].fnma(T::lit(0.03125), t0),
+        b[29].fnma(T::lit(0.028969525340217434), t1),
+        b[30].fnma(T::lit(0.014959798558692783), b[12].fma(T::lit(0.09547032697824667), t2)),
+        b[31].fnma(T::lit(0.028969525340217434), t3),
+        t4,
+        b[19].fma(T::lit(0.09568319307746789), t5),
+        b[20].fma(T::lit(0.1135503269824112), b[12].fma(T::lit(0.253546276418555), t6)),
+        b[21].fma(T::lit(0.09568319307746789), t7),
+        t8,
+        t9,
+        b[28].fma(T::lit(0.09068895911128047), t10),
+        b[29].fma(T::lit(0.10839403848055944), b[19].fma(T::lit(0.2439750182371333), t11)),
+        b[30].fma(T::lit(0.10283161391475143), b[20].fma(T::lit(0.25197631533948484), t12)),
+        b[31].fma(T::lit(0.10839403848055944), b[21].fma(T::lit(0.2439750182371333), t13)),
+        b[32].fma(T::lit(0.09068895911128047), t14),
+        t15,
+        b[16].fma(T::lit(0.123046875), b[26] * T::lit(0.15075567228888181)),
+        t16,
+        b[28].fma(T::lit(0.23028309323591914), t17),
+        b[29].fma(T::lit(0.24618298195866548), t18),
+        b[30].fma(T::lit(0.251259453814803), b[20].fma(T::lit(0.31640625), t19)),
+        b[31].fma(T::lit(0.24618298195866548), t20),
+        b[32].fma(T::lit(0.23028309323591914), t21),
+        t22,
+        b[24].fma(T::lit(0.123046875), b[34] * T::lit(0.15075567228888181)),
+        b[25] * T::lit(0.11279296875),
+        b[16].fma(T::lit(0.15075567228888181), b[26] * T::lit(0.2255859375)),
+        t23,
+        t24,
+        b[29].fma(T::lit(0.3115234375), t25),
+        b[30].fma(T::lit(0.322265625), t26),
+        b[31].fma(T::lit(0.3115234375), t27),
+        t28,
+        t29,
+        b[24].fma(T::lit(0.15075567228888181), b[34] * T::lit(0.2255859375)),
+        b[35] * T::lit(0.11279296875),
+    ]
+}
+
+/// [`product_cosine`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_cosine_rgb<T: Real>(b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product_cosine::<T, Channels<T, 3>>(&b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_hemisphere:6`: Multiplies a function of order 6 by one where z > 0 and zero elsewhere, of
+/// which all bands count; the product is cut off at the order.
+///
+/// - b: the coefficients of a function of order 6, index l(l+1)+m.
+/// - Returns the coefficients of the product, index l(l+1)+m.
+/// - Operations: 106 (36 mul, 0 add, 70 fma); 23 constants, 36 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_hemisphere<T: Real, V: Signal<T>>(b: &[V; 36]) -> [V; 36] {
+    let t0 = b[12].fnma(T::lit(0.16535945694153692), b[0].fma(T::lit(0.5), b[2] * T::lit(0.4330127018922193)));
+    let t1 = b[19].fnma(T::lit(0.1711632992203644), b[1].fma(T::lit(0.5), b[5] * T::lit(0.4192627457812106)));
+    let t2 = b[6].fma(T::lit(0.24206145913796356), b[0].fma(T::lit(0.4330127018922193), b[2] * T::lit(0.5)));
+    let t3 = b[21].fnma(T::lit(0.1711632992203644), b[3].fma(T::lit(0.5), b[7] * T::lit(0.4192627457812106)));
+    let t4 = b[28].fnma(T::lit(0.17138602319125237), b[4].fma(T::lit(0.5), b[10] * T::lit(0.41339864235384227)));
+    let t5 = b[11].fma(T::lit(0.2614562582918986), b[1].fma(T::lit(0.4192627457812106), b[5] * T::lit(0.5)));
+    let t6 = b[12].fma(T::lit(0.369754986443726), b[2].fma(T::lit(0.24206145913796356), b[6] * T::lit(0.5)));
+    let t7 = b[13].fma(T::lit(0.2614562582918986), b[3].fma(T::lit(0.4192627457812106), b[7] * T::lit(0.5)));
+    let t8 = b[32].fnma(T::lit(0.17138602319125237), b[8].fma(T::lit(0.5), b[14] * T::lit(0.41339864235384227)));
+    let t9 = b[18].fma(T::lit(0.26851029462631876), b[4].fma(T::lit(0.41339864235384227), b[10] * T::lit(0.5)));
+    let t10 = b[19].fma(T::lit(0.3602443628657671), b[5].fma(T::lit(0.2614562582918986), b[11] * T::lit(0.5)));
+    let t11 = b[12].fma(T::lit(0.5), b[6].fms(T::lit(0.369754986443726), b[0] * T::lit(0.16535945694153692)));
+    let t12 = b[21].fma(T::lit(0.3602443628657671), b[7].fma(T::lit(0.2614562582918986), b[13] * T::lit(0.5)));
+    let t13 = b[22].fma(T::lit(0.26851029462631876), b[8].fma(T::lit(0.41339864235384227), b[14] * T::lit(0.5)));
+    let t14 = b[28].fma(T::lit(0.3562191598493124), b[10].fma(T::lit(0.26851029462631876), b[18] * T::lit(0.5)));
+    let t15 = b[19].fma(T::lit(0.5), b[11].fms(T::lit(0.3602443628657671), b[1] * T::lit(0.1711632992203644)));
+    let t16 = b[20].fma(T::lit(0.5), b[12].fms(T::lit(0.27904408358884353), b[2] * T::lit(0.05412658773652741)));
+    let t17 = b[21].fma(T::lit(0.5), b[13].fms(T::lit(0.3602443628657671), b[3] * T::lit(0.1711632992203644)));
+    let t18 = b[32].fma(T::lit(0.3562191598493124), b[14].fma(T::lit(0.26851029462631876), b[22] * T::lit(0.5)));
+    let t19 = b[33].fma(T::lit(0.2720668773338414), b[15].fma(T::lit(0.41015625), b[23] * T::lit(0.5)));
+    let t20 = b[28].fma(T::lit(0.5), b[18].fms(T::lit(0.3562191598493124), b[4] * T::lit(0.17138602319125237)));
+    let t21 = b[29].fma(T::lit(0.5), b[19].fms(T::lit(0.28561072516298297), b[5] * T::lit(0.06477782793662891)));
+    let t22 = b[20].fma(T::lit(0.3498002708577961), b[0].fms(T::lit(0.10364452469860624), b[6] * T::lit(0.14484762670108717)));
+    let t23 = b[31].fma(T::lit(0.5), b[21].fms(T::lit(0.28561072516298297), b[7] * T::lit(0.06477782793662891)));
+    let t24 = b[32].fma(T::lit(0.5), b[22].fms(T::lit(0.3562191598493124), b[8] * T::lit(0.17138602319125237)));
+    [
+        b[30].fma(T::lit(0.10364452469860624), t0),
+        t1,
+        b[20].fnma(T::lit(0.05412658773652741), t2),
+        t3,
+        t4,
+        b[29].fnma(T::lit(0.06477782793662891), t5),
+        b[30].fnma(T::lit(0.14484762670108717), t6),
+        b[31].fnma(T::lit(0.06477782793662891), t7),
+        t8,
+        b[9].fma(T::lit(0.5), b[17] * T::lit(0.41015625)),
+        t9,
+        t10,
+        b[20].fma(T::lit(0.27904408358884353), t11),
+        t12,
+        t13,
+        b[15].fma(T::lit(0.5), b[23] * T::lit(0.41015625)),
+        b[16].fma(T::lit(0.5), b[26] * T::lit(0.4081003160007621)),
+        b[27].fma(T::lit(0.2720668773338414), b[9].fma(T::lit(0.41015625), b[17] * T::lit(0.5))),
+        t14,
+        b[29].fma(T::lit(0.28561072516298297), t15),
+        b[30].fma(T::lit(0.3498002708577961), t16),
+        b[31].fma(T::lit(0.28561072516298297), t17),
+        t18,
+        t19,
+        b[24].fma(T::lit(0.5), b[34] * T::lit(0.4081003160007621)),
+        b[25] * T::lit(0.5),
+        b[16].fma(T::lit(0.4081003160007621), b[26] * T::lit(0.5)),
+        b[17].fma(T::lit(0.2720668773338414), b[27] * T::lit(0.5)),
+        t20,
+        t21,
+        b[30].fma(T::lit(0.5), t22),
+        t23,
+        t24,
+        b[23].fma(T::lit(0.2720668773338414), b[33] * T::lit(0.5)),
+        b[24].fma(T::lit(0.4081003160007621), b[34] * T::lit(0.5)),
+        b[35] * T::lit(0.5),
+    ]
+}
+
+/// [`product_hemisphere`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_hemisphere_rgb<T: Real>(b: &[[T; 3]; 36]) -> [[T; 3]; 36] {
+    product_hemisphere::<T, Channels<T, 3>>(&b.map(Channels)).map(|v| v.0)
+}
+
+/// `axis_angles:6`: The multiples of a direction's two angles that products of order 6 about it take;
+/// done once for many of them.
+///
+/// - dir: the axis, of unit length.
+/// - Returns (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ?
+///   cos phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// - Operations: 39 (22 mul, 2 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 21
+///   live values.
+/// - Error: f32 rounding at most 3.8e-6 of the norm of a band, for every dir of unit length (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn axis_angles<T: Real>(dir: [T; 3]) -> [[T; 2]; 11] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = t3.fms(t3, t4 * t4);
+    let t6 = t3 * t4;
+    let t7 = t6 + t6;
+    let t8 = t3.fms(t5, t4 * t7);
+    let t9 = t3.fma(t7, t4 * t5);
+    let t10 = t3.fms(t8, t4 * t9);
+    let t11 = t3.fma(t9, t4 * t8);
+    let t12 = t1 * t2;
+    let t13 = t12 * t12;
+    let t14 = dir[2].fms(dir[2], t13);
+    let t15 = dir[2] * t12;
+    let t16 = T::lit(2.0) * t15;
+    let t17 = dir[2].fms(t14, t12 * t16);
+    let t18 = dir[2].fma(t16, t12 * t14);
+    let t19 = dir[2].fms(t17, t12 * t18);
+    let t20 = dir[2].fma(t18, t12 * t17);
+    [
+        [t3, t4],
+        [t5, t7],
+        [t8, t9],
+        [t10, t11],
+        [t3.fms(t10, t4 * t11), t3.fma(t11, t4 * t10)],
+        [dir[2], t12],
+        [t14, t16],
+        [t17, t18],
+        [t19, t20],
+        [dir[2].fms(t19, t12 * t20), dir[2].fma(t20, t12 * t19)],
+        [T::lit(0.5) * t13, t15],
+    ]
 }
 

@@ -151,6 +151,82 @@ pub mod sh2 {
             ("rotate_x_minus_90:2:rgb", "sh2_rotate_x_minus_90deg_rgb"),
         ],
     };
+
+    /// Zonal functions, convolution with them, lights.
+    pub const LIGHTING: Shaders = Shaders {
+        order: 2,
+        group: "lighting",
+        wgsl: include_str!("../wgsl/sh2_lighting.wgsl"),
+        glsl: include_str!("../glsl/sh2_lighting.glsl"),
+        kernels: &[
+            ("cap:2", "sh2_cap"),
+            ("gaussian:2", "sh2_gaussian"),
+            ("gaussian:2:f32", "sh2_gaussian_narrow"),
+            ("phong:2", "sh2_phong"),
+            ("henyey_greenstein:2", "sh2_henyey_greenstein"),
+            ("convolve:2", "sh2_convolve"),
+            ("convolve:2:rgb", "sh2_convolve_rgb"),
+            ("convolve_cosine:2", "sh2_convolve_cosine"),
+            ("convolve_cosine:2:rgb", "sh2_convolve_cosine_rgb"),
+            ("irradiance:2", "sh2_irradiance"),
+            ("irradiance:2:rgb", "sh2_irradiance_rgb"),
+            ("light_directional:2", "sh2_light_directional"),
+            ("light_directional:2:rgb", "sh2_light_directional_rgb"),
+            ("light_sphere:2", "sh2_light_sphere"),
+            ("light_sphere:2:rgb", "sh2_light_sphere_rgb"),
+            ("light_cone:2", "sh2_light_cone"),
+            ("light_cone:2:rgb", "sh2_light_cone_rgb"),
+            ("light_hemisphere:2", "sh2_light_hemisphere"),
+            ("light_hemisphere:2:rgb", "sh2_light_hemisphere_rgb"),
+            ("light_gaussian:2", "sh2_light_gaussian"),
+            ("light_gaussian:2:rgb", "sh2_light_gaussian_rgb"),
+            ("dominant:2", "sh2_dominant"),
+            ("light_fit:2", "sh2_light_fit"),
+            ("light_fit_along:2", "sh2_light_fit_along"),
+            ("light_fit_along:2:rgb", "sh2_light_fit_along_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 2,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh2_products.wgsl"),
+        glsl: include_str!("../glsl/sh2_products.glsl"),
+        kernels: &[
+            ("product:2", "sh2_product"),
+            ("product:2:rgb", "sh2_product_rgb"),
+            ("square:2", "sh2_square"),
+            ("square:2:rgb", "sh2_square_rgb"),
+            ("dot:2", "sh2_dot"),
+            ("dot:2:rgb", "sh2_dot_rgb"),
+            ("product_matrix:2", "sh2_product_matrix"),
+            ("product_matrix:2:rgb", "sh2_product_matrix_rgb"),
+            ("product_by_matrix:2", "sh2_product_by_matrix"),
+            ("product_by_matrix:2:rgb", "sh2_product_by_matrix_rgb"),
+            ("product_grey:2", "sh2_product_grey"),
+            ("product_grey:2:rgb", "sh2_product_grey_rgb"),
+            ("product_zonal:2", "sh2_product_zonal"),
+            ("product_zonal:2:rgb", "sh2_product_zonal_rgb"),
+            ("product_zonal_about:2", "sh2_product_zonal_about"),
+            ("product_zonal_about:2:rgb", "sh2_product_zonal_about_rgb"),
+            ("product_zonal_about:2:angles", "sh2_product_zonal_about_angles"),
+            ("product_zonal_about:2:angles:rgb", "sh2_product_zonal_about_angles_rgb"),
+            ("product_cosine:2", "sh2_product_cosine"),
+            ("product_cosine:2:rgb", "sh2_product_cosine_rgb"),
+            ("product_cosine_about:2", "sh2_product_cosine_about"),
+            ("product_cosine_about:2:rgb", "sh2_product_cosine_about_rgb"),
+            ("product_cosine_about:2:angles", "sh2_product_cosine_about_angles"),
+            ("product_cosine_about:2:angles:rgb", "sh2_product_cosine_about_angles_rgb"),
+            ("product_hemisphere:2", "sh2_product_hemisphere"),
+            ("product_hemisphere:2:rgb", "sh2_product_hemisphere_rgb"),
+            ("product_hemisphere_about:2", "sh2_product_hemisphere_about"),
+            ("product_hemisphere_about:2:rgb", "sh2_product_hemisphere_about_rgb"),
+            ("product_hemisphere_about:2:angles", "sh2_product_hemisphere_about_angles"),
+            ("product_hemisphere_about:2:angles:rgb", "sh2_product_hemisphere_about_angles_rgb"),
+            ("axis_angles:2", "sh2_axis_angles"),
+        ],
+    };
 }
 
 /// The shaders of order 3: bands 0 to 2, 9 coefficients.
@@ -287,6 +363,84 @@ pub mod sh3 {
             ("rotate_x_plus_90:3:rgb", "sh3_rotate_x_plus_90deg_rgb"),
             ("rotate_x_minus_90:3", "sh3_rotate_x_minus_90deg"),
             ("rotate_x_minus_90:3:rgb", "sh3_rotate_x_minus_90deg_rgb"),
+        ],
+    };
+
+    /// Zonal functions, convolution with them, lights.
+    pub const LIGHTING: Shaders = Shaders {
+        order: 3,
+        group: "lighting",
+        wgsl: include_str!("../wgsl/sh3_lighting.wgsl"),
+        glsl: include_str!("../glsl/sh3_lighting.glsl"),
+        kernels: &[
+            ("cap:3", "sh3_cap"),
+            ("gaussian:3", "sh3_gaussian"),
+            ("gaussian:3:f32", "sh3_gaussian_narrow"),
+            ("phong:3", "sh3_phong"),
+            ("henyey_greenstein:3", "sh3_henyey_greenstein"),
+            ("convolve:3", "sh3_convolve"),
+            ("convolve:3:rgb", "sh3_convolve_rgb"),
+            ("convolve_cosine:3", "sh3_convolve_cosine"),
+            ("convolve_cosine:3:rgb", "sh3_convolve_cosine_rgb"),
+            ("irradiance:3", "sh3_irradiance"),
+            ("irradiance:3:rgb", "sh3_irradiance_rgb"),
+            ("light_directional:3", "sh3_light_directional"),
+            ("light_directional:3:rgb", "sh3_light_directional_rgb"),
+            ("light_sphere:3", "sh3_light_sphere"),
+            ("light_sphere:3:rgb", "sh3_light_sphere_rgb"),
+            ("light_cone:3", "sh3_light_cone"),
+            ("light_cone:3:rgb", "sh3_light_cone_rgb"),
+            ("light_hemisphere:3", "sh3_light_hemisphere"),
+            ("light_hemisphere:3:rgb", "sh3_light_hemisphere_rgb"),
+            ("light_gaussian:3", "sh3_light_gaussian"),
+            ("light_gaussian:3:rgb", "sh3_light_gaussian_rgb"),
+            ("dominant:3", "sh3_dominant"),
+            ("light_fit:3", "sh3_light_fit"),
+            ("light_fit_along:3", "sh3_light_fit_along"),
+            ("light_fit_along:3:rgb", "sh3_light_fit_along_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 3,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh3_products.wgsl"),
+        glsl: include_str!("../glsl/sh3_products.glsl"),
+        kernels: &[
+            ("product:3", "sh3_product"),
+            ("product:3:rgb", "sh3_product_rgb"),
+            ("product:2+3:3", "sh3_of_sh2_and_sh3_product"),
+            ("product:2+3:3:rgb", "sh3_of_sh2_and_sh3_product_rgb"),
+            ("square:3", "sh3_square"),
+            ("square:3:rgb", "sh3_square_rgb"),
+            ("dot:3", "sh3_dot"),
+            ("dot:3:rgb", "sh3_dot_rgb"),
+            ("product_matrix:3", "sh3_product_matrix"),
+            ("product_matrix:3:rgb", "sh3_product_matrix_rgb"),
+            ("product_by_matrix:3", "sh3_product_by_matrix"),
+            ("product_by_matrix:3:rgb", "sh3_product_by_matrix_rgb"),
+            ("product_grey:3", "sh3_product_grey"),
+            ("product_grey:3:rgb", "sh3_product_grey_rgb"),
+            ("product_zonal:3", "sh3_product_zonal"),
+            ("product_zonal:3:rgb", "sh3_product_zonal_rgb"),
+            ("product_zonal_about:3", "sh3_product_zonal_about"),
+            ("product_zonal_about:3:rgb", "sh3_product_zonal_about_rgb"),
+            ("product_zonal_about:3:angles", "sh3_product_zonal_about_angles"),
+            ("product_zonal_about:3:angles:rgb", "sh3_product_zonal_about_angles_rgb"),
+            ("product_cosine:3", "sh3_product_cosine"),
+            ("product_cosine:3:rgb", "sh3_product_cosine_rgb"),
+            ("product_cosine_about:3", "sh3_product_cosine_about"),
+            ("product_cosine_about:3:rgb", "sh3_product_cosine_about_rgb"),
+            ("product_cosine_about:3:angles", "sh3_product_cosine_about_angles"),
+            ("product_cosine_about:3:angles:rgb", "sh3_product_cosine_about_angles_rgb"),
+            ("product_hemisphere:3", "sh3_product_hemisphere"),
+            ("product_hemisphere:3:rgb", "sh3_product_hemisphere_rgb"),
+            ("product_hemisphere_about:3", "sh3_product_hemisphere_about"),
+            ("product_hemisphere_about:3:rgb", "sh3_product_hemisphere_about_rgb"),
+            ("product_hemisphere_about:3:angles", "sh3_product_hemisphere_about_angles"),
+            ("product_hemisphere_about:3:angles:rgb", "sh3_product_hemisphere_about_angles_rgb"),
+            ("axis_angles:3", "sh3_axis_angles"),
         ],
     };
 }
@@ -435,6 +589,84 @@ pub mod sh4 {
             ("rotate_x_plus_90:4:rgb", "sh4_rotate_x_plus_90deg_rgb"),
             ("rotate_x_minus_90:4", "sh4_rotate_x_minus_90deg"),
             ("rotate_x_minus_90:4:rgb", "sh4_rotate_x_minus_90deg_rgb"),
+        ],
+    };
+
+    /// Zonal functions, convolution with them, lights.
+    pub const LIGHTING: Shaders = Shaders {
+        order: 4,
+        group: "lighting",
+        wgsl: include_str!("../wgsl/sh4_lighting.wgsl"),
+        glsl: include_str!("../glsl/sh4_lighting.glsl"),
+        kernels: &[
+            ("cap:4", "sh4_cap"),
+            ("gaussian:4", "sh4_gaussian"),
+            ("gaussian:4:f32", "sh4_gaussian_narrow"),
+            ("phong:4", "sh4_phong"),
+            ("henyey_greenstein:4", "sh4_henyey_greenstein"),
+            ("convolve:4", "sh4_convolve"),
+            ("convolve:4:rgb", "sh4_convolve_rgb"),
+            ("convolve_cosine:4", "sh4_convolve_cosine"),
+            ("convolve_cosine:4:rgb", "sh4_convolve_cosine_rgb"),
+            ("irradiance:4", "sh4_irradiance"),
+            ("irradiance:4:rgb", "sh4_irradiance_rgb"),
+            ("light_directional:4", "sh4_light_directional"),
+            ("light_directional:4:rgb", "sh4_light_directional_rgb"),
+            ("light_sphere:4", "sh4_light_sphere"),
+            ("light_sphere:4:rgb", "sh4_light_sphere_rgb"),
+            ("light_cone:4", "sh4_light_cone"),
+            ("light_cone:4:rgb", "sh4_light_cone_rgb"),
+            ("light_hemisphere:4", "sh4_light_hemisphere"),
+            ("light_hemisphere:4:rgb", "sh4_light_hemisphere_rgb"),
+            ("light_gaussian:4", "sh4_light_gaussian"),
+            ("light_gaussian:4:rgb", "sh4_light_gaussian_rgb"),
+            ("dominant:4", "sh4_dominant"),
+            ("light_fit:4", "sh4_light_fit"),
+            ("light_fit_along:4", "sh4_light_fit_along"),
+            ("light_fit_along:4:rgb", "sh4_light_fit_along_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 4,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh4_products.wgsl"),
+        glsl: include_str!("../glsl/sh4_products.glsl"),
+        kernels: &[
+            ("product:4", "sh4_product"),
+            ("product:4:rgb", "sh4_product_rgb"),
+            ("product:2+4:4", "sh4_of_sh2_and_sh4_product"),
+            ("product:2+4:4:rgb", "sh4_of_sh2_and_sh4_product_rgb"),
+            ("square:4", "sh4_square"),
+            ("square:4:rgb", "sh4_square_rgb"),
+            ("dot:4", "sh4_dot"),
+            ("dot:4:rgb", "sh4_dot_rgb"),
+            ("product_matrix:4", "sh4_product_matrix"),
+            ("product_matrix:4:rgb", "sh4_product_matrix_rgb"),
+            ("product_by_matrix:4", "sh4_product_by_matrix"),
+            ("product_by_matrix:4:rgb", "sh4_product_by_matrix_rgb"),
+            ("product_grey:4", "sh4_product_grey"),
+            ("product_grey:4:rgb", "sh4_product_grey_rgb"),
+            ("product_zonal:4", "sh4_product_zonal"),
+            ("product_zonal:4:rgb", "sh4_product_zonal_rgb"),
+            ("product_zonal_about:4", "sh4_product_zonal_about"),
+            ("product_zonal_about:4:rgb", "sh4_product_zonal_about_rgb"),
+            ("product_zonal_about:4:angles", "sh4_product_zonal_about_angles"),
+            ("product_zonal_about:4:angles:rgb", "sh4_product_zonal_about_angles_rgb"),
+            ("product_cosine:4", "sh4_product_cosine"),
+            ("product_cosine:4:rgb", "sh4_product_cosine_rgb"),
+            ("product_cosine_about:4", "sh4_product_cosine_about"),
+            ("product_cosine_about:4:rgb", "sh4_product_cosine_about_rgb"),
+            ("product_cosine_about:4:angles", "sh4_product_cosine_about_angles"),
+            ("product_cosine_about:4:angles:rgb", "sh4_product_cosine_about_angles_rgb"),
+            ("product_hemisphere:4", "sh4_product_hemisphere"),
+            ("product_hemisphere:4:rgb", "sh4_product_hemisphere_rgb"),
+            ("product_hemisphere_about:4", "sh4_product_hemisphere_about"),
+            ("product_hemisphere_about:4:rgb", "sh4_product_hemisphere_about_rgb"),
+            ("product_hemisphere_about:4:angles", "sh4_product_hemisphere_about_angles"),
+            ("product_hemisphere_about:4:angles:rgb", "sh4_product_hemisphere_about_angles_rgb"),
+            ("axis_angles:4", "sh4_axis_angles"),
         ],
     };
 }
@@ -588,6 +820,72 @@ pub mod sh5 {
             ("rotate_x_minus_90:5:rgb", "sh5_rotate_x_minus_90deg_rgb"),
         ],
     };
+
+    /// Zonal functions, convolution with them, lights.
+    pub const LIGHTING: Shaders = Shaders {
+        order: 5,
+        group: "lighting",
+        wgsl: include_str!("../wgsl/sh5_lighting.wgsl"),
+        glsl: include_str!("../glsl/sh5_lighting.glsl"),
+        kernels: &[
+            ("cap:5", "sh5_cap"),
+            ("gaussian:5", "sh5_gaussian"),
+            ("gaussian:5:f32", "sh5_gaussian_narrow"),
+            ("phong:5", "sh5_phong"),
+            ("henyey_greenstein:5", "sh5_henyey_greenstein"),
+            ("convolve:5", "sh5_convolve"),
+            ("convolve:5:rgb", "sh5_convolve_rgb"),
+            ("convolve_cosine:5", "sh5_convolve_cosine"),
+            ("convolve_cosine:5:rgb", "sh5_convolve_cosine_rgb"),
+            ("irradiance:5", "sh5_irradiance"),
+            ("irradiance:5:rgb", "sh5_irradiance_rgb"),
+            ("light_directional:5", "sh5_light_directional"),
+            ("light_directional:5:rgb", "sh5_light_directional_rgb"),
+            ("light_sphere:5", "sh5_light_sphere"),
+            ("light_sphere:5:rgb", "sh5_light_sphere_rgb"),
+            ("light_cone:5", "sh5_light_cone"),
+            ("light_cone:5:rgb", "sh5_light_cone_rgb"),
+            ("light_hemisphere:5", "sh5_light_hemisphere"),
+            ("light_hemisphere:5:rgb", "sh5_light_hemisphere_rgb"),
+            ("light_gaussian:5", "sh5_light_gaussian"),
+            ("light_gaussian:5:rgb", "sh5_light_gaussian_rgb"),
+            ("dominant:5", "sh5_dominant"),
+            ("light_fit:5", "sh5_light_fit"),
+            ("light_fit_along:5", "sh5_light_fit_along"),
+            ("light_fit_along:5:rgb", "sh5_light_fit_along_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 5,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh5_products.wgsl"),
+        glsl: include_str!("../glsl/sh5_products.glsl"),
+        kernels: &[
+            ("product:5", "sh5_product"),
+            ("product:5:rgb", "sh5_product_rgb"),
+            ("product:2+5:5", "sh5_of_sh2_and_sh5_product"),
+            ("product:2+5:5:rgb", "sh5_of_sh2_and_sh5_product_rgb"),
+            ("square:5", "sh5_square"),
+            ("square:5:rgb", "sh5_square_rgb"),
+            ("dot:5", "sh5_dot"),
+            ("dot:5:rgb", "sh5_dot_rgb"),
+            ("product_grey:5", "sh5_product_grey"),
+            ("product_grey:5:rgb", "sh5_product_grey_rgb"),
+            ("product_zonal:5", "sh5_product_zonal"),
+            ("product_zonal:5:rgb", "sh5_product_zonal_rgb"),
+            ("product_zonal_about:5", "sh5_product_zonal_about"),
+            ("product_zonal_about:5:rgb", "sh5_product_zonal_about_rgb"),
+            ("product_zonal_about:5:angles", "sh5_product_zonal_about_angles"),
+            ("product_zonal_about:5:angles:rgb", "sh5_product_zonal_about_angles_rgb"),
+            ("product_cosine:5", "sh5_product_cosine"),
+            ("product_cosine:5:rgb", "sh5_product_cosine_rgb"),
+            ("product_hemisphere:5", "sh5_product_hemisphere"),
+            ("product_hemisphere:5:rgb", "sh5_product_hemisphere_rgb"),
+            ("axis_angles:5", "sh5_axis_angles"),
+        ],
+    };
 }
 
 /// The shaders of order 6: bands 0 to 5, 36 coefficients.
@@ -734,6 +1032,68 @@ pub mod sh6 {
             ("rotate_x_plus_90:6:rgb", "sh6_rotate_x_plus_90deg_rgb"),
             ("rotate_x_minus_90:6", "sh6_rotate_x_minus_90deg"),
             ("rotate_x_minus_90:6:rgb", "sh6_rotate_x_minus_90deg_rgb"),
+        ],
+    };
+
+    /// Zonal functions, convolution with them, lights.
+    pub const LIGHTING: Shaders = Shaders {
+        order: 6,
+        group: "lighting",
+        wgsl: include_str!("../wgsl/sh6_lighting.wgsl"),
+        glsl: include_str!("../glsl/sh6_lighting.glsl"),
+        kernels: &[
+            ("cap:6", "sh6_cap"),
+            ("gaussian:6", "sh6_gaussian"),
+            ("gaussian:6:f32", "sh6_gaussian_narrow"),
+            ("phong:6", "sh6_phong"),
+            ("henyey_greenstein:6", "sh6_henyey_greenstein"),
+            ("convolve:6", "sh6_convolve"),
+            ("convolve:6:rgb", "sh6_convolve_rgb"),
+            ("convolve_cosine:6", "sh6_convolve_cosine"),
+            ("convolve_cosine:6:rgb", "sh6_convolve_cosine_rgb"),
+            ("irradiance:6", "sh6_irradiance"),
+            ("irradiance:6:rgb", "sh6_irradiance_rgb"),
+            ("light_directional:6", "sh6_light_directional"),
+            ("light_directional:6:rgb", "sh6_light_directional_rgb"),
+            ("light_sphere:6", "sh6_light_sphere"),
+            ("light_sphere:6:rgb", "sh6_light_sphere_rgb"),
+            ("light_cone:6", "sh6_light_cone"),
+            ("light_cone:6:rgb", "sh6_light_cone_rgb"),
+            ("light_hemisphere:6", "sh6_light_hemisphere"),
+            ("light_hemisphere:6:rgb", "sh6_light_hemisphere_rgb"),
+            ("light_gaussian:6", "sh6_light_gaussian"),
+            ("light_gaussian:6:rgb", "sh6_light_gaussian_rgb"),
+            ("dominant:6", "sh6_dominant"),
+            ("light_fit:6", "sh6_light_fit"),
+            ("light_fit_along:6", "sh6_light_fit_along"),
+            ("light_fit_along:6:rgb", "sh6_light_fit_along_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 6,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh6_products.wgsl"),
+        glsl: include_str!("../glsl/sh6_products.glsl"),
+        kernels: &[
+            ("product:6", "sh6_product"),
+            ("product:6:rgb", "sh6_product_rgb"),
+            ("square:6", "sh6_square"),
+            ("square:6:rgb", "sh6_square_rgb"),
+            ("dot:6", "sh6_dot"),
+            ("dot:6:rgb", "sh6_dot_rgb"),
+            ("product_zonal:6", "sh6_product_zonal"),
+            ("product_zonal:6:rgb", "sh6_product_zonal_rgb"),
+            ("product_zonal_about:6", "sh6_product_zonal_about"),
+            ("product_zonal_about:6:rgb", "sh6_product_zonal_about_rgb"),
+            ("product_zonal_about:6:angles", "sh6_product_zonal_about_angles"),
+            ("product_zonal_about:6:angles:rgb", "sh6_product_zonal_about_angles_rgb"),
+            ("product_cosine:6", "sh6_product_cosine"),
+            ("product_cosine:6:rgb", "sh6_product_cosine_rgb"),
+            ("product_hemisphere:6", "sh6_product_hemisphere"),
+            ("product_hemisphere:6:rgb", "sh6_product_hemisphere_rgb"),
+            ("axis_angles:6", "sh6_axis_angles"),
         ],
     };
 }
@@ -884,6 +1244,18 @@ pub mod sh7 {
             ("rotate_x_minus_90:7:rgb", "sh7_rotate_x_minus_90deg_rgb"),
         ],
     };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 7,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh7_products.wgsl"),
+        glsl: include_str!("../glsl/sh7_products.glsl"),
+        kernels: &[
+            ("dot:7", "sh7_dot"),
+            ("dot:7:rgb", "sh7_dot_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 8: bands 0 to 7, 64 coefficients.
@@ -1030,6 +1402,18 @@ pub mod sh8 {
             ("rotate_x_plus_90:8:rgb", "sh8_rotate_x_plus_90deg_rgb"),
             ("rotate_x_minus_90:8", "sh8_rotate_x_minus_90deg"),
             ("rotate_x_minus_90:8:rgb", "sh8_rotate_x_minus_90deg_rgb"),
+        ],
+    };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 8,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh8_products.wgsl"),
+        glsl: include_str!("../glsl/sh8_products.glsl"),
+        kernels: &[
+            ("dot:8", "sh8_dot"),
+            ("dot:8:rgb", "sh8_dot_rgb"),
         ],
     };
 }
@@ -1180,6 +1564,18 @@ pub mod sh9 {
             ("rotate_x_minus_90:9:rgb", "sh9_rotate_x_minus_90deg_rgb"),
         ],
     };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 9,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh9_products.wgsl"),
+        glsl: include_str!("../glsl/sh9_products.glsl"),
+        kernels: &[
+            ("dot:9", "sh9_dot"),
+            ("dot:9:rgb", "sh9_dot_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 10: bands 0 to 9, 100 coefficients.
@@ -1328,6 +1724,18 @@ pub mod sh10 {
             ("rotate_x_minus_90:10:rgb", "sh10_rotate_x_minus_90deg_rgb"),
         ],
     };
+
+    /// Products of functions on the sphere.
+    pub const PRODUCTS: Shaders = Shaders {
+        order: 10,
+        group: "products",
+        wgsl: include_str!("../wgsl/sh10_products.wgsl"),
+        glsl: include_str!("../glsl/sh10_products.glsl"),
+        kernels: &[
+            ("dot:10", "sh10_dot"),
+            ("dot:10:rgb", "sh10_dot_rgb"),
+        ],
+    };
 }
 
 /// All of them, of the orders whose features are on.
@@ -1344,6 +1752,10 @@ pub const ALL: &[Shaders] = &[
     sh2::FACTORISATION,
     #[cfg(feature = "order2")]
     sh2::PIECES,
+    #[cfg(feature = "order2")]
+    sh2::LIGHTING,
+    #[cfg(feature = "order2")]
+    sh2::PRODUCTS,
     #[cfg(feature = "order3")]
     sh3::EVALUATION,
     #[cfg(feature = "order3")]
@@ -1356,6 +1768,10 @@ pub const ALL: &[Shaders] = &[
     sh3::FACTORISATION,
     #[cfg(feature = "order3")]
     sh3::PIECES,
+    #[cfg(feature = "order3")]
+    sh3::LIGHTING,
+    #[cfg(feature = "order3")]
+    sh3::PRODUCTS,
     #[cfg(feature = "order4")]
     sh4::EVALUATION,
     #[cfg(feature = "order4")]
@@ -1368,6 +1784,10 @@ pub const ALL: &[Shaders] = &[
     sh4::FACTORISATION,
     #[cfg(feature = "order4")]
     sh4::PIECES,
+    #[cfg(feature = "order4")]
+    sh4::LIGHTING,
+    #[cfg(feature = "order4")]
+    sh4::PRODUCTS,
     #[cfg(feature = "order5")]
     sh5::EVALUATION,
     #[cfg(feature = "order5")]
@@ -1380,6 +1800,10 @@ pub const ALL: &[Shaders] = &[
     sh5::FACTORISATION,
     #[cfg(feature = "order5")]
     sh5::PIECES,
+    #[cfg(feature = "order5")]
+    sh5::LIGHTING,
+    #[cfg(feature = "order5")]
+    sh5::PRODUCTS,
     #[cfg(feature = "order6")]
     sh6::EVALUATION,
     #[cfg(feature = "order6")]
@@ -1392,6 +1816,10 @@ pub const ALL: &[Shaders] = &[
     sh6::FACTORISATION,
     #[cfg(feature = "order6")]
     sh6::PIECES,
+    #[cfg(feature = "order6")]
+    sh6::LIGHTING,
+    #[cfg(feature = "order6")]
+    sh6::PRODUCTS,
     #[cfg(feature = "order7")]
     sh7::EVALUATION,
     #[cfg(feature = "order7")]
@@ -1404,6 +1832,8 @@ pub const ALL: &[Shaders] = &[
     sh7::FACTORISATION,
     #[cfg(feature = "order7")]
     sh7::PIECES,
+    #[cfg(feature = "order7")]
+    sh7::PRODUCTS,
     #[cfg(feature = "order8")]
     sh8::EVALUATION,
     #[cfg(feature = "order8")]
@@ -1416,6 +1846,8 @@ pub const ALL: &[Shaders] = &[
     sh8::FACTORISATION,
     #[cfg(feature = "order8")]
     sh8::PIECES,
+    #[cfg(feature = "order8")]
+    sh8::PRODUCTS,
     #[cfg(feature = "order9")]
     sh9::EVALUATION,
     #[cfg(feature = "order9")]
@@ -1428,6 +1860,8 @@ pub const ALL: &[Shaders] = &[
     sh9::FACTORISATION,
     #[cfg(feature = "order9")]
     sh9::PIECES,
+    #[cfg(feature = "order9")]
+    sh9::PRODUCTS,
     #[cfg(feature = "order10")]
     sh10::EVALUATION,
     #[cfg(feature = "order10")]
@@ -1440,4 +1874,6 @@ pub const ALL: &[Shaders] = &[
     sh10::FACTORISATION,
     #[cfg(feature = "order10")]
     sh10::PIECES,
+    #[cfg(feature = "order10")]
+    sh10::PRODUCTS,
 ];
