@@ -213,9 +213,9 @@ impl Projected {
         let target = language::named(name).map_err(|message: String| Fault::new(message, ""))?;
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase());
         let stem: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-        let name = match names::fault(&stem, Use::Item, &[target]) {
+        let name = match names::fault(&stem, Use::Item, &language::ALL) {
             None => stem,
-            Some(_) => match names::fault(&format!("{stem}_map"), Use::Item, &[target]) {
+            Some(_) => match names::fault(&format!("{stem}_map"), Use::Item, &language::ALL) {
                 None => format!("{stem}_map"),
                 Some(_) => "environment".to_owned(),
             },

@@ -14,9 +14,10 @@ use std::f64::consts::PI;
 
 /// Elevations, and azimuths of a quarter turn, of the views that a reflectance is averaged over.
 const VIEWS: [usize; 2] = [8, 2];
-/// Elevations and azimuths of the lights at which a reflectance is integrated, for up to 64 bands. The azimuths are a power
-/// of two.
-const LIGHTS: [usize; 2] = [96, 512];
+/// The fewest elevations of the lights at which a reflectance is integrated.
+const ELEVATIONS: usize = 96;
+/// The fewest azimuths, a power of two.
+const AZIMUTHS: usize = 512;
 
 /// Views that stand for all of the hemisphere, each with its weight; the weights add up to one. A reflectance is its own
 /// mirror image at both planes of its tangent, so that the azimuths of a quarter are enough; one that is the same all
@@ -72,8 +73,7 @@ struct Grid {
 
 impl Grid {
     fn new(order: usize) -> Self {
-        let scale = order.div_ceil(64).next_power_of_two();
-        let count = scale * LIGHTS[1];
+        let count = AZIMUTHS.max((4 * order).next_power_of_two());
         let row = |(cos, weight): (f64, f64)| {
             let sin = (1.0 - cos * cos).sqrt();
             let mut values = vec![0.0; order * order];
@@ -86,7 +86,7 @@ impl Grid {
         };
         Self {
             order,
-            rows: gauss_legendre(scale * LIGHTS[0], 0.0, 1.0).map(row).collect(),
+            rows: gauss_legendre(ELEVATIONS.max(order), 0.0, 1.0).map(row).collect(),
             azimuths: (0..count).map(azimuth).collect(),
         }
     }

@@ -37,7 +37,7 @@ impl Norm {
         match self {
             Self::Max => "of the worst band's norm",
             Self::Mean => "of the worst band's norm, in the root mean square over signals",
-            Self::Signal => "of the norm of a signal with the environment's energies",
+            Self::Signal => "of the norm of the worst signal with the environment's energies",
         }
     }
 }

@@ -56,7 +56,7 @@ fn it_says_which_order_and_why() {
         "Which order?",
         "256 x 128, radiance",
         "One small light, 2 texels of 32768, holds 99.7 % of the map's energy",
-        "Of the light itself (a mirror), order 5 leaves out 99.6 %",
+        "Of the light itself (a mirror), order 5 leaves out 99.7 %",
         "The radiance of order 5 is negative in",
         "| diffuse light ",
         "| what `phong:8` reflects ",
