@@ -193,7 +193,7 @@ function limit() {
 function allBands(view) {
   const { light, brdf } = shown.choices;
   const map = row("maps", light);
-  const few = moving && milliseconds.all > SLOW;
+  const few = moving && milliseconds.all > SLOW / 2;
   const range = few ? [0, map.lights[0]] : [map.rows[0] * index.lightsARow, map.lights[1]];
   return { brdf: row("brdfs", brdf).numbers, range, key: JSON.stringify([shown.looks, state.strength, view, range]) };
 }
