@@ -32,7 +32,9 @@ const GLANCE = 700;
 /** All choices, also those in the address after `#`. */
 const state = { ...FIRST };
 
-const load = (path, kind) => fetch(path).then((answer) => {
+const load = (path, kind) => fetch(path).catch(() => {
+  throw new Error("What served this page has ended: run `zonal explore` again, and load the page again.");
+}).then((answer) => {
   if (!answer.ok) throw new Error(`${path} is missing (${answer.status}): run \`zonal explore\` again.`);
   return answer[kind]();
 });
