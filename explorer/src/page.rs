@@ -1,6 +1,6 @@
 //! The files of the explorer: its page, the shaders of every choice, and the data that they read, all from the library.
 
-use crate::lighting::{self, Lit, ORDER, floats};
+use crate::lighting::{self, Asset, Lit, ORDER, floats};
 use crate::own::{self, Own};
 use crate::upload;
 use indicatif::ProgressBar;
@@ -21,9 +21,6 @@ use zonal_picture::mesh::{self, Mesh};
 use zonal_picture::method::{Judged, Method};
 use zonal_picture::normal_map::{LEAST_Z, NormalMap};
 use zonal_picture::shade::{self, Shading};
-
-/// A file of the page: its path below the folder, with `/`, and its bytes.
-pub type Asset = (String, Vec<u8>);
 
 /// The reflectances to choose from.
 const BRDFS: [(&str, &str); 6] = [

@@ -1,8 +1,9 @@
 //! The command `explore`: writes the page and serves it to this machine alone.
 
 use crate::http::{self, Answer, Site};
+use crate::lighting::Asset;
 use crate::own::Own;
-use crate::page::{self, Asset};
+use crate::page;
 use crate::upload::{self, Uploads};
 use std::borrow::Cow;
 use std::io;

@@ -110,6 +110,8 @@ fn what_is_no_mesh_is_refused_with_a_reason() {
     }
 }
 
+type Turn = fn([f32; 3]) -> [f32; 3];
+
 #[test]
 fn a_mesh_may_be_in_the_axes_of_a_program() {
     let text = assets::embedded("meshes/bunny.obj").expect("embedded");
@@ -123,12 +125,11 @@ fn a_mesh_may_be_in_the_axes_of_a_program() {
     };
     assert!(volume(&plain) > 0.1);
     // The map's centre along +z: turned by a quarter about z. Left-handed: mirrored, and still with its faces outwards.
-    let turns: [(&str, fn([f32; 3]) -> [f32; 3]); 2] =
-        [("z,x,y", |[x, y, z]| [-y, x, z]), ("x,z,y", |[x, y, z]| [x, -y, z])];
+    let turns: [(&str, Turn); 2] = [("z,x,y", |[x, y, z]| [-y, x, z]), ("x,z,y", |[x, y, z]| [x, -y, z])];
     for (axes, turn) in turns {
         let found = of(axes);
         assert!((volume(&found) / volume(&plain) - 1.0).abs() < 1e-3, "{axes}: {}", volume(&found));
-        let corner = |mesh: &Mesh, turn: fn([f32; 3]) -> [f32; 3]| {
+        let corner = |mesh: &Mesh, turn: Turn| {
             let sums = mesh.positions.iter().map(|p| turn(*p));
             sums.fold([f32::MIN; 3], |most, p| std::array::from_fn(|i| most[i].max(p[i])))
         };
