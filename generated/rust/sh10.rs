@@ -16933,3 +16933,43 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
     rotate_x_minus_90deg::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
+/// `dot:10`: The integral over the sphere of the product of two functions of order 10: the sum of a_i
+/// b_i.
+/// a: the coefficients of a function of order 10, index l(l+1)+m.
+/// b: the coefficients of a function of order 10, index l(l+1)+m.
+/// Returns the integral of the product.
+/// Operations: 100 (1 mul, 0 add, 99 fma); 0 constants, 1 live values.
+/// Error: f32 rounding at most 5.2e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 1.8e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn dot<T: Real, V: Signal<T>>(a: &[V; 100], b: &[V; 100]) -> V {
+    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
+    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
+    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
+    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
+    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
+    let t5 = t4 + a[25].times(b[25]) + a[26].times(b[26]) + a[27].times(b[27]) + a[28].times(b[28]) + a[29].times(b[29]);
+    let t6 = t5 + a[30].times(b[30]) + a[31].times(b[31]) + a[32].times(b[32]) + a[33].times(b[33]) + a[34].times(b[34]);
+    let t7 = t6 + a[35].times(b[35]) + a[36].times(b[36]) + a[37].times(b[37]) + a[38].times(b[38]) + a[39].times(b[39]);
+    let t8 = t7 + a[40].times(b[40]) + a[41].times(b[41]) + a[42].times(b[42]) + a[43].times(b[43]) + a[44].times(b[44]);
+    let t9 = t8 + a[45].times(b[45]) + a[46].times(b[46]) + a[47].times(b[47]) + a[48].times(b[48]) + a[49].times(b[49]);
+    let t10 = t9 + a[50].times(b[50]) + a[51].times(b[51]) + a[52].times(b[52]) + a[53].times(b[53]) + a[54].times(b[54]);
+    let t11 = t10 + a[55].times(b[55]) + a[56].times(b[56]) + a[57].times(b[57]) + a[58].times(b[58]) + a[59].times(b[59]);
+    let t12 = t11 + a[60].times(b[60]) + a[61].times(b[61]) + a[62].times(b[62]) + a[63].times(b[63]) + a[64].times(b[64]);
+    let t13 = t12 + a[65].times(b[65]) + a[66].times(b[66]) + a[67].times(b[67]) + a[68].times(b[68]) + a[69].times(b[69]);
+    let t14 = t13 + a[70].times(b[70]) + a[71].times(b[71]) + a[72].times(b[72]) + a[73].times(b[73]) + a[74].times(b[74]);
+    let t15 = t14 + a[75].times(b[75]) + a[76].times(b[76]) + a[77].times(b[77]) + a[78].times(b[78]) + a[79].times(b[79]);
+    let t16 = t15 + a[80].times(b[80]) + a[81].times(b[81]) + a[82].times(b[82]) + a[83].times(b[83]) + a[84].times(b[84]);
+    let t17 = t16 + a[85].times(b[85]) + a[86].times(b[86]) + a[87].times(b[87]) + a[88].times(b[88]) + a[89].times(b[89]);
+    let t18 = t17 + a[90].times(b[90]) + a[91].times(b[91]) + a[92].times(b[92]) + a[93].times(b[93]) + a[94].times(b[94]);
+    let t19 = t18 + a[95].times(b[95]) + a[96].times(b[96]) + a[97].times(b[97]) + a[98].times(b[98]) + a[99].times(b[99]);
+    t19
+}
+
+/// [`dot`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn dot_rgb<T: Real>(a: &[[T; 3]; 100], b: &[[T; 3]; 100]) -> [T; 3] {
+    dot::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).0
+}
+

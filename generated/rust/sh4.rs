@@ -3014,3 +3014,1733 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
     rotate_x_minus_90deg::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
+/// `product:4`: Multiplies two functions of order 4; what the product has beyond that order is cut off.
+/// a: the coefficients of a function of order 4, index l(l+1)+m.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 307 (66 mul, 10 add, 231 fma); 22 constants, 22 live values.
+/// Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 5e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product<T: Real, V: Signal<T>>(a: &[V; 16], b: &[V; 16]) -> [V; 16] {
+    let t0 = a[0] * T::lit(0.28209479177387814);
+    let t1 = b[0] * T::lit(0.28209479177387814);
+    let t2 = a[2].times(b[2]);
+    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
+    let t4 = a[1].times(b[1]);
+    let t5 = t4 + a[3].times(b[3]);
+    let t6 = a[4] * T::lit(0.2185096861184158);
+    let t7 = a[6].fnma(T::lit(0.126156626101008), t0);
+    let t8 = b[4] * T::lit(0.2185096861184158);
+    let t9 = b[6].fnma(T::lit(0.126156626101008), t1);
+    let t10 = b[1].times(t6) + b[3].times(a[8].fma(T::lit(0.2185096861184158), t7)) + a[3].times(b[8].fma(T::lit(0.2185096861184158), t9));
+    let t11 = b[1].times(a[8].fnma(T::lit(0.2185096861184158), t7)) + b[3].times(t6) + a[3].times(t8) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t9));
+    let t12 = a[5].times(b[1]) + a[7].times(b[3]) + a[3].times(b[7]) + a[1].times(b[5]);
+    let t13 = a[2].fms(T::lit(0.2185096861184158), a[12] * T::lit(0.14304816810266882));
+    let t14 = b[2].fms(T::lit(0.2185096861184158), b[12] * T::lit(0.14304816810266882));
+    let t15 = (a[11].times(b[1]) + a[13].times(b[3]) + a[3].times(b[13]) + a[1].times(b[11])).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t5 * T::lit(0.126156626101008)));
+    let t16 = a[6] * T::lit(0.20230065940342062);
+    let t17 = b[6] * T::lit(0.20230065940342062);
+    let t18 = t10 + a[1].times(t8) + b[7].times(t13) + a[7].times(t14) + b[13].times(t16) + a[13].times(t17);
+    let t19 = a[6].times(b[6]);
+    let t20 = a[6].times(b[12]) + a[12].times(b[6]);
+    let t21 = a[2].fma(T::lit(0.24776669508347607), a[12] * T::lit(0.084104417400672));
+    let t22 = t19.fma(T::lit(0.18022375157286857), t15) + b[6].times(t0) + a[6].times(t1) + b[12].times(t21);
+    let t23 = b[2].fma(T::lit(0.24776669508347607), b[12] * T::lit(0.084104417400672));
+    let t24 = t12.fnma(T::lit(0.14304816810266882), t20 * T::lit(0.084104417400672)) + b[6].times(t21) + a[6].times(t23);
+    let t25 = a[5].times(b[5]);
+    let t26 = t25 + a[7].times(b[7]);
+    let t27 = (a[3].times(b[3]) - t4).fma(T::lit(0.2185096861184158), (a[7].times(b[7]) - t25) * T::lit(0.15607834722743988));
+    let t28 = (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), (a[5].times(b[7]) + a[7].times(b[5])) * T::lit(0.15607834722743988));
+    let t29 = a[4] * T::lit(0.15607834722743988);
+    let t30 = a[6].fma(T::lit(0.09011187578643429), t0);
+    let t31 = a[3].times(t14) + b[3].times(t13) + b[7].times(a[8].fma(T::lit(0.15607834722743988), t30));
+    let t32 = a[1].times(t14) + b[1].times(t13) + b[7].times(t29) + b[5].times(a[8].fnma(T::lit(0.15607834722743988), t30));
+    let t33 = b[4] * T::lit(0.15607834722743988);
+    let t34 = b[6].fma(T::lit(0.09011187578643429), t1);
+    let t35 = t31 + b[5].times(t29) + a[7].times(b[8].fma(T::lit(0.15607834722743988), t34)) + a[5].times(t33);
+    let t36 = a[11].times(b[5]) + a[13].times(b[7]) + a[7].times(b[13]) + a[5].times(b[11]);
+    let t37 = t36.fma(T::lit(0.2335966803276074), t20.fma(T::lit(0.24776669508347607), t12.fma(T::lit(0.2185096861184158), t3)));
+    let t38 = a[2].fma(T::lit(0.2335966803276074), a[12] * T::lit(0.059470803871759036));
+    let t39 = t32 + a[7].times(t33) + a[5].times(b[8].fnma(T::lit(0.15607834722743988), t34)) + b[11].times(t38);
+    let t40 = b[2].fma(T::lit(0.2335966803276074), b[12] * T::lit(0.059470803871759036));
+    let t41 = a[7].times(b[14]) + a[14].times(b[7]);
+    let t42 = a[5].times(b[10]) + a[10].times(b[5]);
+    let t43 = a[5].times(b[14]) + a[14].times(b[5]);
+    let t44 = a[7].times(b[10]) + a[10].times(b[7]);
+    let t45 = t41 + t42;
+    let t46 = t44 - t43;
+    let t47 = t46.fma(T::lit(0.1846743909223718), t11 + b[5].times(t13) + a[5].times(t14) + b[11].times(t16) + a[11].times(t17));
+    let t48 = t45.fma(T::lit(0.11516471649044516), a[3].times(t17) + b[3].times(t16) + b[7].times(t38) + a[7].times(t40));
+    let t49 = t46.fma(T::lit(0.11516471649044516), a[1].times(t17) + b[1].times(t16) + b[5].times(t38) + a[5].times(t40));
+    let t50 = a[3].fma(T::lit(0.1846743909223718), a[13] * T::lit(0.11516471649044516));
+    let t51 = a[1].fma(T::lit(0.1846743909223718), a[11] * T::lit(0.11516471649044516));
+    let t52 = a[15].fma(T::lit(0.1486770096793976), t50);
+    let t53 = a[15].fnma(T::lit(0.1486770096793976), t50);
+    let t54 = a[9].fma(T::lit(0.1486770096793976), t51);
+    let t55 = a[9].fms(T::lit(0.1486770096793976), t51);
+    let t56 = b[3].fma(T::lit(0.1846743909223718), b[13] * T::lit(0.11516471649044516));
+    let t57 = b[1].fma(T::lit(0.1846743909223718), b[11] * T::lit(0.11516471649044516));
+    let t58 = b[15].fma(T::lit(0.1486770096793976), t56);
+    let t59 = b[15].fnma(T::lit(0.1486770096793976), t56);
+    let t60 = b[9].fma(T::lit(0.1486770096793976), t57);
+    let t61 = b[9].fms(T::lit(0.1486770096793976), t57);
+    let t62 = t35 + b[13].times(t38) + a[13].times(t40) + b[14].times(t52) + b[10].times(t54) + a[14].times(t58);
+    let t63 = t39 + a[11].times(t40) + b[14].times(t55) + b[10].times(t53) + a[14].times(t61) + a[10].times(t59);
+    let t64 = a[4].times(b[4]) + a[8].times(b[8]);
+    let t65 = t64.fnma(T::lit(0.18022375157286857), t26.fma(T::lit(0.09011187578643429), t22 + a[12].times(t23)));
+    let t66 = a[6].fnma(T::lit(0.18022375157286857), t0);
+    let t67 = b[6].fnma(T::lit(0.18022375157286857), t1);
+    let t68 = a[10].times(b[4]) + a[14].times(b[8]) + a[8].times(b[14]) + a[4].times(b[10]);
+    let t69 = a[2].fms(T::lit(0.1846743909223718), a[12] * T::lit(0.18806319451591877));
+    let t70 = b[2].fms(T::lit(0.1846743909223718), b[12] * T::lit(0.18806319451591877));
+    let t71 = b[5].times(t55) + b[7].times(t52) + a[7].times(t58) + a[5].times(t61) + b[8].times(t69) + a[8].times(t70);
+    let t72 = b[5].times(t53) + b[7].times(t54) + a[7].times(t60) + a[5].times(t59) + b[4].times(t69) + a[4].times(t70);
+    let t73 = a[9].times(b[4]) + a[15].times(b[8]) + a[8].times(b[15]) + a[4].times(b[9]);
+    let t74 = a[9].times(b[8]) - a[15].times(b[4]) - a[4].times(b[15]) + a[8].times(b[9]);
+    let t75 = a[3].fms(T::lit(0.22617901315954028), a[13] * T::lit(0.09403159725795938));
+    let t76 = a[1].fms(T::lit(0.22617901315954028), a[11] * T::lit(0.09403159725795938));
+    let t77 = t27 + b[8].times(t66) + a[8].times(t67) + b[14].times(t69) + a[14].times(t70) + b[15].times(t75);
+    let t78 = t28 + b[4].times(t66) + a[4].times(t67) + b[10].times(t69) + a[10].times(t70) - b[15].times(t76);
+    let t79 = b[3].fms(T::lit(0.22617901315954028), b[13] * T::lit(0.09403159725795938));
+    let t80 = b[1].fms(T::lit(0.22617901315954028), b[11] * T::lit(0.09403159725795938));
+    let t81 = (t41 - t42).fma(T::lit(0.1486770096793976), b[8].times(t75)) - b[4].times(t76) + a[8].times(t79);
+    let t82 = (t43 + t44).fma(T::lit(0.1486770096793976), b[8].times(t76)) + b[4].times(t75) + a[8].times(t80);
+    let t83 = t68.fnma(T::lit(0.18806319451591877), t36.fma(T::lit(0.059470803871759036), t24)) + b[12].times(t0);
+    let t84 = a[4].times(b[11]) + a[8].times(b[13]) + a[13].times(b[8]) + a[11].times(b[4]);
+    let t85 = a[4].times(b[13]) - a[8].times(b[11]) - a[11].times(b[8]) + a[13].times(b[4]);
+    let t86 = t84.fnma(T::lit(0.05839917008190185), t73.fma(T::lit(0.22617901315954028), t45.fma(T::lit(0.1846743909223718), t18)));
+    let t87 = a[3].fnma(T::lit(0.05839917008190185), a[13] * T::lit(0.07283656203947193));
+    let t88 = a[1].fnma(T::lit(0.05839917008190185), a[11] * T::lit(0.07283656203947193));
+    let t89 = t77 + b[9].times(t76) + a[15].times(t79) + a[9].times(t80) + b[13].times(t87) - b[11].times(t88);
+    let t90 = t78 + b[9].times(t75) - a[15].times(t80) + a[9].times(t79) + b[13].times(t88) + b[11].times(t87);
+    let t91 = t84.fma(T::lit(0.07283656203947193), t73.fnma(T::lit(0.09403159725795938), t48)) + b[8].times(t87);
+    let t92 = t85.fma(T::lit(0.07283656203947193), t74.fnma(T::lit(0.09403159725795938), t49)) - b[8].times(t88);
+    let t93 = b[3].fnma(T::lit(0.05839917008190185), b[13] * T::lit(0.07283656203947193));
+    let t94 = b[1].fnma(T::lit(0.05839917008190185), b[11] * T::lit(0.07283656203947193));
+    let t95 = a[11].times(b[11]) + a[13].times(b[13]);
+    let t96 = a[6].fma(T::lit(0.126156626101008), t0);
+    let t97 = b[6].fma(T::lit(0.126156626101008), t1);
+    let t98 = t91 + b[4].times(t88) + a[8].times(t93) + a[4].times(t94) + b[13].times(t96) + a[13].times(t97);
+    let t99 = t92 + b[4].times(t87) - a[8].times(t94) + a[4].times(t93) + b[11].times(t96) + a[11].times(t97);
+    let t100 = t2 + a[0].times(b[0]) + t5 + t19 + t26 + t64 + a[12].times(b[12]) + t95 + a[14].times(b[14]);
+    let t101 = a[9].times(b[9]) + a[15].times(b[15]);
+    let t102 = a[6].fnma(T::lit(0.21026104350168), t0);
+    let t103 = b[6].fnma(T::lit(0.21026104350168), t1);
+    [
+        (t100 + a[10].times(b[10]) + t101) * T::lit(0.28209479177387814),
+        t85.fnma(T::lit(0.05839917008190185), t74.fma(T::lit(0.22617901315954028), t47)),
+        t68.fma(T::lit(0.1846743909223718), t37),
+        t86,
+        t90 + a[13].times(t94) + a[11].times(t93),
+        t63,
+        t101.fnma(T::lit(0.21026104350168), t95.fma(T::lit(0.126156626101008), t65)),
+        t62 + a[10].times(t60),
+        t89 + a[13].times(t93) - a[11].times(t94),
+        t82 + a[4].times(t79) + b[9].times(t102) + a[9].times(t103),
+        t72 + b[10].times(t0) + a[10].times(t1),
+        t99,
+        t83 + a[12].times(t1),
+        t98,
+        t71 + b[14].times(t0) + a[14].times(t1),
+        t81 - a[4].times(t80) + b[15].times(t102) + a[15].times(t103),
+    ]
+}
+
+/// [`product`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_rgb<T: Real>(a: &[[T; 3]; 16], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product:2+4:4`: Multiplies a function of order 2 and one of order 4; the product is cut off at
+/// order 4.
+/// a: the coefficients of a function of order 2, index l(l+1)+m.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 102 (36 mul, 1 add, 65 fma); 11 constants, 19 live values.
+/// Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 4.3e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn of_sh2_and_sh4_product<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 16]) -> [V; 16] {
+    let t0 = a[0] * T::lit(0.28209479177387814);
+    let t1 = b[0] * T::lit(0.28209479177387814);
+    let t2 = a[2].times(b[2]);
+    let t3 = a[1].times(b[1]);
+    let t4 = t3 + a[3].times(b[3]);
+    let t5 = b[4] * T::lit(0.2185096861184158);
+    let t6 = b[6].fnma(T::lit(0.126156626101008), t1);
+    let t7 = a[1].times(b[5]) + a[3].times(b[7]);
+    let t8 = t7.fma(T::lit(0.2185096861184158), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(t0));
+    let t9 = a[2] * T::lit(0.2185096861184158);
+    let t10 = a[3].times(b[8].fma(T::lit(0.2185096861184158), t6)) + b[3].times(t0) + a[1].times(t5) + b[7].times(t9);
+    let t11 = a[3].times(t5) + b[1].times(t0) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t6)) + b[5].times(t9);
+    let t12 = b[2].fms(T::lit(0.2185096861184158), b[12] * T::lit(0.14304816810266882));
+    let t13 = (a[1].times(b[11]) + a[3].times(b[13])).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t4 * T::lit(0.126156626101008)));
+    let t14 = b[6] * T::lit(0.20230065940342062);
+    let t15 = a[2] * T::lit(0.24776669508347607);
+    let t16 = a[2] * T::lit(0.2335966803276074);
+    let t17 = a[3] * T::lit(0.1846743909223718);
+    let t18 = a[1] * T::lit(0.1846743909223718);
+    let t19 = a[3].times(t12) + b[3].times(t9) + b[7].times(t0) + b[13].times(t16) + b[14].times(t17) + b[10].times(t18);
+    let t20 = a[1].times(t12) + b[1].times(t9) + b[5].times(t0) + b[11].times(t16) - b[14].times(t18) + b[10].times(t17);
+    let t21 = a[2] * T::lit(0.1846743909223718);
+    let t22 = (a[3].times(b[3]) - t3).fma(T::lit(0.2185096861184158), b[8].times(t0)) + b[14].times(t21);
+    let t23 = (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), b[4].times(t0)) + b[10].times(t21);
+    let t24 = a[3] * T::lit(0.22617901315954028);
+    let t25 = a[1] * T::lit(0.22617901315954028);
+    let t26 = a[3] * T::lit(0.05839917008190185);
+    let t27 = a[1] * T::lit(0.05839917008190185);
+    [
+        (t2 + a[0].times(b[0]) + t4) * T::lit(0.28209479177387814),
+        t11,
+        t8,
+        t10,
+        t23 - b[15].times(t25) + b[9].times(t24) - b[13].times(t27) - b[11].times(t26),
+        t20,
+        t13 + b[6].times(t0) + b[12].times(t15),
+        t19,
+        t22 + b[15].times(t24) + b[9].times(t25) - b[13].times(t26) + b[11].times(t27),
+        b[4].times(t24) + b[8].times(t25) + b[9].times(t0),
+        b[5].times(t17) + b[7].times(t18) + b[4].times(t21) + b[10].times(t0),
+        b[5].times(t16) + a[1].times(t14) + b[8].times(t27) - b[4].times(t26) + b[11].times(t0),
+        t7.fnma(T::lit(0.14304816810266882), b[6].times(t15)) + b[12].times(t0),
+        b[7].times(t16) + a[3].times(t14) - b[8].times(t26) - b[4].times(t27) + b[13].times(t0),
+        b[7].times(t17) - b[5].times(t18) + b[8].times(t21) + b[14].times(t0),
+        b[8].times(t24) - b[4].times(t25) + b[15].times(t0),
+    ]
+}
+
+/// [`of_sh2_and_sh4_product`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn of_sh2_and_sh4_product_rgb<T: Real>(a: &[[T; 3]; 4], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    of_sh2_and_sh4_product::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `square:4`: Multiplies a function of order 4 by itself; what the square has beyond that order is cut
+/// off.
+/// a: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 183 (50 mul, 6 add, 127 fma); 28 constants, 21 live values.
+/// Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 6.1e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn square<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 16] {
+    let t0 = a[0] * T::lit(0.5641895835477563);
+    let t1 = a[2].times(a[2]);
+    let t2 = a[1].times(a[1]);
+    let t3 = t2 + a[3].times(a[3]);
+    let t4 = a[4] * T::lit(0.4370193722368316);
+    let t5 = a[6].fnma(T::lit(0.252313252202016), t0);
+    let t6 = a[1].times(a[5]) + a[3].times(a[7]);
+    let t7 = a[2].fms(T::lit(0.4370193722368316), a[12] * T::lit(0.28609633620533764));
+    let t8 = (a[1].times(a[11]) + a[3].times(a[13])).fma(T::lit(0.40460131880684125), t1.fms(T::lit(0.252313252202016), t3 * T::lit(0.126156626101008)));
+    let t9 = a[6] * T::lit(0.40460131880684125);
+    let t10 = a[1].times(t4) + a[3].times(a[8].fma(T::lit(0.4370193722368316), t5)) + a[7].times(t7) + a[13].times(t9);
+    let t11 = a[1].times(a[8].fnma(T::lit(0.4370193722368316), t5)) + a[3].times(t4) + a[5].times(t7) + a[11].times(t9);
+    let t12 = a[6].times(a[6]);
+    let t13 = a[6].times(a[12]);
+    let t14 = t13.fma(T::lit(0.49553339016695214), t6 * T::lit(0.4370193722368316) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0)));
+    let t15 = a[2].fma(T::lit(0.49553339016695214), a[12] * T::lit(0.168208834801344));
+    let t16 = a[5].times(a[5]);
+    let t17 = t16 + a[7].times(a[7]);
+    let t18 = (a[3].times(a[3]) - t2).fma(T::lit(0.2185096861184158), (a[7].times(a[7]) - t16) * T::lit(0.15607834722743988));
+    let t19 = a[1].times(a[3]).fma(T::lit(0.4370193722368316), a[5].times(a[7]) * T::lit(0.31215669445487976));
+    let t20 = t17.fma(T::lit(0.09011187578643429), t12.fma(T::lit(0.18022375157286857), t8) + a[6].times(t0) + a[12].times(t15));
+    let t21 = a[4] * T::lit(0.31215669445487976);
+    let t22 = a[6].fma(T::lit(0.18022375157286857), t0);
+    let t23 = a[7].times(a[8].fma(T::lit(0.31215669445487976), t22)) + a[3].times(t7) + a[5].times(t21);
+    let t24 = a[7].times(t21) + a[1].times(t7) + a[5].times(a[8].fnma(T::lit(0.31215669445487976), t22));
+    let t25 = a[5].times(a[11]) + a[7].times(a[13]);
+    let t26 = t25.fma(T::lit(0.11894160774351807), t6.fnma(T::lit(0.28609633620533764), t13 * T::lit(0.168208834801344)) + a[6].times(t15));
+    let t27 = a[2].fma(T::lit(0.4671933606552148), a[12] * T::lit(0.11894160774351807));
+    let t28 = a[5].times(a[10]);
+    let t29 = a[7].times(a[10]);
+    let t30 = t28 + a[7].times(a[14]);
+    let t31 = t29 - a[5].times(a[14]);
+    let t32 = a[3].fma(T::lit(0.3693487818447436), a[13] * T::lit(0.23032943298089031));
+    let t33 = a[1].fma(T::lit(0.3693487818447436), a[11] * T::lit(0.23032943298089031));
+    let t34 = a[15].fma(T::lit(0.2973540193587952), t32);
+    let t35 = a[15].fnma(T::lit(0.2973540193587952), t32);
+    let t36 = a[9].fma(T::lit(0.2973540193587952), t33);
+    let t37 = a[9].fms(T::lit(0.2973540193587952), t33);
+    let t38 = a[4].times(a[4]) + a[8].times(a[8]);
+    let t39 = a[6].fnma(T::lit(0.36044750314573715), t0);
+    let t40 = a[4].times(a[10]) + a[8].times(a[14]);
+    let t41 = a[2].fms(T::lit(0.3693487818447436), a[12] * T::lit(0.37612638903183754));
+    let t42 = a[4].times(a[9]) + a[8].times(a[15]);
+    let t43 = a[8].times(a[9]) - a[4].times(a[15]);
+    let t44 = t42.fnma(T::lit(0.18806319451591877), t30.fma(T::lit(0.23032943298089031), a[7].times(t27) + a[3].times(t9)));
+    let t45 = t43.fnma(T::lit(0.18806319451591877), t31.fma(T::lit(0.23032943298089031), a[5].times(t27) + a[1].times(t9)));
+    let t46 = a[3].fms(T::lit(0.45235802631908056), a[13] * T::lit(0.18806319451591877));
+    let t47 = a[1].fms(T::lit(0.45235802631908056), a[11] * T::lit(0.18806319451591877));
+    let t48 = (a[7].times(a[14]) - t28).fma(T::lit(0.2973540193587952), a[8].times(t46)) - a[4].times(t47);
+    let t49 = (t29 + a[5].times(a[14])).fma(T::lit(0.2973540193587952), a[8].times(t47)) + a[4].times(t46);
+    let t50 = a[4].times(a[11]) + a[8].times(a[13]);
+    let t51 = a[4].times(a[13]) - a[8].times(a[11]);
+    let t52 = t50.fnma(T::lit(0.1167983401638037), t42.fma(T::lit(0.45235802631908056), t30.fma(T::lit(0.3693487818447436), t10)));
+    let t53 = t51.fnma(T::lit(0.1167983401638037), t43.fma(T::lit(0.45235802631908056), t31.fma(T::lit(0.3693487818447436), t11)));
+    let t54 = a[3].fnma(T::lit(0.1167983401638037), a[13] * T::lit(0.14567312407894387));
+    let t55 = a[1].fnma(T::lit(0.1167983401638037), a[11] * T::lit(0.14567312407894387));
+    let t56 = t18 + a[8].times(t39) + a[14].times(t41) + a[15].times(t46) + a[9].times(t47) + a[13].times(t54);
+    let t57 = t19 + a[4].times(t39) + a[10].times(t41) - a[15].times(t47) + a[9].times(t46) + a[13].times(t55);
+    let t58 = a[11].times(a[11]) + a[13].times(a[13]);
+    let t59 = a[6].fma(T::lit(0.252313252202016), t0);
+    let t60 = t50.fma(T::lit(0.14567312407894387), t44) + a[8].times(t54) + a[4].times(t55) + a[13].times(t59);
+    let t61 = t51.fma(T::lit(0.14567312407894387), t45) - a[8].times(t55) + a[4].times(t54) + a[11].times(t59);
+    let t62 = t1 + a[0].times(a[0]) + t3 + t12 + t17 + t38 + a[12].times(a[12]) + t58 + a[14].times(a[14]);
+    let t63 = a[9].times(a[9]) + a[15].times(a[15]);
+    let t64 = t63.fnma(T::lit(0.21026104350168), t58.fma(T::lit(0.126156626101008), t38.fnma(T::lit(0.18022375157286857), t20)));
+    let t65 = a[6].fnma(T::lit(0.42052208700336), t0);
+    [
+        (t62 + a[10].times(a[10]) + t63) * T::lit(0.28209479177387814),
+        t53,
+        t40.fma(T::lit(0.3693487818447436), t25.fma(T::lit(0.4671933606552148), t14)),
+        t52,
+        t57 + a[11].times(t54),
+        t24 + a[11].times(t27) + a[14].times(t37) + a[10].times(t35),
+        t64,
+        t23 + a[13].times(t27) + a[14].times(t34) + a[10].times(t36),
+        t56 - a[11].times(t55),
+        t49 + a[9].times(t65),
+        a[5].times(t35) + a[7].times(t36) + a[4].times(t41) + a[10].times(t0),
+        t61,
+        t40.fnma(T::lit(0.37612638903183754), t26) + a[12].times(t0),
+        t60,
+        a[5].times(t37) + a[7].times(t34) + a[8].times(t41) + a[14].times(t0),
+        t48 + a[15].times(t65),
+    ]
+}
+
+/// [`square`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn square_rgb<T: Real>(a: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    square::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
+}
+
+/// `dot:4`: The integral over the sphere of the product of two functions of order 4: the sum of a_i
+/// b_i.
+/// a: the coefficients of a function of order 4, index l(l+1)+m.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the integral of the product.
+/// Operations: 16 (1 mul, 0 add, 15 fma); 0 constants, 1 live values.
+/// Error: f32 rounding at most 3.5e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 1.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn dot<T: Real, V: Signal<T>>(a: &[V; 16], b: &[V; 16]) -> V {
+    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
+    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
+    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
+    t2 + a[15].times(b[15])
+}
+
+/// [`dot`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn dot_rgb<T: Real>(a: &[[T; 3]; 16], b: &[[T; 3]; 16]) -> [T; 3] {
+    dot::<T, Channels<T, 3>>(&a.map(Channels), &b.map(Channels)).0
+}
+
+/// `product_matrix:4`: The symmetric matrix M(a) by which the product of a function of order 4 and any
+/// other is M(a) b, cut off at the order; `product_by_matrix:4` applies it.
+/// a: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+///     a.
+/// Operations: 131 (78 mul, 2 add, 51 fma); 22 constants, 108 live values.
+/// Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
+///     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 125] {
+    let t0 = a[0] * T::lit(0.28209479177387814);
+    let t1 = a[6].fnma(T::lit(0.126156626101008), t0);
+    let t2 = a[3] * T::lit(0.2185096861184158);
+    let t3 = a[13].fnma(T::lit(0.05839917008190185), t2);
+    let t4 = a[10] * T::lit(0.1846743909223718);
+    let t5 = a[1] * T::lit(0.2185096861184158);
+    let t6 = a[11].fnma(T::lit(0.05839917008190185), t5);
+    let t7 = a[6].fnma(T::lit(0.18022375157286857), t0);
+    let t8 = a[2].fms(T::lit(0.2185096861184158), a[12] * T::lit(0.14304816810266882));
+    let t9 = a[14] * T::lit(0.1846743909223718);
+    let t10 = a[7] * T::lit(0.15607834722743988);
+    let t11 = a[6].fma(T::lit(0.09011187578643429), t0);
+    let t12 = a[5] * T::lit(0.15607834722743988);
+    let t13 = a[8] * T::lit(0.22617901315954028);
+    let t14 = a[4] * T::lit(0.22617901315954028);
+    let t15 = a[3].fms(T::lit(0.22617901315954028), a[13] * T::lit(0.09403159725795938));
+    let t16 = a[14] * T::lit(0.1486770096793976);
+    let t17 = a[10] * T::lit(0.1486770096793976);
+    let t18 = a[1].fms(T::lit(0.22617901315954028), a[11] * T::lit(0.09403159725795938));
+    let t19 = a[6].fnma(T::lit(0.21026104350168), t0);
+    let t20 = a[7] * T::lit(0.1846743909223718);
+    let t21 = a[5] * T::lit(0.1846743909223718);
+    let t22 = a[2].fms(T::lit(0.1846743909223718), a[12] * T::lit(0.18806319451591877));
+    let t23 = a[3].fma(T::lit(0.1846743909223718), a[13] * T::lit(0.11516471649044516));
+    let t24 = a[1].fma(T::lit(0.1846743909223718), a[11] * T::lit(0.11516471649044516));
+    let t25 = a[7] * T::lit(0.1486770096793976);
+    let t26 = a[6] * T::lit(0.20230065940342062);
+    let t27 = -(a[4] * T::lit(0.05839917008190185));
+    let t28 = a[13].fms(T::lit(0.14567312407894387), a[3] * T::lit(0.05839917008190185));
+    let t29 = a[2].fma(T::lit(0.2335966803276074), a[12] * T::lit(0.059470803871759036));
+    let t30 = a[10] * T::lit(0.11516471649044516);
+    let t31 = a[11].fms(T::lit(0.14567312407894387), a[1] * T::lit(0.05839917008190185));
+    let t32 = -(a[8] * T::lit(0.09403159725795938));
+    let t33 = a[7] * T::lit(0.11516471649044516);
+    let t34 = a[6].fma(T::lit(0.126156626101008), t0);
+    let t35 = a[4] * T::lit(0.09403159725795938);
+    let t36 = a[5] * T::lit(0.11516471649044516);
+    let t37 = a[5] * T::lit(0.1486770096793976);
+    [
+        t0,
+        a[1] * T::lit(0.28209479177387814),
+        a[8].fnma(T::lit(0.2185096861184158), t1),
+        a[2] * T::lit(0.28209479177387814),
+        a[5] * T::lit(0.2185096861184158),
+        a[6].fma(T::lit(0.252313252202016), t0),
+        a[3] * T::lit(0.28209479177387814),
+        a[4] * T::lit(0.2185096861184158),
+        a[7] * T::lit(0.2185096861184158),
+        a[8].fma(T::lit(0.2185096861184158), t1),
+        a[4] * T::lit(0.28209479177387814),
+        a[15].fnma(T::lit(0.22617901315954028), t3),
+        t4,
+        a[9].fma(T::lit(0.22617901315954028), t6),
+        t7,
+        a[5] * T::lit(0.28209479177387814),
+        t8 - t9,
+        a[11].fma(T::lit(0.2335966803276074), t5),
+        t4,
+        t10,
+        a[8].fnma(T::lit(0.15607834722743988), t11),
+        a[6] * T::lit(0.28209479177387814),
+        a[11].fms(T::lit(0.20230065940342062), a[1] * T::lit(0.126156626101008)),
+        a[2].fma(T::lit(0.252313252202016), a[12] * T::lit(0.24776669508347607)),
+        a[13].fms(T::lit(0.20230065940342062), a[3] * T::lit(0.126156626101008)),
+        -(a[4] * T::lit(0.18022375157286857)),
+        a[5] * T::lit(0.09011187578643429),
+        a[6].fma(T::lit(0.18022375157286857), t0),
+        a[7] * T::lit(0.28209479177387814),
+        t4,
+        a[13].fma(T::lit(0.2335966803276074), t2),
+        t9 + t8,
+        t12,
+        a[4] * T::lit(0.15607834722743988),
+        a[7] * T::lit(0.09011187578643429),
+        a[8].fma(T::lit(0.15607834722743988), t11),
+        a[8] * T::lit(0.28209479177387814),
+        a[9].fms(T::lit(0.22617901315954028), t6),
+        t9,
+        a[15].fma(T::lit(0.22617901315954028), t3),
+        -t12,
+        -(a[8] * T::lit(0.18022375157286857)),
+        t10,
+        t7,
+        a[9] * T::lit(0.28209479177387814),
+        t13,
+        t14,
+        t15,
+        t16,
+        -(a[9] * T::lit(0.21026104350168)),
+        t17,
+        t18,
+        t19,
+        a[10] * T::lit(0.28209479177387814),
+        t20,
+        a[4] * T::lit(0.1846743909223718),
+        t21,
+        t22,
+        a[15].fnma(T::lit(0.1486770096793976), t23),
+        a[9].fma(T::lit(0.1486770096793976), t24),
+        t25,
+        t0,
+        a[11] * T::lit(0.28209479177387814),
+        a[8].fma(T::lit(0.05839917008190185), t26),
+        a[5] * T::lit(0.2335966803276074),
+        t27,
+        a[15].fma(T::lit(0.09403159725795938), t28),
+        a[14].fnma(T::lit(0.11516471649044516), t29),
+        a[1].fma(T::lit(0.20230065940342062), a[11] * T::lit(0.126156626101008)),
+        t30,
+        -a[9].fma(T::lit(0.09403159725795938), t31),
+        t32,
+        t33,
+        a[8].fnma(T::lit(0.14567312407894387), t34),
+        a[12] * T::lit(0.28209479177387814),
+        -(a[5] * T::lit(0.14304816810266882)),
+        a[6] * T::lit(0.24776669508347607),
+        -(a[7] * T::lit(0.14304816810266882)),
+        -(a[10] * T::lit(0.18806319451591877)),
+        a[11].fms(T::lit(0.059470803871759036), a[1] * T::lit(0.14304816810266882)),
+        a[2].fma(T::lit(0.24776669508347607), a[12] * T::lit(0.168208834801344)),
+        a[13].fms(T::lit(0.059470803871759036), a[3] * T::lit(0.14304816810266882)),
+        -(a[14] * T::lit(0.18806319451591877)),
+        -(a[4] * T::lit(0.18806319451591877)),
+        a[5] * T::lit(0.059470803871759036),
+        a[6].fma(T::lit(0.168208834801344), t0),
+        a[13] * T::lit(0.28209479177387814),
+        t27,
+        a[7] * T::lit(0.2335966803276074),
+        a[8].fnma(T::lit(0.05839917008190185), t26),
+        a[9].fnma(T::lit(0.09403159725795938), t31),
+        t30,
+        a[3].fma(T::lit(0.20230065940342062), a[13] * T::lit(0.126156626101008)),
+        a[14].fma(T::lit(0.11516471649044516), t29),
+        a[15].fnma(T::lit(0.09403159725795938), t28),
+        -t35,
+        t36,
+        a[4] * T::lit(0.14567312407894387),
+        a[7] * T::lit(0.059470803871759036),
+        a[8].fma(T::lit(0.14567312407894387), t34),
+        a[14] * T::lit(0.28209479177387814),
+        -t21,
+        a[8] * T::lit(0.1846743909223718),
+        t20,
+        a[9].fms(T::lit(0.1486770096793976), t24),
+        a[15].fma(T::lit(0.1486770096793976), t23),
+        t22,
+        t37,
+        -t36,
+        -(a[8] * T::lit(0.18806319451591877)),
+        t33,
+        t0,
+        a[15] * T::lit(0.28209479177387814),
+        -t14,
+        t13,
+        -t18,
+        -t17,
+        -(a[15] * T::lit(0.21026104350168)),
+        t16,
+        t15,
+        -t37,
+        t35,
+        t32,
+        t25,
+        t19,
+    ]
+}
+
+/// [`product_matrix`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 16]) -> [[T; 3]; 125] {
+    product_matrix::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
+}
+
+/// `product_by_matrix:4`: Multiplies functions of order 4 by the one whose matrix `product_matrix:4`
+/// made, once for many.
+/// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 234 (16 mul, 0 add, 218 fma); 0 constants, 16 live values.
+/// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
+///     worst of 256 measured, 6.4e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 125], b: &[V; 16]) -> [V; 16] {
+    let t0 = b[5].fma(m[15], b[4].fma(m[10], b[3].fma(m[6], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1])))));
+    let t1 = b[11].fma(m[62], b[10].fma(m[53], b[9].fma(m[44], b[8].fma(m[36], b[7].fma(m[28], b[6].fma(m[21], t0))))));
+    let t2 = b[5].fma(m[16], b[4].fma(m[11], b[3].fma(m[7], b[2].fma(m[4], b[0].fma(m[1], b[1] * m[2])))));
+    let t3 = b[11].fma(m[63], b[10].fma(m[54], b[9].fma(m[45], b[8].fma(m[37], b[7].fma(m[29], b[6].fma(m[22], t2))))));
+    let t4 = b[5].fma(m[17], b[4].fma(m[12], b[3].fma(m[8], b[2].fma(m[5], b[0].fma(m[3], b[1] * m[4])))));
+    let t5 = b[11].fma(m[64], b[10].fma(m[55], b[8].fma(m[38], b[7].fma(m[30], b[6].fma(m[23], t4)))));
+    let t6 = b[5].fma(m[18], b[4].fma(m[13], b[3].fma(m[9], b[2].fma(m[8], b[0].fma(m[6], b[1] * m[7])))));
+    let t7 = b[11].fma(m[65], b[10].fma(m[56], b[9].fma(m[46], b[8].fma(m[39], b[7].fma(m[31], b[6].fma(m[24], t6))))));
+    let t8 = b[5].fma(m[19], b[4].fma(m[14], b[3].fma(m[13], b[2].fma(m[12], b[0].fma(m[10], b[1] * m[11])))));
+    let t9 = b[11].fma(m[66], b[10].fma(m[57], b[9].fma(m[47], b[7].fma(m[32], b[6].fma(m[25], t8)))));
+    let t10 = b[5].fma(m[20], b[4].fma(m[19], b[3].fma(m[18], b[2].fma(m[17], b[0].fma(m[15], b[1] * m[16])))));
+    let t11 = b[10].fma(m[58], b[9].fma(m[48], b[8].fma(m[40], b[7].fma(m[33], b[6].fma(m[26], t10)))));
+    let t12 = b[15].fma(m[116], b[14].fma(m[104], b[13].fma(m[91], b[12].fma(m[79], b[11].fma(m[67], t11)))));
+    let t13 = b[5].fma(m[26], b[4].fma(m[25], b[3].fma(m[24], b[2].fma(m[23], b[0].fma(m[21], b[1] * m[22])))));
+    let t14 = b[11].fma(m[68], b[9].fma(m[49], b[8].fma(m[41], b[7].fma(m[34], b[6].fma(m[27], t13)))));
+    let t15 = b[5].fma(m[33], b[4].fma(m[32], b[3].fma(m[31], b[2].fma(m[30], b[0].fma(m[28], b[1] * m[29])))));
+    let t16 = b[10].fma(m[59], b[9].fma(m[50], b[8].fma(m[42], b[7].fma(m[35], b[6].fma(m[34], t15)))));
+    let t17 = b[15].fma(m[118], b[14].fma(m[105], b[13].fma(m[93], b[12].fma(m[81], b[11].fma(m[69], t16)))));
+    let t18 = b[6].fma(m[41], b[5].fma(m[40], b[3].fma(m[39], b[2].fma(m[38], b[0].fma(m[36], b[1] * m[37])))));
+    let t19 = b[12].fma(m[82], b[11].fma(m[70], b[9].fma(m[51], b[8].fma(m[43], b[7].fma(m[42], t18)))));
+    let t20 = b[6].fma(m[49], b[5].fma(m[48], b[4].fma(m[47], b[3].fma(m[46], b[0].fma(m[44], b[1] * m[45])))));
+    let t21 = b[11].fma(m[71], b[10].fma(m[60], b[9].fma(m[52], b[8].fma(m[51], b[7].fma(m[50], t20)))));
+    let t22 = b[5].fma(m[58], b[4].fma(m[57], b[3].fma(m[56], b[2].fma(m[55], b[0].fma(m[53], b[1] * m[54])))));
+    let t23 = b[12].fma(m[83], b[11].fma(m[72], b[10].fma(m[61], b[9].fma(m[60], b[7].fma(m[59], t22)))));
+    let t24 = b[5].fma(m[67], b[4].fma(m[66], b[3].fma(m[65], b[2].fma(m[64], b[0].fma(m[62], b[1] * m[63])))));
+    let t25 = b[10].fma(m[72], b[9].fma(m[71], b[8].fma(m[70], b[7].fma(m[69], b[6].fma(m[68], t24)))));
+    let t26 = b[15].fma(m[121], b[14].fma(m[108], b[13].fma(m[97], b[12].fma(m[84], b[11].fma(m[73], t25)))));
+    let t27 = b[5].fma(m[79], b[4].fma(m[78], b[3].fma(m[77], b[2].fma(m[76], b[0].fma(m[74], b[1] * m[75])))));
+    let t28 = b[11].fma(m[84], b[10].fma(m[83], b[8].fma(m[82], b[7].fma(m[81], b[6].fma(m[80], t27)))));
+    let t29 = b[5].fma(m[91], b[4].fma(m[90], b[3].fma(m[89], b[2].fma(m[88], b[0].fma(m[86], b[1] * m[87])))));
+    let t30 = b[10].fma(m[96], b[9].fma(m[95], b[8].fma(m[94], b[7].fma(m[93], b[6].fma(m[92], t29)))));
+    let t31 = b[15].fma(m[122], b[14].fma(m[110], b[13].fma(m[99], b[12].fma(m[98], b[11].fma(m[97], t30)))));
+    let t32 = b[7].fma(m[105], b[5].fma(m[104], b[3].fma(m[103], b[2].fma(m[102], b[0].fma(m[100], b[1] * m[101])))));
+    let t33 = b[13].fma(m[110], b[12].fma(m[109], b[11].fma(m[108], b[9].fma(m[107], b[8].fma(m[106], t32)))));
+    let t34 = b[6].fma(m[117], b[5].fma(m[116], b[4].fma(m[115], b[3].fma(m[114], b[0].fma(m[112], b[1] * m[113])))));
+    let t35 = b[13].fma(m[122], b[11].fma(m[121], b[10].fma(m[120], b[8].fma(m[119], b[7].fma(m[118], t34)))));
+    [
+        b[15].fma(m[112], b[14].fma(m[100], b[13].fma(m[86], b[12].fma(m[74], t1)))),
+        b[15].fma(m[113], b[14].fma(m[101], b[13].fma(m[87], b[12].fma(m[75], t3)))),
+        b[14].fma(m[102], b[13].fma(m[88], b[12].fma(m[76], t5))),
+        b[15].fma(m[114], b[14].fma(m[103], b[13].fma(m[89], b[12].fma(m[77], t7)))),
+        b[15].fma(m[115], b[13].fma(m[90], b[12].fma(m[78], t9))),
+        t12,
+        b[15].fma(m[117], b[13].fma(m[92], b[12].fma(m[80], t14))),
+        t17,
+        b[15].fma(m[119], b[14].fma(m[106], b[13].fma(m[94], t19))),
+        b[14].fma(m[107], b[13].fma(m[95], t21)),
+        b[15].fma(m[120], b[13].fma(m[96], t23)),
+        t26,
+        b[14].fma(m[109], b[13].fma(m[98], b[12].fma(m[85], t28))),
+        t31,
+        b[15].fma(m[123], b[14].fma(m[111], t33)),
+        b[15].fma(m[124], b[14].fma(m[123], t35)),
+    ]
+}
+
+/// [`product_by_matrix`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_by_matrix_rgb<T: Real>(m: &[T; 125], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_by_matrix::<T, Channels<T, 3>>(m, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_grey:4`: Multiplies a grey function of order 4 and a coloured one; what is made of the grey
+/// one alone is made once for all channels.
+/// a: the coefficients of a function of order 4, index l(l+1)+m, grey: one number for all channels.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 365 (94 mul, 2 add, 269 fma); 22 constants, 67 live values.
+/// Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 5e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_grey<T: Real, V: Signal<T>>(a: &[T; 16], b: &[V; 16]) -> [V; 16] {
+    let t0 = T::lit(0.28209479177387814) * a[0];
+    let t1 = T::lit(0.28209479177387814) * a[1];
+    let t2 = T::lit(0.28209479177387814) * a[2];
+    let t3 = T::lit(0.28209479177387814) * a[3];
+    let t4 = T::lit(0.28209479177387814) * a[4];
+    let t5 = T::lit(0.28209479177387814) * a[5];
+    let t6 = T::lit(0.28209479177387814) * a[6];
+    let t7 = b[6].fma(t6, b[5].fma(t5, b[4].fma(t4, b[3].fma(t3, b[2].fma(t2, b[0].fma(t0, b[1] * t1))))));
+    let t8 = T::lit(0.28209479177387814) * a[7];
+    let t9 = T::lit(0.28209479177387814) * a[8];
+    let t10 = T::lit(0.28209479177387814) * a[9];
+    let t11 = T::lit(0.28209479177387814) * a[10];
+    let t12 = T::lit(0.28209479177387814) * a[11];
+    let t13 = T::lit(0.28209479177387814) * a[12];
+    let t14 = b[12].fma(t13, b[11].fma(t12, b[10].fma(t11, b[9].fma(t10, b[8].fma(t9, b[7].fma(t8, t7))))));
+    let t15 = T::lit(0.28209479177387814) * a[13];
+    let t16 = T::lit(0.28209479177387814) * a[14];
+    let t17 = T::lit(0.28209479177387814) * a[15];
+    let t18 = T::lit(0.126156626101008).fnma(a[6], t0);
+    let t19 = T::lit(0.2185096861184158) * a[5];
+    let t20 = T::lit(0.2185096861184158) * a[4];
+    let t21 = b[3].fma(t20, b[2].fma(t19, b[0].fma(t1, b[1] * T::lit(0.2185096861184158).fnma(a[8], t18))));
+    let t22 = T::lit(0.2185096861184158) * a[3];
+    let t23 = T::lit(0.05839917008190185).fnma(a[13], t22);
+    let t24 = T::lit(0.22617901315954028).fnma(a[15], t23);
+    let t25 = T::lit(0.2185096861184158).fms(a[2], T::lit(0.14304816810266882) * a[12]);
+    let t26 = T::lit(0.1846743909223718) * a[14];
+    let t27 = t25 - t26;
+    let t28 = T::lit(0.20230065940342062).fms(a[11], T::lit(0.126156626101008) * a[1]);
+    let t29 = T::lit(0.1846743909223718) * a[10];
+    let t30 = T::lit(0.2185096861184158) * a[1];
+    let t31 = T::lit(0.05839917008190185).fnma(a[11], t30);
+    let t32 = T::lit(0.22617901315954028).fms(a[9], t31);
+    let t33 = T::lit(0.22617901315954028) * a[8];
+    let t34 = b[9].fma(t33, b[8].fma(t32, b[7].fma(t29, b[6].fma(t28, b[5].fma(t27, b[4].fma(t24, t21))))));
+    let t35 = T::lit(0.1846743909223718) * a[7];
+    let t36 = T::lit(0.20230065940342062) * a[6];
+    let t37 = T::lit(0.05839917008190185).fma(a[8], t36);
+    let t38 = T::lit(0.14304816810266882) * a[5];
+    let t39 = T::lit(0.05839917008190185) * a[4];
+    let t40 = T::lit(0.1846743909223718) * a[5];
+    let t41 = T::lit(0.22617901315954028) * a[4];
+    let t42 = b[15].fnma(t41, b[14].fnma(t40, b[13].fnma(t39, b[12].fnma(t38, b[11].fma(t37, b[10].fma(t35, t34))))));
+    let t43 = T::lit(0.2185096861184158) * a[7];
+    let t44 = b[3].fma(t43, b[2].fma(T::lit(0.252313252202016).fma(a[6], t0), b[0].fma(t2, b[1] * t19)));
+    let t45 = T::lit(0.2335966803276074).fma(a[11], t30);
+    let t46 = T::lit(0.252313252202016).fma(a[2], T::lit(0.24776669508347607) * a[12]);
+    let t47 = T::lit(0.2335966803276074).fma(a[13], t22);
+    let t48 = T::lit(0.1846743909223718) * a[4];
+    let t49 = b[10].fma(t48, b[8].fma(t26, b[7].fma(t47, b[6].fma(t46, b[5].fma(t45, b[4].fma(t29, t44))))));
+    let t50 = T::lit(0.2335966803276074) * a[5];
+    let t51 = T::lit(0.24776669508347607) * a[6];
+    let t52 = T::lit(0.2335966803276074) * a[7];
+    let t53 = T::lit(0.1846743909223718) * a[8];
+    let t54 = b[3].fma(T::lit(0.2185096861184158).fma(a[8], t18), b[2].fma(t43, b[0].fma(t3, b[1] * t20)));
+    let t55 = T::lit(0.22617901315954028).fma(a[9], t31);
+    let t56 = T::lit(0.20230065940342062).fms(a[13], T::lit(0.126156626101008) * a[3]);
+    let t57 = t26 + t25;
+    let t58 = T::lit(0.22617901315954028).fma(a[15], t23);
+    let t59 = b[9].fma(t41, b[8].fma(t58, b[7].fma(t57, b[6].fma(t56, b[5].fma(t29, b[4].fma(t55, t54))))));
+    let t60 = T::lit(0.14304816810266882) * a[7];
+    let t61 = T::lit(0.05839917008190185).fnma(a[8], t36);
+    let t62 = b[15].fma(t33, b[14].fma(t35, b[13].fma(t61, b[12].fnma(t60, b[11].fnma(t39, b[10].fma(t40, t59))))));
+    let t63 = T::lit(0.18022375157286857).fnma(a[6], t0);
+    let t64 = T::lit(0.15607834722743988) * a[7];
+    let t65 = T::lit(0.18022375157286857) * a[4];
+    let t66 = b[6].fnma(t65, b[5].fma(t64, b[4].fma(t63, b[3].fma(t55, b[2].fma(t29, b[0].fma(t4, b[1] * t24))))));
+    let t67 = T::lit(0.15607834722743988) * a[5];
+    let t68 = T::lit(0.22617901315954028).fms(a[3], T::lit(0.09403159725795938) * a[13]);
+    let t69 = T::lit(0.1846743909223718).fms(a[2], T::lit(0.18806319451591877) * a[12]);
+    let t70 = T::lit(0.14567312407894387).fms(a[13], T::lit(0.05839917008190185) * a[3]);
+    let t71 = T::lit(0.09403159725795938).fma(a[15], t70);
+    let t72 = T::lit(0.18806319451591877) * a[10];
+    let t73 = T::lit(0.14567312407894387).fms(a[11], T::lit(0.05839917008190185) * a[1]);
+    let t74 = T::lit(0.09403159725795938).fnma(a[9], t73);
+    let t75 = b[13].fma(t74, b[12].fnma(t72, b[11].fma(t71, b[10].fma(t69, b[9].fma(t68, b[7].fma(t67, t66))))));
+    let t76 = T::lit(0.22617901315954028).fms(a[1], T::lit(0.09403159725795938) * a[11]);
+    let t77 = T::lit(0.09011187578643429).fma(a[6], t0);
+    let t78 = b[5].fma(T::lit(0.15607834722743988).fnma(a[8], t77), b[4].fma(t64, b[3].fma(t29, b[2].fma(t45, b[0].fma(t5, b[1] * t27)))));
+    let t79 = T::lit(0.09011187578643429) * a[5];
+    let t80 = T::lit(0.15607834722743988) * a[4];
+    let t81 = T::lit(0.1486770096793976) * a[14];
+    let t82 = T::lit(0.1846743909223718).fma(a[3], T::lit(0.11516471649044516) * a[13]);
+    let t83 = T::lit(0.1486770096793976).fnma(a[15], t82);
+    let t84 = T::lit(0.2335966803276074).fma(a[2], T::lit(0.059470803871759036) * a[12]);
+    let t85 = T::lit(0.11516471649044516).fnma(a[14], t84);
+    let t86 = b[11].fma(t85, b[10].fma(t83, b[9].fma(t81, b[8].fnma(t67, b[7].fma(t80, b[6].fma(t79, t78))))));
+    let t87 = T::lit(0.059470803871759036).fms(a[11], T::lit(0.14304816810266882) * a[1]);
+    let t88 = T::lit(0.11516471649044516) * a[10];
+    let t89 = T::lit(0.1846743909223718).fma(a[1], T::lit(0.11516471649044516) * a[11]);
+    let t90 = T::lit(0.1486770096793976).fms(a[9], t89);
+    let t91 = T::lit(0.1486770096793976) * a[10];
+    let t92 = b[6].fma(T::lit(0.18022375157286857).fma(a[6], t0), b[5].fma(t79, b[4].fnma(t65, b[3].fma(t56, b[2].fma(t46, b[0].fma(t6, b[1] * t28))))));
+    let t93 = T::lit(0.09011187578643429) * a[7];
+    let t94 = T::lit(0.18022375157286857) * a[8];
+    let t95 = T::lit(0.21026104350168) * a[9];
+    let t96 = T::lit(0.20230065940342062).fma(a[1], T::lit(0.126156626101008) * a[11]);
+    let t97 = T::lit(0.24776669508347607).fma(a[2], T::lit(0.168208834801344) * a[12]);
+    let t98 = T::lit(0.20230065940342062).fma(a[3], T::lit(0.126156626101008) * a[13]);
+    let t99 = b[13].fma(t98, b[12].fma(t97, b[11].fma(t96, b[9].fnma(t95, b[8].fnma(t94, b[7].fma(t93, t92))))));
+    let t100 = T::lit(0.21026104350168) * a[15];
+    let t101 = b[6].fma(t93, b[5].fma(t80, b[4].fma(t67, b[3].fma(t57, b[2].fma(t47, b[0].fma(t8, b[1] * t29))))));
+    let t102 = T::lit(0.1486770096793976).fma(a[9], t89);
+    let t103 = b[10].fma(t102, b[9].fma(t91, b[8].fma(t64, b[7].fma(T::lit(0.15607834722743988).fma(a[8], t77), t101))));
+    let t104 = T::lit(0.059470803871759036).fms(a[13], T::lit(0.14304816810266882) * a[3]);
+    let t105 = T::lit(0.11516471649044516).fma(a[14], t84);
+    let t106 = T::lit(0.1486770096793976).fma(a[15], t82);
+    let t107 = b[7].fma(t64, b[6].fnma(t94, b[5].fnma(t67, b[3].fma(t58, b[2].fma(t26, b[0].fma(t9, b[1] * t32))))));
+    let t108 = T::lit(0.09403159725795938).fma(a[9], t73);
+    let t109 = T::lit(0.18806319451591877) * a[14];
+    let t110 = T::lit(0.09403159725795938).fnma(a[15], t70);
+    let t111 = b[14].fma(t69, b[13].fma(t110, b[12].fnma(t109, b[11].fnma(t108, b[9].fma(t76, b[8].fma(t63, t107))))));
+    let t112 = b[7].fma(t91, b[6].fnma(t95, b[5].fma(t81, b[4].fma(t68, b[3].fma(t41, b[0].fma(t10, b[1] * t33))))));
+    let t113 = T::lit(0.21026104350168).fnma(a[6], t0);
+    let t114 = T::lit(0.1486770096793976) * a[7];
+    let t115 = T::lit(0.09403159725795938) * a[8];
+    let t116 = T::lit(0.09403159725795938) * a[4];
+    let t117 = T::lit(0.1486770096793976) * a[5];
+    let t118 = b[14].fma(t117, b[13].fnma(t116, b[11].fnma(t115, b[10].fma(t114, b[9].fma(t113, b[8].fma(t76, t112))))));
+    let t119 = b[7].fma(t102, b[5].fma(t83, b[4].fma(t69, b[3].fma(t40, b[2].fma(t48, b[0].fma(t11, b[1] * t35))))));
+    let t120 = T::lit(0.11516471649044516) * a[7];
+    let t121 = T::lit(0.18806319451591877) * a[4];
+    let t122 = T::lit(0.11516471649044516) * a[5];
+    let t123 = b[15].fnma(t117, b[13].fma(t122, b[12].fnma(t121, b[11].fma(t120, b[10].fma(t0, b[9].fma(t114, t119))))));
+    let t124 = b[6].fma(t96, b[5].fma(t85, b[4].fma(t71, b[3].fnma(t39, b[2].fma(t50, b[0].fma(t12, b[1] * t37))))));
+    let t125 = T::lit(0.126156626101008).fma(a[6], t0);
+    let t126 = b[11].fma(T::lit(0.14567312407894387).fnma(a[8], t125), b[10].fma(t120, b[9].fnma(t115, b[8].fnma(t108, b[7].fma(t88, t124)))));
+    let t127 = T::lit(0.059470803871759036) * a[5];
+    let t128 = T::lit(0.14567312407894387) * a[4];
+    let t129 = b[6].fma(t97, b[5].fma(t87, b[4].fnma(t72, b[3].fnma(t60, b[2].fma(t51, b[0].fms(t13, b[1] * t38))))));
+    let t130 = b[12].fma(T::lit(0.168208834801344).fma(a[6], t0), b[11].fma(t127, b[10].fnma(t121, b[8].fnma(t109, b[7].fma(t104, t129)))));
+    let t131 = T::lit(0.059470803871759036) * a[7];
+    let t132 = T::lit(0.18806319451591877) * a[8];
+    let t133 = b[6].fma(t98, b[5].fma(t88, b[4].fma(t74, b[3].fma(t61, b[2].fma(t52, b[0].fms(t15, b[1] * t39))))));
+    let t134 = b[12].fma(t131, b[11].fma(t128, b[10].fma(t122, b[9].fnma(t116, b[8].fma(t110, b[7].fma(t105, t133))))));
+    let t135 = b[15].fnma(t115, b[14].fma(t120, b[13].fma(T::lit(0.14567312407894387).fma(a[8], t125), t134)));
+    let t136 = b[8].fma(t69, b[7].fma(t106, b[5].fma(t90, b[3].fma(t35, b[2].fma(t53, b[0].fms(t16, b[1] * t40))))));
+    let t137 = b[15].fma(t114, b[14].fma(t0, b[13].fma(t120, b[12].fnma(t132, b[11].fnma(t122, b[9].fma(t117, t136))))));
+    let t138 = b[6].fnma(t100, b[5].fnma(t91, b[4].fnma(t76, b[3].fma(t33, b[0].fms(t17, b[1] * t41)))));
+    let t139 = b[14].fma(t114, b[13].fnma(t115, b[11].fma(t116, b[10].fnma(t117, b[8].fma(t68, b[7].fma(t81, t138))))));
+    [
+        b[15].fma(t17, b[14].fma(t16, b[13].fma(t15, t14))),
+        t42,
+        b[14].fma(t53, b[13].fma(t52, b[12].fma(t51, b[11].fma(t50, t49)))),
+        t62,
+        b[15].fnma(t76, t75),
+        b[15].fnma(t91, b[14].fma(t90, b[13].fma(t88, b[12].fma(t87, t86)))),
+        b[15].fnma(t100, t99),
+        b[15].fma(t81, b[14].fma(t106, b[13].fma(t105, b[12].fma(t104, b[11].fma(t88, t103))))),
+        b[15].fma(t68, t111),
+        t118,
+        t123,
+        b[15].fma(t116, b[14].fnma(t122, b[13].fma(t128, b[12].fma(t127, t126)))),
+        b[14].fnma(t132, b[13].fma(t131, t130)),
+        t135,
+        t137,
+        b[15].fma(t113, t139),
+    ]
+}
+
+/// [`product_grey`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_grey_rgb<T: Real>(a: &[T; 16], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_grey::<T, Channels<T, 3>>(a, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_zonal:4`: Multiplies a zonal function about z and any function, both of order 4; the
+/// product is cut off at it.
+/// g: the 4 coefficients of the zonal function at m = 0, about its own axis.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 67 (26 mul, 0 add, 41 fma); 15 constants, 17 live values.
+/// Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
+///     the worst of 256 measured, 3.8e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 4], b: &[V; 16]) -> [V; 16] {
+    let t0 = g[0] * T::lit(0.28209479177387814);
+    let t1 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t2 = g[2] * T::lit(0.24776669508347607);
+    let t3 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t4 = g[2].fnma(T::lit(0.126156626101008), t0);
+    let t5 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t6 = g[2] * T::lit(0.20230065940342062);
+    let t7 = g[2].fma(T::lit(0.09011187578643429), t0);
+    let t8 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t9 = g[2].fma(T::lit(0.126156626101008), t0);
+    let t10 = g[2].fnma(T::lit(0.18022375157286857), t0);
+    let t11 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t12 = g[2].fnma(T::lit(0.21026104350168), t0);
+    let t13 = b[0] * T::lit(0.28209479177387814);
+    let t14 = b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + b[12].times(t2) + g[1].times(t13);
+    let t15 = b[6].times(g[2].fma(T::lit(0.18022375157286857), t0)) + b[2].times(t1) + b[12].times(t3) + g[2].times(t13);
+    let t16 = b[6].times(t3) + b[2].times(t2) + b[12].times(g[2].fma(T::lit(0.168208834801344), t0)) + g[3].times(t13);
+    let t17 = (g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6]) + g[3].times(b[12])) * T::lit(0.28209479177387814);
+    [
+        t17,
+        b[5].times(t5) + b[1].times(t4) + b[11].times(t6),
+        t14,
+        b[7].times(t5) + b[3].times(t4) + b[13].times(t6),
+        b[10].times(t11) + b[4].times(t10),
+        b[5].times(t7) + b[1].times(t5) + b[11].times(t8),
+        t15,
+        b[7].times(t7) + b[3].times(t5) + b[13].times(t8),
+        b[14].times(t11) + b[8].times(t10),
+        b[9].times(t12),
+        b[10].times(t0) + b[4].times(t11),
+        b[5].times(t8) + b[1].times(t6) + b[11].times(t9),
+        t16,
+        b[7].times(t8) + b[3].times(t6) + b[13].times(t9),
+        b[14].times(t0) + b[8].times(t11),
+        b[15].times(t12),
+    ]
+}
+
+/// [`product_zonal`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_rgb<T: Real>(g: &[[T; 3]; 4], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_zonal::<T, Channels<T, 3>>(&g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_zonal_about:4`: Multiplies a zonal function about a direction and any function, both of
+/// order 4; the product is cut off at it.
+/// dir: the axis, of unit length.
+/// g: the 4 coefficients of the zonal function at m = 0, about its own axis.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 223 (88 mul, 3 add, 132 fma) and 1 inverse square root or reciprocal; 24 constants, 38
+///     live values.
+/// Error: f32 rounding at most 4.9e-7 of the product of both factors' norms, for every dir of unit
+///     length (3 times the worst of 256 measured, 1.7e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 4], b: &[V; 16]) -> [V; 16] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = t1 * t2;
+    let t6 = dir[2] * t5;
+    let t7 = t5 * t5;
+    let t8 = T::lit(0.5) * t7;
+    let t9 = dir[2].fms(dir[2], t7);
+    let t10 = T::lit(2.0) * t6;
+    let t11 = t5.fnma(t10, dir[2] * t9);
+    let t12 = dir[2].fma(t10, t5 * t9);
+    let t13 = T::lit(2.0) * t4;
+    let t14 = t4.fnma(t13, T::lit(1.0));
+    let t15 = t3 * t13;
+    let t16 = t4.fnma(t15, t3 * t14);
+    let t17 = t3.fma(t15, t4 * t14);
+    let t18 = b[3].fma(t3, b[1] * t4);
+    let t19 = b[1].fms(t3, b[3] * t4);
+    let t20 = b[2].fnma(dir[2], t18 * t5);
+    let t21 = t18.fma(dir[2], b[2] * t5);
+    let t22 = b[7].fma(t3, b[5] * t4);
+    let t23 = b[5].fms(t3, b[7] * t4);
+    let t24 = b[8].fma(t14, b[4] * t15);
+    let t25 = b[4].fms(t14, b[8] * t15);
+    let t26 = b[6].fnma(T::lit(1.7320508075688772), t24);
+    let t27 = t22.fms(t9, t26 * t6);
+    let t28 = t26.fms(t8, t22 * t6);
+    let t29 = t24 - t28;
+    let t30 = t28.fma(T::lit(1.7320508075688772), b[6]);
+    let t31 = t23.fms(dir[2], t25 * t5);
+    let t32 = t25.fma(dir[2], t23 * t5);
+    let t33 = b[11].fms(t3, b[13] * t4);
+    let t34 = b[14].fma(t14, b[10] * t15);
+    let t35 = b[10].fms(t14, b[14] * t15);
+    let t36 = b[15].fma(t16, b[9] * t17);
+    let t37 = b[9].fms(t16, b[15] * t17);
+    let t38 = t34.fnma(T::lit(0.3419987131196464), b[12]);
+    let t39 = t38.fma(T::lit(0.6123724356957945), t34);
+    let t40 = t39.fnma(T::lit(0.3419987131196464), t38);
+    let t41 = t36.fms(T::lit(0.12701665379258312), b[13].fma(t3, b[11] * t4));
+    let t42 = t41.fms(T::lit(0.25), t36);
+    let t43 = t42.fnma(T::lit(0.12701665379258312), t41);
+    let t44 = t40.fma(t11, t43 * t12);
+    let t45 = t43.fms(t11, t40 * t12);
+    let t46 = t44.fnma(T::lit(0.3419987131196464), t39.fma(dir[2], t42 * t5));
+    let t47 = t46.fma(T::lit(0.6123724356957945), t44);
+    let t48 = t47.fnma(T::lit(0.3419987131196464), t46);
+    let t49 = t45.fms(T::lit(0.12701665379258312), t42.fms(dir[2], t39 * t5));
+    let t50 = t49.fms(T::lit(0.25), t45);
+    let t51 = t37.fnma(T::lit(0.6123724356957945), t33 * T::lit(0.7905694150420949));
+    let t52 = t35.fma(t9, t51 * t10);
+    let t53 = t35.fnma(t10, t51.fms(t9, t51));
+    let t54 = t53.fma(T::lit(0.7905694150420949), t33);
+    let t55 = g[0] * T::lit(0.28209479177387814);
+    let t56 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t57 = g[2] * T::lit(0.24776669508347607);
+    let t58 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t59 = g[2].fnma(T::lit(0.126156626101008), t55);
+    let t60 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t61 = g[2] * T::lit(0.20230065940342062);
+    let t62 = t27.times(t60) + t21.times(t59) + t50.times(t61);
+    let t63 = t31.times(t60) + t19.times(t59) + t54.times(t61);
+    let t64 = g[2].fma(T::lit(0.09011187578643429), t55);
+    let t65 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t66 = t27.times(t64) + t21.times(t60) + t50.times(t65);
+    let t67 = t31.times(t64) + t19.times(t60) + t54.times(t65);
+    let t68 = g[2].fma(T::lit(0.126156626101008), t55);
+    let t69 = t31.times(t65) + t19.times(t61) + t54.times(t68);
+    let t70 = g[2].fnma(T::lit(0.18022375157286857), t55);
+    let t71 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t72 = t48.times(t71) + t29.times(t70);
+    let t73 = t52.times(t71) + t32.times(t70);
+    let t74 = t48.times(t55) + t29.times(t71);
+    let t75 = t52.times(t55) + t32.times(t71);
+    let t76 = g[2].fnma(T::lit(0.21026104350168), t55);
+    let t77 = t50.fnma(T::lit(0.12701665379258312), t49).times(t76);
+    let t78 = t53.fnma(T::lit(0.6123724356957945), t37).times(t76);
+    let t79 = b[0] * T::lit(0.28209479177387814);
+    let t80 = t30.times(t56) - t20.times(g[2].fma(T::lit(0.252313252202016), t55)) + t47.times(t57) + g[1].times(t79);
+    let t81 = t30.times(g[2].fma(T::lit(0.18022375157286857), t55)) - t20.times(t56) + t47.times(t58) + g[2].times(t79);
+    let t82 = t30.times(t58) - t20.times(t57) + t47.times(g[2].fma(T::lit(0.168208834801344), t55)) + g[3].times(t79);
+    let t83 = (g[0].times(b[0]) - g[1].times(t20) + g[2].times(t30) + g[3].times(t47)) * T::lit(0.28209479177387814);
+    let t84 = t62.fms(dir[2], t80 * t5);
+    let t85 = t81.fnma(T::lit(1.7320508075688772), t72);
+    let t86 = t66.fma(t9, t85 * t6);
+    let t87 = t85.fma(t8, t66 * t6);
+    let t88 = t72 - t87;
+    let t89 = t67.fma(dir[2], t73 * t5);
+    let t90 = t73.fnma(dir[2], t67 * t5);
+    let t91 = t74.fnma(T::lit(0.3419987131196464), t82);
+    let t92 = t91.fma(T::lit(0.6123724356957945), t74);
+    let t93 = t92.fnma(T::lit(0.3419987131196464), t91);
+    let t94 = t77.fms(T::lit(0.12701665379258312), t27.times(t65) + t21.times(t61) + t50.times(t68));
+    let t95 = t94.fms(T::lit(0.25), t77);
+    let t96 = t95.fnma(T::lit(0.12701665379258312), t94);
+    let t97 = t93.fms(t11, t96 * t12);
+    let t98 = t96.fma(t11, t93 * t12);
+    let t99 = t97.fnma(T::lit(0.3419987131196464), t92.fms(dir[2], t95 * t5));
+    let t100 = t99.fma(T::lit(0.6123724356957945), t97);
+    let t101 = t100.fnma(T::lit(0.3419987131196464), t99);
+    let t102 = t98.fms(T::lit(0.12701665379258312), t95.fma(dir[2], t92 * t5));
+    let t103 = t102.fms(T::lit(0.25), t98);
+    let t104 = t103.fnma(T::lit(0.12701665379258312), t102);
+    let t105 = t78.fnma(T::lit(0.6123724356957945), t69 * T::lit(0.7905694150420949));
+    let t106 = t75.fms(t9, t105 * t10);
+    let t107 = t75.fma(t10, t105.fms(t9, t105));
+    let t108 = t107.fnma(T::lit(0.6123724356957945), t78);
+    let t109 = t107.fma(T::lit(0.7905694150420949), t69);
+    [
+        t83,
+        t63.fma(t3, t84 * t4),
+        t80.fma(dir[2], t62 * t5),
+        t84.fms(t3, t63 * t4),
+        t90.fnma(t14, t88 * t15),
+        t89.fma(t3, t86 * t4),
+        t87.fma(T::lit(1.7320508075688772), t81),
+        t86.fms(t3, t89 * t4),
+        t88.fma(t14, t90 * t15),
+        t108.fma(t16, t104 * t17),
+        t106.fma(t14, t101 * t15),
+        t109.fma(t3, t103 * t4),
+        t100,
+        t103.fms(t3, t109 * t4),
+        t101.fms(t14, t106 * t15),
+        t104.fms(t16, t108 * t17),
+    ]
+}
+
+/// [`product_zonal_about`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_about_rgb<T: Real>(dir: [T; 3], g: &[[T; 3]; 4], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_zonal_about::<T, Channels<T, 3>>(dir, &g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_zonal_about:4:angles`: Multiplies a zonal function about an axis and any function, both of
+/// order 4, from the multiples that `axis_angles:4` makes; the product is cut off at the order.
+/// cs: (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ? cos phi,
+///     sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// g: the 4 coefficients of the zonal function at m = 0, about its own axis.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 201 (74 mul, 2 add, 125 fma); 21 constants, 25 live values.
+/// Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every angle (3 times
+///     the worst of 256 measured, 5e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 7], g: &[V; 4], b: &[V; 16]) -> [V; 16] {
+    let t0 = b[3].fma(cs[0][0], b[1] * cs[0][1]);
+    let t1 = b[1].fms(cs[0][0], b[3] * cs[0][1]);
+    let t2 = b[2].fnma(cs[3][0], t0 * cs[3][1]);
+    let t3 = t0.fma(cs[3][0], b[2] * cs[3][1]);
+    let t4 = b[7].fma(cs[0][0], b[5] * cs[0][1]);
+    let t5 = b[5].fms(cs[0][0], b[7] * cs[0][1]);
+    let t6 = b[8].fma(cs[1][0], b[4] * cs[1][1]);
+    let t7 = b[4].fms(cs[1][0], b[8] * cs[1][1]);
+    let t8 = b[6].fnma(T::lit(1.7320508075688772), t6);
+    let t9 = t4.fms(cs[4][0], t8 * cs[6][1]);
+    let t10 = t8.fms(cs[6][0], t4 * cs[6][1]);
+    let t11 = t6 - t10;
+    let t12 = t10.fma(T::lit(1.7320508075688772), b[6]);
+    let t13 = t5.fms(cs[3][0], t7 * cs[3][1]);
+    let t14 = t7.fma(cs[3][0], t5 * cs[3][1]);
+    let t15 = b[11].fms(cs[0][0], b[13] * cs[0][1]);
+    let t16 = b[14].fma(cs[1][0], b[10] * cs[1][1]);
+    let t17 = b[10].fms(cs[1][0], b[14] * cs[1][1]);
+    let t18 = b[15].fma(cs[2][0], b[9] * cs[2][1]);
+    let t19 = b[9].fms(cs[2][0], b[15] * cs[2][1]);
+    let t20 = t16.fnma(T::lit(0.3419987131196464), b[12]);
+    let t21 = t20.fma(T::lit(0.6123724356957945), t16);
+    let t22 = t21.fnma(T::lit(0.3419987131196464), t20);
+    let t23 = t18.fms(T::lit(0.12701665379258312), b[13].fma(cs[0][0], b[11] * cs[0][1]));
+    let t24 = t23.fms(T::lit(0.25), t18);
+    let t25 = t24.fnma(T::lit(0.12701665379258312), t23);
+    let t26 = t22.fma(cs[5][0], t25 * cs[5][1]);
+    let t27 = t25.fms(cs[5][0], t22 * cs[5][1]);
+    let t28 = t26.fnma(T::lit(0.3419987131196464), t21.fma(cs[3][0], t24 * cs[3][1]));
+    let t29 = t28.fma(T::lit(0.6123724356957945), t26);
+    let t30 = t29.fnma(T::lit(0.3419987131196464), t28);
+    let t31 = t27.fms(T::lit(0.12701665379258312), t24.fms(cs[3][0], t21 * cs[3][1]));
+    let t32 = t31.fms(T::lit(0.25), t27);
+    let t33 = t19.fnma(T::lit(0.6123724356957945), t15 * T::lit(0.7905694150420949));
+    let t34 = t17.fma(cs[4][0], t33 * cs[4][1]);
+    let t35 = t17.fnma(cs[4][1], t33.fms(cs[4][0], t33));
+    let t36 = t35.fma(T::lit(0.7905694150420949), t15);
+    let t37 = g[0] * T::lit(0.28209479177387814);
+    let t38 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
+    let t39 = g[2] * T::lit(0.24776669508347607);
+    let t40 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t41 = g[2].fnma(T::lit(0.126156626101008), t37);
+    let t42 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t43 = g[2] * T::lit(0.20230065940342062);
+    let t44 = t9.times(t42) + t3.times(t41) + t32.times(t43);
+    let t45 = t13.times(t42) + t1.times(t41) + t36.times(t43);
+    let t46 = g[2].fma(T::lit(0.09011187578643429), t37);
+    let t47 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t48 = t9.times(t46) + t3.times(t42) + t32.times(t47);
+    let t49 = t13.times(t46) + t1.times(t42) + t36.times(t47);
+    let t50 = g[2].fma(T::lit(0.126156626101008), t37);
+    let t51 = t13.times(t47) + t1.times(t43) + t36.times(t50);
+    let t52 = g[2].fnma(T::lit(0.18022375157286857), t37);
+    let t53 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t54 = t30.times(t53) + t11.times(t52);
+    let t55 = t34.times(t53) + t14.times(t52);
+    let t56 = t30.times(t37) + t11.times(t53);
+    let t57 = t34.times(t37) + t14.times(t53);
+    let t58 = g[2].fnma(T::lit(0.21026104350168), t37);
+    let t59 = t32.fnma(T::lit(0.12701665379258312), t31).times(t58);
+    let t60 = t35.fnma(T::lit(0.6123724356957945), t19).times(t58);
+    let t61 = b[0] * T::lit(0.28209479177387814);
+    let t62 = t12.times(t38) - t2.times(g[2].fma(T::lit(0.252313252202016), t37)) + t29.times(t39) + g[1].times(t61);
+    let t63 = t12.times(g[2].fma(T::lit(0.18022375157286857), t37)) - t2.times(t38) + t29.times(t40) + g[2].times(t61);
+    let t64 = t12.times(t40) - t2.times(t39) + t29.times(g[2].fma(T::lit(0.168208834801344), t37)) + g[3].times(t61);
+    let t65 = (g[0].times(b[0]) - g[1].times(t2) + g[2].times(t12) + g[3].times(t29)) * T::lit(0.28209479177387814);
+    let t66 = t44.fms(cs[3][0], t62 * cs[3][1]);
+    let t67 = t63.fnma(T::lit(1.7320508075688772), t54);
+    let t68 = t48.fma(cs[4][0], t67 * cs[6][1]);
+    let t69 = t67.fma(cs[6][0], t48 * cs[6][1]);
+    let t70 = t54 - t69;
+    let t71 = t49.fma(cs[3][0], t55 * cs[3][1]);
+    let t72 = t55.fnma(cs[3][0], t49 * cs[3][1]);
+    let t73 = t56.fnma(T::lit(0.3419987131196464), t64);
+    let t74 = t73.fma(T::lit(0.6123724356957945), t56);
+    let t75 = t74.fnma(T::lit(0.3419987131196464), t73);
+    let t76 = t59.fms(T::lit(0.12701665379258312), t9.times(t47) + t3.times(t43) + t32.times(t50));
+    let t77 = t76.fms(T::lit(0.25), t59);
+    let t78 = t77.fnma(T::lit(0.12701665379258312), t76);
+    let t79 = t75.fms(cs[5][0], t78 * cs[5][1]);
+    let t80 = t78.fma(cs[5][0], t75 * cs[5][1]);
+    let t81 = t79.fnma(T::lit(0.3419987131196464), t74.fms(cs[3][0], t77 * cs[3][1]));
+    let t82 = t81.fma(T::lit(0.6123724356957945), t79);
+    let t83 = t82.fnma(T::lit(0.3419987131196464), t81);
+    let t84 = t80.fms(T::lit(0.12701665379258312), t77.fma(cs[3][0], t74 * cs[3][1]));
+    let t85 = t84.fms(T::lit(0.25), t80);
+    let t86 = t85.fnma(T::lit(0.12701665379258312), t84);
+    let t87 = t60.fnma(T::lit(0.6123724356957945), t51 * T::lit(0.7905694150420949));
+    let t88 = t57.fms(cs[4][0], t87 * cs[4][1]);
+    let t89 = t57.fma(cs[4][1], t87.fms(cs[4][0], t87));
+    let t90 = t89.fnma(T::lit(0.6123724356957945), t60);
+    let t91 = t89.fma(T::lit(0.7905694150420949), t51);
+    [
+        t65,
+        t45.fma(cs[0][0], t66 * cs[0][1]),
+        t62.fma(cs[3][0], t44 * cs[3][1]),
+        t66.fms(cs[0][0], t45 * cs[0][1]),
+        t72.fnma(cs[1][0], t70 * cs[1][1]),
+        t71.fma(cs[0][0], t68 * cs[0][1]),
+        t69.fma(T::lit(1.7320508075688772), t63),
+        t68.fms(cs[0][0], t71 * cs[0][1]),
+        t70.fma(cs[1][0], t72 * cs[1][1]),
+        t90.fma(cs[2][0], t86 * cs[2][1]),
+        t88.fma(cs[1][0], t83 * cs[1][1]),
+        t91.fma(cs[0][0], t85 * cs[0][1]),
+        t82,
+        t85.fms(cs[0][0], t91 * cs[0][1]),
+        t83.fms(cs[1][0], t88 * cs[1][1]),
+        t86.fms(cs[2][0], t90 * cs[2][1]),
+    ]
+}
+
+/// [`product_zonal_about_angles`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_zonal_about_angles_rgb<T: Real>(cs: &[[T; 2]; 7], g: &[[T; 3]; 4], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_zonal_about_angles::<T, Channels<T, 3>>(cs, &g.map(Channels), &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_cosine:4`: Multiplies a function of order 4 by the clamped cosine max(0, z), of which all
+/// bands count; the product is cut off at the order.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 42 (16 mul, 0 add, 26 fma); 18 constants, 16 live values.
+/// Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_cosine<T: Real, V: Signal<T>>(b: &[V; 16]) -> [V; 16] {
+    let t0 = b[6].fma(T::lit(0.13975424859373686), b[0].fma(T::lit(0.25), b[2] * T::lit(0.28867513459481287)));
+    let t1 = b[11].fma(T::lit(0.11692679333668567), b[1].fma(T::lit(0.1875), b[5] * T::lit(0.22360679774997896)));
+    let t2 = b[6].fma(T::lit(0.25819888974716115), b[0].fma(T::lit(0.28867513459481287), b[2] * T::lit(0.375)));
+    let t3 = b[13].fma(T::lit(0.11692679333668567), b[3].fma(T::lit(0.1875), b[7] * T::lit(0.22360679774997896)));
+    let t4 = b[11].fma(T::lit(0.23904572186687872), b[1].fma(T::lit(0.22360679774997896), b[5] * T::lit(0.3125)));
+    let t5 = b[6].fma(T::lit(0.3125), b[0].fma(T::lit(0.13975424859373686), b[2] * T::lit(0.25819888974716115)));
+    let t6 = b[13].fma(T::lit(0.23904572186687872), b[3].fma(T::lit(0.22360679774997896), b[7] * T::lit(0.3125)));
+    let t7 = b[11].fma(T::lit(0.30078125), b[1].fma(T::lit(0.11692679333668567), b[5] * T::lit(0.23904572186687872)));
+    let t8 = b[12].fma(T::lit(0.328125), b[2].fma(T::lit(0.09547032697824667), b[6] * T::lit(0.253546276418555)));
+    let t9 = b[13].fma(T::lit(0.30078125), b[3].fma(T::lit(0.11692679333668567), b[7] * T::lit(0.23904572186687872)));
+    [
+        t0,
+        t1,
+        b[12].fma(T::lit(0.09547032697824667), t2),
+        t3,
+        b[4].fma(T::lit(0.15625), b[10] * T::lit(0.18898223650461363)),
+        t4,
+        b[12].fma(T::lit(0.253546276418555), t5),
+        t6,
+        b[8].fma(T::lit(0.15625), b[14] * T::lit(0.18898223650461363)),
+        b[9] * T::lit(0.13671875),
+        b[4].fma(T::lit(0.18898223650461363), b[10] * T::lit(0.2734375)),
+        t7,
+        t8,
+        t9,
+        b[8].fma(T::lit(0.18898223650461363), b[14] * T::lit(0.2734375)),
+        b[15] * T::lit(0.13671875),
+    ]
+}
+
+/// [`product_cosine`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_cosine_rgb<T: Real>(b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_cosine::<T, Channels<T, 3>>(&b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_cosine_about:4`: Multiplies a function of order 4 by the clamped cosine about a direction,
+/// of which all bands count; the product is cut off at the order.
+/// dir: the axis, of unit length.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 198 (78 mul, 3 add, 117 fma) and 1 inverse square root or reciprocal; 28 constants, 41
+///     live values.
+/// Error: f32 rounding at most 1.2e-6 of the norm of a band, for every dir of unit length (3 times the
+///     worst of 256 measured, 4e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_cosine_about<T: Real, V: Signal<T>>(dir: [T; 3], b: &[V; 16]) -> [V; 16] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = b[3].fma(t3, b[1] * t4);
+    let t6 = t1 * t2;
+    let t7 = t5.fms(t6, b[2] * dir[2]);
+    let t8 = T::lit(2.0) * t4;
+    let t9 = t4.fnma(t8, T::lit(1.0));
+    let t10 = t3 * t8;
+    let t11 = b[8].fma(t9, b[4] * t10);
+    let t12 = b[6].fnma(T::lit(1.7320508075688772), t11);
+    let t13 = t6 * t6;
+    let t14 = T::lit(0.5) * t13;
+    let t15 = b[7].fma(t3, b[5] * t4);
+    let t16 = dir[2] * t6;
+    let t17 = t12.fms(t14, t15 * t16);
+    let t18 = t17.fma(T::lit(1.7320508075688772), b[6]);
+    let t19 = t18.fma(T::lit(0.13975424859373686), b[0].fms(T::lit(0.25), t7 * T::lit(0.28867513459481287)));
+    let t20 = b[1].fms(t3, b[3] * t4);
+    let t21 = b[5].fms(t3, b[7] * t4);
+    let t22 = b[4].fms(t9, b[8] * t10);
+    let t23 = t21.fms(dir[2], t22 * t6);
+    let t24 = b[11].fms(t3, b[13] * t4);
+    let t25 = t3.fms(t9, t4 * t10);
+    let t26 = t3.fma(t10, t4 * t9);
+    let t27 = b[9].fms(t25, b[15] * t26);
+    let t28 = t24.fms(T::lit(0.7905694150420949), t27 * T::lit(0.6123724356957945));
+    let t29 = dir[2].fms(dir[2], t13);
+    let t30 = b[10].fms(t9, b[14] * t10);
+    let t31 = T::lit(2.0) * t16;
+    let t32 = t30.fnma(t31, t28.fms(t29, t28));
+    let t33 = t32.fma(T::lit(0.7905694150420949), t24);
+    let t34 = t33.fma(T::lit(0.11692679333668567), t20.fma(T::lit(0.1875), t23 * T::lit(0.22360679774997896)));
+    let t35 = t5.fma(dir[2], b[2] * t6);
+    let t36 = t15.fms(t29, t12 * t16);
+    let t37 = b[15].fma(t25, b[9] * t26);
+    let t38 = t37.fms(T::lit(0.12701665379258312), b[13].fma(t3, b[11] * t4));
+    let t39 = t38.fms(T::lit(0.25), t37);
+    let t40 = t39.fnma(T::lit(0.12701665379258312), t38);
+    let t41 = dir[2].fms(t29, t6 * t31);
+    let t42 = b[14].fma(t9, b[10] * t10);
+    let t43 = t42.fnma(T::lit(0.3419987131196464), b[12]);
+    let t44 = t43.fma(T::lit(0.6123724356957945), t42);
+    let t45 = t44.fnma(T::lit(0.3419987131196464), t43);
+    let t46 = dir[2].fma(t31, t6 * t29);
+    let t47 = t40.fms(t41, t45 * t46);
+    let t48 = t47.fms(T::lit(0.12701665379258312), t39.fms(dir[2], t44 * t6));
+    let t49 = t48.fms(T::lit(0.25), t47);
+    let t50 = t49.fma(T::lit(0.11692679333668567), t35.fma(T::lit(0.1875), t36 * T::lit(0.22360679774997896)));
+    let t51 = t18.fma(T::lit(0.25819888974716115), b[0].fms(T::lit(0.28867513459481287), t7 * T::lit(0.375)));
+    let t52 = t45.fma(t41, t40 * t46);
+    let t53 = t52.fnma(T::lit(0.3419987131196464), t44.fma(dir[2], t39 * t6));
+    let t54 = t53.fma(T::lit(0.6123724356957945), t52);
+    let t55 = t54.fma(T::lit(0.09547032697824667), t51);
+    let t56 = t50.fms(dir[2], t55 * t6);
+    let t57 = t11 - t17;
+    let t58 = t54.fnma(T::lit(0.3419987131196464), t53);
+    let t59 = t57.fma(T::lit(0.15625), t58 * T::lit(0.18898223650461363));
+    let t60 = t18.fma(T::lit(0.3125), b[0].fms(T::lit(0.13975424859373686), t7 * T::lit(0.25819888974716115)));
+    let t61 = t54.fma(T::lit(0.253546276418555), t60);
+    let t62 = t61.fnma(T::lit(1.7320508075688772), t59);
+    let t63 = t49.fma(T::lit(0.23904572186687872), t35.fma(T::lit(0.22360679774997896), t36 * T::lit(0.3125)));
+    let t64 = t62.fma(t14, t63 * t16);
+    let t65 = t59 - t64;
+    let t66 = t33.fma(T::lit(0.23904572186687872), t20.fma(T::lit(0.22360679774997896), t23 * T::lit(0.3125)));
+    let t67 = t22.fma(dir[2], t21 * t6);
+    let t68 = t30.fma(t29, t28 * t31);
+    let t69 = t67.fma(T::lit(0.15625), t68 * T::lit(0.18898223650461363));
+    let t70 = t66.fms(t6, t69 * dir[2]);
+    let t71 = t66.fma(dir[2], t69 * t6);
+    let t72 = t63.fma(t29, t62 * t16);
+    let t73 = t32.fnma(T::lit(0.6123724356957945), t27);
+    let t74 = t67.fma(T::lit(0.18898223650461363), t68 * T::lit(0.2734375));
+    let t75 = t33.fma(T::lit(0.30078125), t20.fma(T::lit(0.11692679333668567), t23 * T::lit(0.23904572186687872)));
+    let t76 = t75.fms(T::lit(0.7905694150420949), t73 * T::lit(0.08372279394278441));
+    let t77 = t74.fma(t31, t76.fms(t29, t76));
+    let t78 = t73.fms(T::lit(0.13671875), t77 * T::lit(0.6123724356957945));
+    let t79 = t49.fnma(T::lit(0.12701665379258312), t48);
+    let t80 = t49.fma(T::lit(0.30078125), t35.fma(T::lit(0.11692679333668567), t36 * T::lit(0.23904572186687872)));
+    let t81 = t79.fms(T::lit(0.01736555813570472), t80);
+    let t82 = t81.fms(T::lit(0.25), t79 * T::lit(0.13671875));
+    let t83 = t82.fnma(T::lit(0.12701665379258312), t81);
+    let t84 = t54.fma(T::lit(0.328125), t18.fms(T::lit(0.253546276418555), t7 * T::lit(0.09547032697824667)));
+    let t85 = t57.fma(T::lit(0.18898223650461363), t58 * T::lit(0.2734375));
+    let t86 = t85.fnma(T::lit(0.3419987131196464), t84);
+    let t87 = t86.fma(T::lit(0.6123724356957945), t85);
+    let t88 = t87.fnma(T::lit(0.3419987131196464), t86);
+    let t89 = t83.fma(t41, t88 * t46);
+    let t90 = t89.fms(T::lit(0.12701665379258312), t82.fma(dir[2], t87 * t6));
+    let t91 = t90.fms(T::lit(0.25), t89);
+    let t92 = t91.fnma(T::lit(0.12701665379258312), t90);
+    let t93 = t74.fms(t29, t76 * t31);
+    let t94 = t88.fms(t41, t83 * t46);
+    let t95 = t94.fnma(T::lit(0.3419987131196464), t87.fms(dir[2], t82 * t6));
+    let t96 = t95.fma(T::lit(0.6123724356957945), t94);
+    let t97 = t96.fnma(T::lit(0.3419987131196464), t95);
+    let t98 = t77.fma(T::lit(0.7905694150420949), t75);
+    [
+        t19,
+        t34.fma(t3, t56 * t4),
+        t55.fma(dir[2], t50 * t6),
+        t56.fms(t3, t34 * t4),
+        t65.fms(t10, t70 * t9),
+        t71.fma(t3, t72 * t4),
+        t64.fma(T::lit(1.7320508075688772), t61),
+        t72.fms(t3, t71 * t4),
+        t65.fma(t9, t70 * t10),
+        t78.fma(t25, t92 * t26),
+        t93.fma(t9, t97 * t10),
+        t98.fma(t3, t91 * t4),
+        t96,
+        t91.fms(t3, t98 * t4),
+        t97.fms(t9, t93 * t10),
+        t92.fms(t25, t78 * t26),
+    ]
+}
+
+/// [`product_cosine_about`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_cosine_about_rgb<T: Real>(dir: [T; 3], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_cosine_about::<T, Channels<T, 3>>(dir, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_cosine_about:4:angles`: Multiplies a function of order 4 by the clamped cosine about an
+/// axis, from the multiples that `axis_angles:4` makes; the product is cut off at the order.
+/// cs: (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ? cos phi,
+///     sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 176 (64 mul, 2 add, 110 fma); 25 constants, 29 live values.
+/// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every angle (3 times the worst of 256
+///     measured, 2.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_cosine_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 7], b: &[V; 16]) -> [V; 16] {
+    let t0 = b[3].fma(cs[0][0], b[1] * cs[0][1]);
+    let t1 = t0.fms(cs[3][1], b[2] * cs[3][0]);
+    let t2 = b[8].fma(cs[1][0], b[4] * cs[1][1]);
+    let t3 = b[6].fnma(T::lit(1.7320508075688772), t2);
+    let t4 = b[7].fma(cs[0][0], b[5] * cs[0][1]);
+    let t5 = t3.fms(cs[6][0], t4 * cs[6][1]);
+    let t6 = t5.fma(T::lit(1.7320508075688772), b[6]);
+    let t7 = t6.fma(T::lit(0.13975424859373686), b[0].fms(T::lit(0.25), t1 * T::lit(0.28867513459481287)));
+    let t8 = b[1].fms(cs[0][0], b[3] * cs[0][1]);
+    let t9 = b[5].fms(cs[0][0], b[7] * cs[0][1]);
+    let t10 = b[4].fms(cs[1][0], b[8] * cs[1][1]);
+    let t11 = t9.fms(cs[3][0], t10 * cs[3][1]);
+    let t12 = b[11].fms(cs[0][0], b[13] * cs[0][1]);
+    let t13 = b[9].fms(cs[2][0], b[15] * cs[2][1]);
+    let t14 = t12.fms(T::lit(0.7905694150420949), t13 * T::lit(0.6123724356957945));
+    let t15 = b[10].fms(cs[1][0], b[14] * cs[1][1]);
+    let t16 = t15.fnma(cs[4][1], t14.fms(cs[4][0], t14));
+    let t17 = t16.fma(T::lit(0.7905694150420949), t12);
+    let t18 = t17.fma(T::lit(0.11692679333668567), t8.fma(T::lit(0.1875), t11 * T::lit(0.22360679774997896)));
+    let t19 = t0.fma(cs[3][0], b[2] * cs[3][1]);
+    let t20 = t4.fms(cs[4][0], t3 * cs[6][1]);
+    let t21 = b[15].fma(cs[2][0], b[9] * cs[2][1]);
+    let t22 = t21.fms(T::lit(0.12701665379258312), b[13].fma(cs[0][0], b[11] * cs[0][1]));
+    let t23 = t22.fms(T::lit(0.25), t21);
+    let t24 = t23.fnma(T::lit(0.12701665379258312), t22);
+    let t25 = b[14].fma(cs[1][0], b[10] * cs[1][1]);
+    let t26 = t25.fnma(T::lit(0.3419987131196464), b[12]);
+    let t27 = t26.fma(T::lit(0.6123724356957945), t25);
+    let t28 = t27.fnma(T::lit(0.3419987131196464), t26);
+    let t29 = t24.fms(cs[5][0], t28 * cs[5][1]);
+    let t30 = t29.fms(T::lit(0.12701665379258312), t23.fms(cs[3][0], t27 * cs[3][1]));
+    let t31 = t30.fms(T::lit(0.25), t29);
+    let t32 = t31.fma(T::lit(0.11692679333668567), t19.fma(T::lit(0.1875), t20 * T::lit(0.22360679774997896)));
+    let t33 = t6.fma(T::lit(0.25819888974716115), b[0].fms(T::lit(0.28867513459481287), t1 * T::lit(0.375)));
+    let t34 = t28.fma(cs[5][0], t24 * cs[5][1]);
+    let t35 = t34.fnma(T::lit(0.3419987131196464), t27.fma(cs[3][0], t23 * cs[3][1]));
+    let t36 = t35.fma(T::lit(0.6123724356957945), t34);
+    let t37 = t36.fma(T::lit(0.09547032697824667), t33);
+    let t38 = t32.fms(cs[3][0], t37 * cs[3][1]);
+    let t39 = t2 - t5;
+    let t40 = t36.fnma(T::lit(0.3419987131196464), t35);
+    let t41 = t39.fma(T::lit(0.15625), t40 * T::lit(0.18898223650461363));
+    let t42 = t6.fma(T::lit(0.3125), b[0].fms(T::lit(0.13975424859373686), t1 * T::lit(0.25819888974716115)));
+    let t43 = t36.fma(T::lit(0.253546276418555), t42);
+    let t44 = t43.fnma(T::lit(1.7320508075688772), t41);
+    let t45 = t31.fma(T::lit(0.23904572186687872), t19.fma(T::lit(0.22360679774997896), t20 * T::lit(0.3125)));
+    let t46 = t44.fma(cs[6][0], t45 * cs[6][1]);
+    let t47 = t41 - t46;
+    let t48 = t17.fma(T::lit(0.23904572186687872), t8.fma(T::lit(0.22360679774997896), t11 * T::lit(0.3125)));
+    let t49 = t10.fma(cs[3][0], t9 * cs[3][1]);
+    let t50 = t15.fma(cs[4][0], t14 * cs[4][1]);
+    let t51 = t49.fma(T::lit(0.15625), t50 * T::lit(0.18898223650461363));
+    let t52 = t48.fms(cs[3][1], t51 * cs[3][0]);
+    let t53 = t48.fma(cs[3][0], t51 * cs[3][1]);
+    let t54 = t45.fma(cs[4][0], t44 * cs[6][1]);
+    let t55 = t16.fnma(T::lit(0.6123724356957945), t13);
+    let t56 = t49.fma(T::lit(0.18898223650461363), t50 * T::lit(0.2734375));
+    let t57 = t17.fma(T::lit(0.30078125), t8.fma(T::lit(0.11692679333668567), t11 * T::lit(0.23904572186687872)));
+    let t58 = t57.fms(T::lit(0.7905694150420949), t55 * T::lit(0.08372279394278441));
+    let t59 = t56.fma(cs[4][1], t58.fms(cs[4][0], t58));
+    let t60 = t55.fms(T::lit(0.13671875), t59 * T::lit(0.6123724356957945));
+    let t61 = t31.fnma(T::lit(0.12701665379258312), t30);
+    let t62 = t31.fma(T::lit(0.30078125), t19.fma(T::lit(0.11692679333668567), t20 * T::lit(0.23904572186687872)));
+    let t63 = t61.fms(T::lit(0.01736555813570472), t62);
+    let t64 = t63.fms(T::lit(0.25), t61 * T::lit(0.13671875));
+    let t65 = t64.fnma(T::lit(0.12701665379258312), t63);
+    let t66 = t36.fma(T::lit(0.328125), t6.fms(T::lit(0.253546276418555), t1 * T::lit(0.09547032697824667)));
+    let t67 = t39.fma(T::lit(0.18898223650461363), t40 * T::lit(0.2734375));
+    let t68 = t67.fnma(T::lit(0.3419987131196464), t66);
+    let t69 = t68.fma(T::lit(0.6123724356957945), t67);
+    let t70 = t69.fnma(T::lit(0.3419987131196464), t68);
+    let t71 = t65.fma(cs[5][0], t70 * cs[5][1]);
+    let t72 = t71.fms(T::lit(0.12701665379258312), t64.fma(cs[3][0], t69 * cs[3][1]));
+    let t73 = t72.fms(T::lit(0.25), t71);
+    let t74 = t73.fnma(T::lit(0.12701665379258312), t72);
+    let t75 = t56.fms(cs[4][0], t58 * cs[4][1]);
+    let t76 = t70.fms(cs[5][0], t65 * cs[5][1]);
+    let t77 = t76.fnma(T::lit(0.3419987131196464), t69.fms(cs[3][0], t64 * cs[3][1]));
+    let t78 = t77.fma(T::lit(0.6123724356957945), t76);
+    let t79 = t78.fnma(T::lit(0.3419987131196464), t77);
+    let t80 = t59.fma(T::lit(0.7905694150420949), t57);
+    [
+        t7,
+        t18.fma(cs[0][0], t38 * cs[0][1]),
+        t37.fma(cs[3][0], t32 * cs[3][1]),
+        t38.fms(cs[0][0], t18 * cs[0][1]),
+        t47.fms(cs[1][1], t52 * cs[1][0]),
+        t53.fma(cs[0][0], t54 * cs[0][1]),
+        t46.fma(T::lit(1.7320508075688772), t43),
+        t54.fms(cs[0][0], t53 * cs[0][1]),
+        t47.fma(cs[1][0], t52 * cs[1][1]),
+        t60.fma(cs[2][0], t74 * cs[2][1]),
+        t75.fma(cs[1][0], t79 * cs[1][1]),
+        t80.fma(cs[0][0], t73 * cs[0][1]),
+        t78,
+        t73.fms(cs[0][0], t80 * cs[0][1]),
+        t79.fms(cs[1][0], t75 * cs[1][1]),
+        t74.fms(cs[2][0], t60 * cs[2][1]),
+    ]
+}
+
+/// [`product_cosine_about_angles`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_cosine_about_angles_rgb<T: Real>(cs: &[[T; 2]; 7], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_cosine_about_angles::<T, Channels<T, 3>>(cs, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_hemisphere:4`: Multiplies a function of order 4 by one where z > 0 and zero elsewhere, of
+/// which all bands count; the product is cut off at the order.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 36 (16 mul, 0 add, 20 fma); 8 constants, 16 live values.
+/// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
+///     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_hemisphere<T: Real, V: Signal<T>>(b: &[V; 16]) -> [V; 16] {
+    let t0 = b[12].fnma(T::lit(0.16535945694153692), b[0].fma(T::lit(0.5), b[2] * T::lit(0.4330127018922193)));
+    let t1 = b[6].fma(T::lit(0.24206145913796356), b[0].fma(T::lit(0.4330127018922193), b[2] * T::lit(0.5)));
+    let t2 = b[11].fma(T::lit(0.2614562582918986), b[1].fma(T::lit(0.4192627457812106), b[5] * T::lit(0.5)));
+    let t3 = b[12].fma(T::lit(0.369754986443726), b[2].fma(T::lit(0.24206145913796356), b[6] * T::lit(0.5)));
+    let t4 = b[13].fma(T::lit(0.2614562582918986), b[3].fma(T::lit(0.4192627457812106), b[7] * T::lit(0.5)));
+    let t5 = b[12].fma(T::lit(0.5), b[6].fms(T::lit(0.369754986443726), b[0] * T::lit(0.16535945694153692)));
+    [
+        t0,
+        b[1].fma(T::lit(0.5), b[5] * T::lit(0.4192627457812106)),
+        t1,
+        b[3].fma(T::lit(0.5), b[7] * T::lit(0.4192627457812106)),
+        b[4].fma(T::lit(0.5), b[10] * T::lit(0.41339864235384227)),
+        t2,
+        t3,
+        t4,
+        b[8].fma(T::lit(0.5), b[14] * T::lit(0.41339864235384227)),
+        b[9] * T::lit(0.5),
+        b[4].fma(T::lit(0.41339864235384227), b[10] * T::lit(0.5)),
+        b[5].fma(T::lit(0.2614562582918986), b[11] * T::lit(0.5)),
+        t5,
+        b[7].fma(T::lit(0.2614562582918986), b[13] * T::lit(0.5)),
+        b[8].fma(T::lit(0.41339864235384227), b[14] * T::lit(0.5)),
+        b[15] * T::lit(0.5),
+    ]
+}
+
+/// [`product_hemisphere`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_hemisphere_rgb<T: Real>(b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_hemisphere::<T, Channels<T, 3>>(&b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_hemisphere_about:4`: Multiplies a function of order 4 by one on the hemisphere about a
+/// direction and zero elsewhere, of which all bands count; the product is cut off at the order.
+/// dir: the axis, of unit length.
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 192 (78 mul, 3 add, 111 fma) and 1 inverse square root or reciprocal; 18 constants, 38
+///     live values.
+/// Error: f32 rounding at most 2.1e-6 of the norm of a band, for every dir of unit length (3 times the
+///     worst of 256 measured, 6.7e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_hemisphere_about<T: Real, V: Signal<T>>(dir: [T; 3], b: &[V; 16]) -> [V; 16] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = b[3].fma(t3, b[1] * t4);
+    let t6 = t1 * t2;
+    let t7 = t5.fms(t6, b[2] * dir[2]);
+    let t8 = T::lit(2.0) * t4;
+    let t9 = t4.fnma(t8, T::lit(1.0));
+    let t10 = t3 * t8;
+    let t11 = b[14].fma(t9, b[10] * t10);
+    let t12 = t11.fnma(T::lit(0.3419987131196464), b[12]);
+    let t13 = t12.fma(T::lit(0.6123724356957945), t11);
+    let t14 = t13.fnma(T::lit(0.3419987131196464), t12);
+    let t15 = t6 * t6;
+    let t16 = dir[2].fms(dir[2], t15);
+    let t17 = dir[2] * t6;
+    let t18 = T::lit(2.0) * t17;
+    let t19 = dir[2].fms(t16, t6 * t18);
+    let t20 = t3.fms(t9, t4 * t10);
+    let t21 = t3.fma(t10, t4 * t9);
+    let t22 = b[15].fma(t20, b[9] * t21);
+    let t23 = t22.fms(T::lit(0.12701665379258312), b[13].fma(t3, b[11] * t4));
+    let t24 = t23.fms(T::lit(0.25), t22);
+    let t25 = t24.fnma(T::lit(0.12701665379258312), t23);
+    let t26 = dir[2].fma(t18, t6 * t16);
+    let t27 = t14.fma(t19, t25 * t26);
+    let t28 = t27.fnma(T::lit(0.3419987131196464), t13.fma(dir[2], t24 * t6));
+    let t29 = t28.fma(T::lit(0.6123724356957945), t27);
+    let t30 = t29.fnma(T::lit(0.16535945694153692), b[0].fms(T::lit(0.5), t7 * T::lit(0.4330127018922193)));
+    let t31 = b[1].fms(t3, b[3] * t4);
+    let t32 = b[5].fms(t3, b[7] * t4);
+    let t33 = b[4].fms(t9, b[8] * t10);
+    let t34 = t32.fms(dir[2], t33 * t6);
+    let t35 = t31.fma(T::lit(0.5), t34 * T::lit(0.4192627457812106));
+    let t36 = t5.fma(dir[2], b[2] * t6);
+    let t37 = b[7].fma(t3, b[5] * t4);
+    let t38 = b[8].fma(t9, b[4] * t10);
+    let t39 = b[6].fnma(T::lit(1.7320508075688772), t38);
+    let t40 = t37.fms(t16, t39 * t17);
+    let t41 = t36.fma(T::lit(0.5), t40 * T::lit(0.4192627457812106));
+    let t42 = T::lit(0.5) * t15;
+    let t43 = t39.fms(t42, t37 * t17);
+    let t44 = t43.fma(T::lit(1.7320508075688772), b[6]);
+    let t45 = t44.fma(T::lit(0.24206145913796356), b[0].fms(T::lit(0.4330127018922193), t7 * T::lit(0.5)));
+    let t46 = t41.fms(dir[2], t45 * t6);
+    let t47 = t38 - t43;
+    let t48 = t29.fnma(T::lit(0.3419987131196464), t28);
+    let t49 = t47.fma(T::lit(0.5), t48 * T::lit(0.41339864235384227));
+    let t50 = t29.fma(T::lit(0.369754986443726), t44.fms(T::lit(0.5), t7 * T::lit(0.24206145913796356)));
+    let t51 = t50.fnma(T::lit(1.7320508075688772), t49);
+    let t52 = t25.fms(t19, t14 * t26);
+    let t53 = t52.fms(T::lit(0.12701665379258312), t24.fms(dir[2], t13 * t6));
+    let t54 = t53.fms(T::lit(0.25), t52);
+    let t55 = t54.fma(T::lit(0.2614562582918986), t36.fma(T::lit(0.4192627457812106), t40 * T::lit(0.5)));
+    let t56 = t51.fma(t42, t55 * t17);
+    let t57 = t49 - t56;
+    let t58 = b[11].fms(t3, b[13] * t4);
+    let t59 = b[9].fms(t20, b[15] * t21);
+    let t60 = t58.fms(T::lit(0.7905694150420949), t59 * T::lit(0.6123724356957945));
+    let t61 = b[10].fms(t9, b[14] * t10);
+    let t62 = t61.fnma(t18, t60.fms(t16, t60));
+    let t63 = t62.fma(T::lit(0.7905694150420949), t58);
+    let t64 = t63.fma(T::lit(0.2614562582918986), t31.fma(T::lit(0.4192627457812106), t34 * T::lit(0.5)));
+    let t65 = t33.fma(dir[2], t32 * t6);
+    let t66 = t61.fma(t16, t60 * t18);
+    let t67 = t65.fma(T::lit(0.5), t66 * T::lit(0.41339864235384227));
+    let t68 = t64.fms(t6, t67 * dir[2]);
+    let t69 = t64.fma(dir[2], t67 * t6);
+    let t70 = t55.fma(t16, t51 * t17);
+    let t71 = t62.fnma(T::lit(0.6123724356957945), t59);
+    let t72 = t65.fma(T::lit(0.41339864235384227), t66 * T::lit(0.5));
+    let t73 = t34.fma(T::lit(0.2614562582918986), t63 * T::lit(0.5));
+    let t74 = t73.fms(T::lit(0.7905694150420949), t71 * T::lit(0.30618621784789724));
+    let t75 = t72.fma(t18, t74.fms(t16, t74));
+    let t76 = t71.fms(T::lit(0.5), t75 * T::lit(0.6123724356957945));
+    let t77 = t54.fnma(T::lit(0.12701665379258312), t53);
+    let t78 = t77.fms(T::lit(0.06350832689629156), t40.fma(T::lit(0.2614562582918986), t54 * T::lit(0.5)));
+    let t79 = t78.fms(T::lit(0.25), t77 * T::lit(0.5));
+    let t80 = t79.fnma(T::lit(0.12701665379258312), t78);
+    let t81 = t29.fma(T::lit(0.5), t44.fms(T::lit(0.369754986443726), b[0] * T::lit(0.16535945694153692)));
+    let t82 = t47.fma(T::lit(0.41339864235384227), t48 * T::lit(0.5));
+    let t83 = t82.fnma(T::lit(0.3419987131196464), t81);
+    let t84 = t83.fma(T::lit(0.6123724356957945), t82);
+    let t85 = t84.fnma(T::lit(0.3419987131196464), t83);
+    let t86 = t80.fma(t19, t85 * t26);
+    let t87 = t86.fms(T::lit(0.12701665379258312), t79.fma(dir[2], t84 * t6));
+    let t88 = t87.fms(T::lit(0.25), t86);
+    let t89 = t88.fnma(T::lit(0.12701665379258312), t87);
+    let t90 = t72.fms(t16, t74 * t18);
+    let t91 = t85.fms(t19, t80 * t26);
+    let t92 = t91.fnma(T::lit(0.3419987131196464), t84.fms(dir[2], t79 * t6));
+    let t93 = t92.fma(T::lit(0.6123724356957945), t91);
+    let t94 = t93.fnma(T::lit(0.3419987131196464), t92);
+    let t95 = t75.fma(T::lit(0.7905694150420949), t73);
+    [
+        t30,
+        t35.fma(t3, t46 * t4),
+        t45.fma(dir[2], t41 * t6),
+        t46.fms(t3, t35 * t4),
+        t57.fms(t10, t68 * t9),
+        t69.fma(t3, t70 * t4),
+        t56.fma(T::lit(1.7320508075688772), t50),
+        t70.fms(t3, t69 * t4),
+        t57.fma(t9, t68 * t10),
+        t76.fma(t20, t89 * t21),
+        t90.fma(t9, t94 * t10),
+        t95.fma(t3, t88 * t4),
+        t93,
+        t88.fms(t3, t95 * t4),
+        t94.fms(t9, t90 * t10),
+        t89.fms(t20, t76 * t21),
+    ]
+}
+
+/// [`product_hemisphere_about`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_hemisphere_about_rgb<T: Real>(dir: [T; 3], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_hemisphere_about::<T, Channels<T, 3>>(dir, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `product_hemisphere_about:4:angles`: Multiplies a function of order 4 by one on the hemisphere about
+/// an axis and zero elsewhere, from the multiples that `axis_angles:4` makes; the product is cut off at
+/// the order.
+/// cs: (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ? cos phi,
+///     sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// b: the coefficients of a function of order 4, index l(l+1)+m.
+/// Returns the coefficients of the product, index l(l+1)+m.
+/// Operations: 170 (64 mul, 2 add, 104 fma); 16 constants, 26 live values.
+/// Error: f32 rounding at most 4.6e-7 of the norm of a band, for every angle (3 times the worst of 256
+///     measured, 1.6e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn product_hemisphere_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 7], b: &[V; 16]) -> [V; 16] {
+    let t0 = b[3].fma(cs[0][0], b[1] * cs[0][1]);
+    let t1 = t0.fms(cs[3][1], b[2] * cs[3][0]);
+    let t2 = b[14].fma(cs[1][0], b[10] * cs[1][1]);
+    let t3 = t2.fnma(T::lit(0.3419987131196464), b[12]);
+    let t4 = t3.fma(T::lit(0.6123724356957945), t2);
+    let t5 = t4.fnma(T::lit(0.3419987131196464), t3);
+    let t6 = b[15].fma(cs[2][0], b[9] * cs[2][1]);
+    let t7 = t6.fms(T::lit(0.12701665379258312), b[13].fma(cs[0][0], b[11] * cs[0][1]));
+    let t8 = t7.fms(T::lit(0.25), t6);
+    let t9 = t8.fnma(T::lit(0.12701665379258312), t7);
+    let t10 = t5.fma(cs[5][0], t9 * cs[5][1]);
+    let t11 = t10.fnma(T::lit(0.3419987131196464), t4.fma(cs[3][0], t8 * cs[3][1]));
+    let t12 = t11.fma(T::lit(0.6123724356957945), t10);
+    let t13 = t12.fnma(T::lit(0.16535945694153692), b[0].fms(T::lit(0.5), t1 * T::lit(0.4330127018922193)));
+    let t14 = b[1].fms(cs[0][0], b[3] * cs[0][1]);
+    let t15 = b[5].fms(cs[0][0], b[7] * cs[0][1]);
+    let t16 = b[4].fms(cs[1][0], b[8] * cs[1][1]);
+    let t17 = t15.fms(cs[3][0], t16 * cs[3][1]);
+    let t18 = t14.fma(T::lit(0.5), t17 * T::lit(0.4192627457812106));
+    let t19 = t0.fma(cs[3][0], b[2] * cs[3][1]);
+    let t20 = b[7].fma(cs[0][0], b[5] * cs[0][1]);
+    let t21 = b[8].fma(cs[1][0], b[4] * cs[1][1]);
+    let t22 = b[6].fnma(T::lit(1.7320508075688772), t21);
+    let t23 = t20.fms(cs[4][0], t22 * cs[6][1]);
+    let t24 = t19.fma(T::lit(0.5), t23 * T::lit(0.4192627457812106));
+    let t25 = t22.fms(cs[6][0], t20 * cs[6][1]);
+    let t26 = t25.fma(T::lit(1.7320508075688772), b[6]);
+    let t27 = t26.fma(T::lit(0.24206145913796356), b[0].fms(T::lit(0.4330127018922193), t1 * T::lit(0.5)));
+    let t28 = t24.fms(cs[3][0], t27 * cs[3][1]);
+    let t29 = t21 - t25;
+    let t30 = t12.fnma(T::lit(0.3419987131196464), t11);
+    let t31 = t29.fma(T::lit(0.5), t30 * T::lit(0.41339864235384227));
+    let t32 = t12.fma(T::lit(0.369754986443726), t26.fms(T::lit(0.5), t1 * T::lit(0.24206145913796356)));
+    let t33 = t32.fnma(T::lit(1.7320508075688772), t31);
+    let t34 = t9.fms(cs[5][0], t5 * cs[5][1]);
+    let t35 = t34.fms(T::lit(0.12701665379258312), t8.fms(cs[3][0], t4 * cs[3][1]));
+    let t36 = t35.fms(T::lit(0.25), t34);
+    let t37 = t36.fma(T::lit(0.2614562582918986), t19.fma(T::lit(0.4192627457812106), t23 * T::lit(0.5)));
+    let t38 = t33.fma(cs[6][0], t37 * cs[6][1]);
+    let t39 = t31 - t38;
+    let t40 = b[11].fms(cs[0][0], b[13] * cs[0][1]);
+    let t41 = b[9].fms(cs[2][0], b[15] * cs[2][1]);
+    let t42 = t40.fms(T::lit(0.7905694150420949), t41 * T::lit(0.6123724356957945));
+    let t43 = b[10].fms(cs[1][0], b[14] * cs[1][1]);
+    let t44 = t43.fnma(cs[4][1], t42.fms(cs[4][0], t42));
+    let t45 = t44.fma(T::lit(0.7905694150420949), t40);
+    let t46 = t45.fma(T::lit(0.2614562582918986), t14.fma(T::lit(0.4192627457812106), t17 * T::lit(0.5)));
+    let t47 = t16.fma(cs[3][0], t15 * cs[3][1]);
+    let t48 = t43.fma(cs[4][0], t42 * cs[4][1]);
+    let t49 = t47.fma(T::lit(0.5), t48 * T::lit(0.41339864235384227));
+    let t50 = t46.fms(cs[3][1], t49 * cs[3][0]);
+    let t51 = t46.fma(cs[3][0], t49 * cs[3][1]);
+    let t52 = t37.fma(cs[4][0], t33 * cs[6][1]);
+    let t53 = t44.fnma(T::lit(0.6123724356957945), t41);
+    let t54 = t47.fma(T::lit(0.41339864235384227), t48 * T::lit(0.5));
+    let t55 = t17.fma(T::lit(0.2614562582918986), t45 * T::lit(0.5));
+    let t56 = t55.fms(T::lit(0.7905694150420949), t53 * T::lit(0.30618621784789724));
+    let t57 = t54.fma(cs[4][1], t56.fms(cs[4][0], t56));
+    let t58 = t53.fms(T::lit(0.5), t57 * T::lit(0.6123724356957945));
+    let t59 = t36.fnma(T::lit(0.12701665379258312), t35);
+    let t60 = t59.fms(T::lit(0.06350832689629156), t23.fma(T::lit(0.2614562582918986), t36 * T::lit(0.5)));
+    let t61 = t60.fms(T::lit(0.25), t59 * T::lit(0.5));
+    let t62 = t61.fnma(T::lit(0.12701665379258312), t60);
+    let t63 = t12.fma(T::lit(0.5), t26.fms(T::lit(0.369754986443726), b[0] * T::lit(0.16535945694153692)));
+    let t64 = t29.fma(T::lit(0.41339864235384227), t30 * T::lit(0.5));
+    let t65 = t64.fnma(T::lit(0.3419987131196464), t63);
+    let t66 = t65.fma(T::lit(0.6123724356957945), t64);
+    let t67 = t66.fnma(T::lit(0.3419987131196464), t65);
+    let t68 = t62.fma(cs[5][0], t67 * cs[5][1]);
+    let t69 = t68.fms(T::lit(0.12701665379258312), t61.fma(cs[3][0], t66 * cs[3][1]));
+    let t70 = t69.fms(T::lit(0.25), t68);
+    let t71 = t70.fnma(T::lit(0.12701665379258312), t69);
+    let t72 = t54.fms(cs[4][0], t56 * cs[4][1]);
+    let t73 = t67.fms(cs[5][0], t62 * cs[5][1]);
+    let t74 = t73.fnma(T::lit(0.3419987131196464), t66.fms(cs[3][0], t61 * cs[3][1]));
+    let t75 = t74.fma(T::lit(0.6123724356957945), t73);
+    let t76 = t75.fnma(T::lit(0.3419987131196464), t74);
+    let t77 = t57.fma(T::lit(0.7905694150420949), t55);
+    [
+        t13,
+        t18.fma(cs[0][0], t28 * cs[0][1]),
+        t27.fma(cs[3][0], t24 * cs[3][1]),
+        t28.fms(cs[0][0], t18 * cs[0][1]),
+        t39.fms(cs[1][1], t50 * cs[1][0]),
+        t51.fma(cs[0][0], t52 * cs[0][1]),
+        t38.fma(T::lit(1.7320508075688772), t32),
+        t52.fms(cs[0][0], t51 * cs[0][1]),
+        t39.fma(cs[1][0], t50 * cs[1][1]),
+        t58.fma(cs[2][0], t71 * cs[2][1]),
+        t72.fma(cs[1][0], t76 * cs[1][1]),
+        t77.fma(cs[0][0], t70 * cs[0][1]),
+        t75,
+        t70.fms(cs[0][0], t77 * cs[0][1]),
+        t76.fms(cs[1][0], t72 * cs[1][1]),
+        t71.fms(cs[2][0], t58 * cs[2][1]),
+    ]
+}
+
+/// [`product_hemisphere_about_angles`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn product_hemisphere_about_angles_rgb<T: Real>(cs: &[[T; 2]; 7], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+    product_hemisphere_about_angles::<T, Channels<T, 3>>(cs, &b.map(Channels)).map(|v| v.0)
+}
+
+/// `axis_angles:4`: The multiples of a direction's two angles that products of order 4 about it take;
+/// done once for many of them.
+/// dir: the axis, of unit length.
+/// Returns (cos, sin) of phi, 2phi, ..., (n-1)phi, then of the multiples of ?, for the axis (sin ? cos
+///     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
+/// Operations: 23 (14 mul, 2 add, 7 fma) and 1 inverse square root or reciprocal; 2 constants, 13 live
+///     values.
+/// Error: f32 rounding at most 2.2e-6 of the norm of a band, for every dir of unit length (proven for
+///     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn axis_angles<T: Real>(dir: [T; 3]) -> [[T; 2]; 7] {
+    let t0 = dir[0] + T::TINY;
+    let t1 = t0.fma(t0, dir[1] * dir[1]);
+    let t2 = T::rsqrt(t1);
+    let t3 = t0 * t2;
+    let t4 = dir[1] * t2;
+    let t5 = t3.fms(t3, t4 * t4);
+    let t6 = t3 * t4;
+    let t7 = t6 + t6;
+    let t8 = t1 * t2;
+    let t9 = t8 * t8;
+    let t10 = dir[2].fms(dir[2], t9);
+    let t11 = dir[2] * t8;
+    let t12 = T::lit(2.0) * t11;
+    [
+        [t3, t4],
+        [t5, t7],
+        [t3.fms(t5, t4 * t7), t3.fma(t7, t4 * t5)],
+        [dir[2], t8],
+        [t10, t12],
+        [dir[2].fms(t10, t8 * t12), dir[2].fma(t12, t8 * t10)],
+        [T::lit(0.5) * t9, t11],
+    ]
+}
+

@@ -146,6 +146,47 @@ pub const SH2_PIECES: Shaders = Shaders {
     ],
 };
 
+/// Order 2: products of functions on the sphere.
+pub const SH2_PRODUCTS: Shaders = Shaders {
+    order: 2,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh2_products.wgsl"),
+    glsl: include_str!("../glsl/sh2_products.glsl"),
+    kernels: &[
+        ("product:2", "sh2_product"),
+        ("product:2:rgb", "sh2_product_rgb"),
+        ("square:2", "sh2_square"),
+        ("square:2:rgb", "sh2_square_rgb"),
+        ("dot:2", "sh2_dot"),
+        ("dot:2:rgb", "sh2_dot_rgb"),
+        ("product_matrix:2", "sh2_product_matrix"),
+        ("product_matrix:2:rgb", "sh2_product_matrix_rgb"),
+        ("product_by_matrix:2", "sh2_product_by_matrix"),
+        ("product_by_matrix:2:rgb", "sh2_product_by_matrix_rgb"),
+        ("product_grey:2", "sh2_product_grey"),
+        ("product_grey:2:rgb", "sh2_product_grey_rgb"),
+        ("product_zonal:2", "sh2_product_zonal"),
+        ("product_zonal:2:rgb", "sh2_product_zonal_rgb"),
+        ("product_zonal_about:2", "sh2_product_zonal_about"),
+        ("product_zonal_about:2:rgb", "sh2_product_zonal_about_rgb"),
+        ("product_zonal_about:2:angles", "sh2_product_zonal_about_angles"),
+        ("product_zonal_about:2:angles:rgb", "sh2_product_zonal_about_angles_rgb"),
+        ("product_cosine:2", "sh2_product_cosine"),
+        ("product_cosine:2:rgb", "sh2_product_cosine_rgb"),
+        ("product_cosine_about:2", "sh2_product_cosine_about"),
+        ("product_cosine_about:2:rgb", "sh2_product_cosine_about_rgb"),
+        ("product_cosine_about:2:angles", "sh2_product_cosine_about_angles"),
+        ("product_cosine_about:2:angles:rgb", "sh2_product_cosine_about_angles_rgb"),
+        ("product_hemisphere:2", "sh2_product_hemisphere"),
+        ("product_hemisphere:2:rgb", "sh2_product_hemisphere_rgb"),
+        ("product_hemisphere_about:2", "sh2_product_hemisphere_about"),
+        ("product_hemisphere_about:2:rgb", "sh2_product_hemisphere_about_rgb"),
+        ("product_hemisphere_about:2:angles", "sh2_product_hemisphere_about_angles"),
+        ("product_hemisphere_about:2:angles:rgb", "sh2_product_hemisphere_about_angles_rgb"),
+        ("axis_angles:2", "sh2_axis_angles"),
+    ],
+};
+
 /// Order 3: the basis, and sums over it.
 pub const SH3_EVALUATION: Shaders = Shaders {
     order: 3,
@@ -275,6 +316,49 @@ pub const SH3_PIECES: Shaders = Shaders {
         ("rotate_x_plus_90:3:rgb", "sh3_rotate_x_plus_90deg_rgb"),
         ("rotate_x_minus_90:3", "sh3_rotate_x_minus_90deg"),
         ("rotate_x_minus_90:3:rgb", "sh3_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 3: products of functions on the sphere.
+pub const SH3_PRODUCTS: Shaders = Shaders {
+    order: 3,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh3_products.wgsl"),
+    glsl: include_str!("../glsl/sh3_products.glsl"),
+    kernels: &[
+        ("product:3", "sh3_product"),
+        ("product:3:rgb", "sh3_product_rgb"),
+        ("product:2+3:3", "sh3_of_sh2_and_sh3_product"),
+        ("product:2+3:3:rgb", "sh3_of_sh2_and_sh3_product_rgb"),
+        ("square:3", "sh3_square"),
+        ("square:3:rgb", "sh3_square_rgb"),
+        ("dot:3", "sh3_dot"),
+        ("dot:3:rgb", "sh3_dot_rgb"),
+        ("product_matrix:3", "sh3_product_matrix"),
+        ("product_matrix:3:rgb", "sh3_product_matrix_rgb"),
+        ("product_by_matrix:3", "sh3_product_by_matrix"),
+        ("product_by_matrix:3:rgb", "sh3_product_by_matrix_rgb"),
+        ("product_grey:3", "sh3_product_grey"),
+        ("product_grey:3:rgb", "sh3_product_grey_rgb"),
+        ("product_zonal:3", "sh3_product_zonal"),
+        ("product_zonal:3:rgb", "sh3_product_zonal_rgb"),
+        ("product_zonal_about:3", "sh3_product_zonal_about"),
+        ("product_zonal_about:3:rgb", "sh3_product_zonal_about_rgb"),
+        ("product_zonal_about:3:angles", "sh3_product_zonal_about_angles"),
+        ("product_zonal_about:3:angles:rgb", "sh3_product_zonal_about_angles_rgb"),
+        ("product_cosine:3", "sh3_product_cosine"),
+        ("product_cosine:3:rgb", "sh3_product_cosine_rgb"),
+        ("product_cosine_about:3", "sh3_product_cosine_about"),
+        ("product_cosine_about:3:rgb", "sh3_product_cosine_about_rgb"),
+        ("product_cosine_about:3:angles", "sh3_product_cosine_about_angles"),
+        ("product_cosine_about:3:angles:rgb", "sh3_product_cosine_about_angles_rgb"),
+        ("product_hemisphere:3", "sh3_product_hemisphere"),
+        ("product_hemisphere:3:rgb", "sh3_product_hemisphere_rgb"),
+        ("product_hemisphere_about:3", "sh3_product_hemisphere_about"),
+        ("product_hemisphere_about:3:rgb", "sh3_product_hemisphere_about_rgb"),
+        ("product_hemisphere_about:3:angles", "sh3_product_hemisphere_about_angles"),
+        ("product_hemisphere_about:3:angles:rgb", "sh3_product_hemisphere_about_angles_rgb"),
+        ("axis_angles:3", "sh3_axis_angles"),
     ],
 };
 
@@ -417,6 +501,49 @@ pub const SH4_PIECES: Shaders = Shaders {
         ("rotate_x_plus_90:4:rgb", "sh4_rotate_x_plus_90deg_rgb"),
         ("rotate_x_minus_90:4", "sh4_rotate_x_minus_90deg"),
         ("rotate_x_minus_90:4:rgb", "sh4_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 4: products of functions on the sphere.
+pub const SH4_PRODUCTS: Shaders = Shaders {
+    order: 4,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh4_products.wgsl"),
+    glsl: include_str!("../glsl/sh4_products.glsl"),
+    kernels: &[
+        ("product:4", "sh4_product"),
+        ("product:4:rgb", "sh4_product_rgb"),
+        ("product:2+4:4", "sh4_of_sh2_and_sh4_product"),
+        ("product:2+4:4:rgb", "sh4_of_sh2_and_sh4_product_rgb"),
+        ("square:4", "sh4_square"),
+        ("square:4:rgb", "sh4_square_rgb"),
+        ("dot:4", "sh4_dot"),
+        ("dot:4:rgb", "sh4_dot_rgb"),
+        ("product_matrix:4", "sh4_product_matrix"),
+        ("product_matrix:4:rgb", "sh4_product_matrix_rgb"),
+        ("product_by_matrix:4", "sh4_product_by_matrix"),
+        ("product_by_matrix:4:rgb", "sh4_product_by_matrix_rgb"),
+        ("product_grey:4", "sh4_product_grey"),
+        ("product_grey:4:rgb", "sh4_product_grey_rgb"),
+        ("product_zonal:4", "sh4_product_zonal"),
+        ("product_zonal:4:rgb", "sh4_product_zonal_rgb"),
+        ("product_zonal_about:4", "sh4_product_zonal_about"),
+        ("product_zonal_about:4:rgb", "sh4_product_zonal_about_rgb"),
+        ("product_zonal_about:4:angles", "sh4_product_zonal_about_angles"),
+        ("product_zonal_about:4:angles:rgb", "sh4_product_zonal_about_angles_rgb"),
+        ("product_cosine:4", "sh4_product_cosine"),
+        ("product_cosine:4:rgb", "sh4_product_cosine_rgb"),
+        ("product_cosine_about:4", "sh4_product_cosine_about"),
+        ("product_cosine_about:4:rgb", "sh4_product_cosine_about_rgb"),
+        ("product_cosine_about:4:angles", "sh4_product_cosine_about_angles"),
+        ("product_cosine_about:4:angles:rgb", "sh4_product_cosine_about_angles_rgb"),
+        ("product_hemisphere:4", "sh4_product_hemisphere"),
+        ("product_hemisphere:4:rgb", "sh4_product_hemisphere_rgb"),
+        ("product_hemisphere_about:4", "sh4_product_hemisphere_about"),
+        ("product_hemisphere_about:4:rgb", "sh4_product_hemisphere_about_rgb"),
+        ("product_hemisphere_about:4:angles", "sh4_product_hemisphere_about_angles"),
+        ("product_hemisphere_about:4:angles:rgb", "sh4_product_hemisphere_about_angles_rgb"),
+        ("axis_angles:4", "sh4_axis_angles"),
     ],
 };
 
@@ -565,6 +692,37 @@ pub const SH5_PIECES: Shaders = Shaders {
     ],
 };
 
+/// Order 5: products of functions on the sphere.
+pub const SH5_PRODUCTS: Shaders = Shaders {
+    order: 5,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh5_products.wgsl"),
+    glsl: include_str!("../glsl/sh5_products.glsl"),
+    kernels: &[
+        ("product:5", "sh5_product"),
+        ("product:5:rgb", "sh5_product_rgb"),
+        ("product:2+5:5", "sh5_of_sh2_and_sh5_product"),
+        ("product:2+5:5:rgb", "sh5_of_sh2_and_sh5_product_rgb"),
+        ("square:5", "sh5_square"),
+        ("square:5:rgb", "sh5_square_rgb"),
+        ("dot:5", "sh5_dot"),
+        ("dot:5:rgb", "sh5_dot_rgb"),
+        ("product_grey:5", "sh5_product_grey"),
+        ("product_grey:5:rgb", "sh5_product_grey_rgb"),
+        ("product_zonal:5", "sh5_product_zonal"),
+        ("product_zonal:5:rgb", "sh5_product_zonal_rgb"),
+        ("product_zonal_about:5", "sh5_product_zonal_about"),
+        ("product_zonal_about:5:rgb", "sh5_product_zonal_about_rgb"),
+        ("product_zonal_about:5:angles", "sh5_product_zonal_about_angles"),
+        ("product_zonal_about:5:angles:rgb", "sh5_product_zonal_about_angles_rgb"),
+        ("product_cosine:5", "sh5_product_cosine"),
+        ("product_cosine:5:rgb", "sh5_product_cosine_rgb"),
+        ("product_hemisphere:5", "sh5_product_hemisphere"),
+        ("product_hemisphere:5:rgb", "sh5_product_hemisphere_rgb"),
+        ("axis_angles:5", "sh5_axis_angles"),
+    ],
+};
+
 /// Order 6: the basis, and sums over it.
 pub const SH6_EVALUATION: Shaders = Shaders {
     order: 6,
@@ -704,6 +862,33 @@ pub const SH6_PIECES: Shaders = Shaders {
         ("rotate_x_plus_90:6:rgb", "sh6_rotate_x_plus_90deg_rgb"),
         ("rotate_x_minus_90:6", "sh6_rotate_x_minus_90deg"),
         ("rotate_x_minus_90:6:rgb", "sh6_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 6: products of functions on the sphere.
+pub const SH6_PRODUCTS: Shaders = Shaders {
+    order: 6,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh6_products.wgsl"),
+    glsl: include_str!("../glsl/sh6_products.glsl"),
+    kernels: &[
+        ("product:6", "sh6_product"),
+        ("product:6:rgb", "sh6_product_rgb"),
+        ("square:6", "sh6_square"),
+        ("square:6:rgb", "sh6_square_rgb"),
+        ("dot:6", "sh6_dot"),
+        ("dot:6:rgb", "sh6_dot_rgb"),
+        ("product_zonal:6", "sh6_product_zonal"),
+        ("product_zonal:6:rgb", "sh6_product_zonal_rgb"),
+        ("product_zonal_about:6", "sh6_product_zonal_about"),
+        ("product_zonal_about:6:rgb", "sh6_product_zonal_about_rgb"),
+        ("product_zonal_about:6:angles", "sh6_product_zonal_about_angles"),
+        ("product_zonal_about:6:angles:rgb", "sh6_product_zonal_about_angles_rgb"),
+        ("product_cosine:6", "sh6_product_cosine"),
+        ("product_cosine:6:rgb", "sh6_product_cosine_rgb"),
+        ("product_hemisphere:6", "sh6_product_hemisphere"),
+        ("product_hemisphere:6:rgb", "sh6_product_hemisphere_rgb"),
+        ("axis_angles:6", "sh6_axis_angles"),
     ],
 };
 
@@ -849,6 +1034,18 @@ pub const SH7_PIECES: Shaders = Shaders {
     ],
 };
 
+/// Order 7: products of functions on the sphere.
+pub const SH7_PRODUCTS: Shaders = Shaders {
+    order: 7,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh7_products.wgsl"),
+    glsl: include_str!("../glsl/sh7_products.glsl"),
+    kernels: &[
+        ("dot:7", "sh7_dot"),
+        ("dot:7:rgb", "sh7_dot_rgb"),
+    ],
+};
+
 /// Order 8: the basis, and sums over it.
 pub const SH8_EVALUATION: Shaders = Shaders {
     order: 8,
@@ -988,6 +1185,18 @@ pub const SH8_PIECES: Shaders = Shaders {
         ("rotate_x_plus_90:8:rgb", "sh8_rotate_x_plus_90deg_rgb"),
         ("rotate_x_minus_90:8", "sh8_rotate_x_minus_90deg"),
         ("rotate_x_minus_90:8:rgb", "sh8_rotate_x_minus_90deg_rgb"),
+    ],
+};
+
+/// Order 8: products of functions on the sphere.
+pub const SH8_PRODUCTS: Shaders = Shaders {
+    order: 8,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh8_products.wgsl"),
+    glsl: include_str!("../glsl/sh8_products.glsl"),
+    kernels: &[
+        ("dot:8", "sh8_dot"),
+        ("dot:8:rgb", "sh8_dot_rgb"),
     ],
 };
 
@@ -1133,6 +1342,18 @@ pub const SH9_PIECES: Shaders = Shaders {
     ],
 };
 
+/// Order 9: products of functions on the sphere.
+pub const SH9_PRODUCTS: Shaders = Shaders {
+    order: 9,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh9_products.wgsl"),
+    glsl: include_str!("../glsl/sh9_products.glsl"),
+    kernels: &[
+        ("dot:9", "sh9_dot"),
+        ("dot:9:rgb", "sh9_dot_rgb"),
+    ],
+};
+
 /// Order 10: the basis, and sums over it.
 pub const SH10_EVALUATION: Shaders = Shaders {
     order: 10,
@@ -1275,6 +1496,18 @@ pub const SH10_PIECES: Shaders = Shaders {
     ],
 };
 
+/// Order 10: products of functions on the sphere.
+pub const SH10_PRODUCTS: Shaders = Shaders {
+    order: 10,
+    group: "products",
+    wgsl: include_str!("../wgsl/sh10_products.wgsl"),
+    glsl: include_str!("../glsl/sh10_products.glsl"),
+    kernels: &[
+        ("dot:10", "sh10_dot"),
+        ("dot:10:rgb", "sh10_dot_rgb"),
+    ],
+};
+
 /// All of them.
 pub const ALL: &[Shaders] = &[
     SH2_EVALUATION,
@@ -1283,52 +1516,61 @@ pub const ALL: &[Shaders] = &[
     SH2_SMALL_ANGLES,
     SH2_FACTORISATION,
     SH2_PIECES,
+    SH2_PRODUCTS,
     SH3_EVALUATION,
     SH3_ROTATION,
     SH3_TILTING,
     SH3_SMALL_ANGLES,
     SH3_FACTORISATION,
     SH3_PIECES,
+    SH3_PRODUCTS,
     SH4_EVALUATION,
     SH4_ROTATION,
     SH4_TILTING,
     SH4_SMALL_ANGLES,
     SH4_FACTORISATION,
     SH4_PIECES,
+    SH4_PRODUCTS,
     SH5_EVALUATION,
     SH5_ROTATION,
     SH5_TILTING,
     SH5_SMALL_ANGLES,
     SH5_FACTORISATION,
     SH5_PIECES,
+    SH5_PRODUCTS,
     SH6_EVALUATION,
     SH6_ROTATION,
     SH6_TILTING,
     SH6_SMALL_ANGLES,
     SH6_FACTORISATION,
     SH6_PIECES,
+    SH6_PRODUCTS,
     SH7_EVALUATION,
     SH7_ROTATION,
     SH7_TILTING,
     SH7_SMALL_ANGLES,
     SH7_FACTORISATION,
     SH7_PIECES,
+    SH7_PRODUCTS,
     SH8_EVALUATION,
     SH8_ROTATION,
     SH8_TILTING,
     SH8_SMALL_ANGLES,
     SH8_FACTORISATION,
     SH8_PIECES,
+    SH8_PRODUCTS,
     SH9_EVALUATION,
     SH9_ROTATION,
     SH9_TILTING,
     SH9_SMALL_ANGLES,
     SH9_FACTORISATION,
     SH9_PIECES,
+    SH9_PRODUCTS,
     SH10_EVALUATION,
     SH10_ROTATION,
     SH10_TILTING,
     SH10_SMALL_ANGLES,
     SH10_FACTORISATION,
     SH10_PIECES,
+    SH10_PRODUCTS,
 ];
