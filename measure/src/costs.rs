@@ -11,7 +11,7 @@ use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::EVAL;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
 use zonal_codegen::families::tilt::{TILT_SCALE, TILT_UNSCALE};
-use zonal_codegen::families::{Family, Form, Spec};
+use zonal_codegen::families::{Family, Form, Group, Spec};
 use zonal_codegen::generate;
 use zonal_codegen::ir::listing::{Cost, Listing};
 
@@ -43,7 +43,7 @@ pub struct Costs {
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
     const OTHERS: [&Family; 6] = [&EVAL, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
-    let turns = |spec: &Spec| !OTHERS.contains(&spec.family);
+    let turns = |spec: &Spec| !OTHERS.contains(&spec.family) && spec.family.group != Group::Multiply;
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()
 }
 

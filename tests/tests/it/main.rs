@@ -23,6 +23,7 @@ mod methods;
 mod operations;
 mod packages;
 mod plans;
+mod product_plans;
 mod products;
 mod proofs;
 mod properties;
