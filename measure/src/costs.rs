@@ -43,7 +43,8 @@ pub struct Costs {
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
     const OTHERS: [&Family; 6] = [&EVAL, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
-    let turns = |spec: &Spec| !OTHERS.contains(&spec.family) && spec.family.group != Group::Light;
+    let is_other = |spec: &Spec| matches!(spec.family.group, Group::Light | Group::Multiply);
+    let turns = |spec: &Spec| !OTHERS.contains(&spec.family) && !is_other(spec);
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()
 }
 

@@ -23,9 +23,9 @@ const SCENES: [&str; 4] = [
 const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
                     f 1 2 3\nf 1/1 2/2 3/3\nf 1//1 2//1 3//1 4//1\nf -1/-1/-1 -2/-2/-1 -3/-3/-1\n";
 /// Plans of products: one by pairs, one with rings.
-const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\n\
+const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\ntries = 1\n\
                      pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
-                     [[plan]]\norders = [2, 2, 2]\nsquare = true\noperations = 20\nseed = 1\npairs = [\"10 10: 00\"]\n\
+                     [[plan]]\norders = [2, 2, 2]\nsquare = true\noperations = 20\nseed = 1\ntries = 1\npairs = [\"10 10: 00\"]\n\
                      [[plan.rings]]\nclasses = [1, 1]\nnodes = 1\nexponent = 1\n";
 /// What numbers are replaced by, and what is put in anywhere.
 const EXTREMES: [&[u8]; 16] = [

@@ -8,6 +8,7 @@ pub mod all;
 pub mod axis;
 pub mod basis;
 pub mod convolution;
+pub mod factors;
 pub mod family;
 pub mod fitted;
 pub mod lifted;

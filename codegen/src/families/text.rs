@@ -1,6 +1,7 @@
 //! Specs as text, `rotate:5:zxzxz:rgb`: read, written, and refused with what to do.
 
 use crate::families::all::ALL;
+use crate::families::factors;
 use crate::families::family::{
     ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
 };
@@ -290,15 +291,6 @@ fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>
     Ok(bands)
 }
 
-/// The orders of a product's factors, `2+3`.
-fn parse_factors(piece: &Piece<'_>) -> Result<[usize; 2], SpecError> {
-    let orders: Option<Vec<usize>> = piece.text.split('+').map(|text| text.parse().ok()).collect();
-    match orders.as_deref() {
-        Some(&[a, b]) => Ok([a, b]),
-        _ => Err(piece.error(format!("`{}` is no pair of orders", piece.text), "write both, as in `product:2+3:4`")),
-    }
-}
-
 fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
     let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
     let order: usize =
@@ -356,7 +348,7 @@ impl FromStr for Spec {
         let takes_factors = |family: &&&Family| family.name == head.text && family.factors;
         let (factors, rest) = match rest {
             [first, rest @ ..] if first.text.contains('+') && ALL.iter().any(|family| takes_factors(&family)) => {
-                (Some(parse_factors(first)?), rest)
+                (Some(factors::read(first.text).map_err(|[message, help]| first.error(message, help))?), rest)
             }
             _ => (None, rest),
         };
@@ -441,29 +433,8 @@ impl Spec {
             let [message, help] = (family.outside)(order);
             return Err(whole.error(message, help));
         }
-        if let Some(factors) = self.factors {
-            let [message, help] = match factors {
-                [a, b] if a == order && b == order => [
-                    format!("both factors have the result's order {order}"),
-                    format!("write `{}:{order}`", family.name),
-                ],
-                [a, b] if [a, b].iter().any(|order| !family.orders.contains(order)) => {
-                    let (least, most) = (family.orders.start(), family.orders.end());
-                    [format!("factors of the orders {a} and {b}"), format!("each has an order of {least} to {most}")]
-                }
-                [a, b] if order > a + b - 1 => [
-                    format!("the product of the orders {a} and {b} ends at order {}", a + b - 1),
-                    format!("write `{}:{a}+{b}:{}`", family.name, a + b - 1),
-                ],
-                [a, b] if a.max(b) > a.min(b) + order - 1 => [
-                    format!("bands of the factor of order {} meet nothing", a.max(b)),
-                    format!("order {} of it is all that the result depends on", a.min(b) + order - 1),
-                ],
-                _ => Default::default(),
-            };
-            if !message.is_empty() {
-                return Err(whole.error(message, help));
-            }
+        if let Some([message, help]) = factors::fault(self) {
+            return Err(whole.error(message, help));
         }
         if let Some(by_band) = &family.by_band
             && !self.methods.iter().zip(1..).all(|(method, l)| (by_band.in_band)(l).contains(method))

@@ -28,6 +28,7 @@ mod orders;
 mod packages;
 mod peers;
 mod plans;
+mod product_plans;
 mod products;
 mod projects;
 mod proofs;

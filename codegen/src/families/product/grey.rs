@@ -12,7 +12,7 @@ use crate::math::gaunt::{Mode, gaunt};
 use crate::math::index::index;
 use crate::math::tables::k;
 
-/// The highest order of matrices: 666 numbers.
+/// The highest order of matrices: 646 numbers.
 const HIGHEST: usize = 6;
 
 /// What the families of matrices have in common.
@@ -34,13 +34,7 @@ pub static MATRIX: Family = Family {
             "The symmetric matrix M(a) by which the product of a function of order {order} and any other is M(a) b, cut off at the order; `product_by_matrix:{order}` applies it."
         )
     },
-    kernel: |spec| {
-        let mut builder = Builder::new();
-        let a = factor(&mut builder, "a", spec.order, Domain::Signal);
-        let zero = builder.graph.constant(Exact::zero());
-        let out = matrix(&mut builder.graph, spec.order, &a).into_iter().map(|entry| entry.unwrap_or(zero)).collect();
-        builder.finish(out, Shape::Array(triangle(spec.order * spec.order)), PACKED)
-    },
+    kernel: |spec| of_matrix(spec.order),
     measure: Measure::Whole,
     shown: |order| if order <= 4 { Spec::new(&MATRIX, order).both() } else { vec![] },
     ..OF_MATRICES
@@ -76,8 +70,7 @@ pub static GREY: Family = Family {
     ..OF_MATRICES
 };
 
-const PACKED: &str =
-    "the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 + j";
+const PACKED: &str = "the entries of the lower triangle of M(a), row by row, without those that are zero for every a";
 
 /// How many numbers the lower triangle of a matrix has.
 fn triangle(size: usize) -> usize {
@@ -137,16 +130,25 @@ fn apply(g: &mut Graph, entries: &[Option<Id>], b: &[Id]) -> Vec<Id> {
     (0..b.len()).map(|i| row(g, i)).collect()
 }
 
-fn by_matrix(order: usize) -> Kernel {
+fn of_matrix(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let count = triangle(order * order);
-    let m = builder.param("m", Shape::Array(count), Domain::Grey, PACKED);
-    let b = factor(&mut builder, "b", order, Domain::Signal);
+    let a = factor(&mut builder, "a", order, Domain::Signal);
+    let out: Vec<Id> = matrix(&mut builder.graph, order, &a).into_iter().flatten().collect();
+    let count = out.len();
+    builder.finish(out, Shape::Array(count), PACKED)
+}
+
+fn by_matrix(order: usize) -> Kernel {
     // Which entries are zero for every function is seen on one of inputs.
     let mut other = Builder::new();
     let a = factor(&mut other, "a", order, Domain::Signal);
     let known = matrix(&mut other.graph, order, &a);
-    let entries: Vec<Option<Id>> = m.iter().zip(known).map(|(&entry, known)| known.map(|_| entry)).collect();
+    let mut builder = Builder::new();
+    let count = known.iter().flatten().count();
+    let m = builder.param("m", Shape::Array(count), Domain::Grey, PACKED);
+    let b = factor(&mut builder, "b", order, Domain::Signal);
+    let mut given = m.into_iter();
+    let entries: Vec<Option<Id>> = known.iter().map(|entry| entry.and_then(|_| given.next())).collect();
     let out = apply(&mut builder.graph, &entries, &b);
     finish(builder, order, out)
 }

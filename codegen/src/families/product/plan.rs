@@ -40,8 +40,8 @@ impl Task {
         self.orders.map(|order| l < order)
     }
 
-    /// Returns the triples whose integral is not zero and that the result needs, but for that of the constant alone.
-    pub fn triples(&self) -> Vec<Triple> {
+    /// Returns the triples that the result needs and whose bands have an even sum, but for that of the constant alone.
+    fn triples(&self) -> Vec<Triple> {
         let highest = self.orders.into_iter().max().unwrap_or(0);
         let modes: Vec<Mode> = (0..highest).flat_map(|l| (0..=l).map(move |m| (l, m))).collect();
         let mut all = Vec::new();
@@ -56,7 +56,8 @@ impl Task {
                         (0, _) if sum < q => continue,
                         _ => [p, q, sum],
                     };
-                    if triple != [CONSTANT; 3] && self.needs(triple) && !gaunt(p, q, sum).is_zero() {
+                    let is_even = triple.iter().map(|(l, _)| l).sum::<usize>().is_multiple_of(2);
+                    if is_even && triple != [CONSTANT; 3] && self.needs(triple) {
                         all.push(triple);
                     }
                 }
@@ -166,6 +167,8 @@ pub struct Record {
     pub operations: usize,
     /// The seed of the search that found it.
     pub seed: u32,
+    /// How many tries that search made for each choice of rings that it looked into.
+    pub tries: usize,
     /// The rings.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rings: Vec<Rings>,
@@ -231,10 +234,10 @@ impl Item {
 
 impl Record {
     /// Returns what a plan is kept as.
-    pub fn new(plan: &Plan, operations: usize, seed: u32) -> Self {
+    pub fn new(plan: &Plan, operations: usize, (seed, tries): (u32, usize)) -> Self {
         let Task { orders, square } = plan.task;
         let pairs = plan.items.iter().map(Item::text).collect();
-        Self { orders, square, operations, seed, rings: plan.rings.clone(), pairs }
+        Self { orders, square, operations, seed, tries, rings: plan.rings.clone(), pairs }
     }
 
     /// Returns what it is for.
@@ -268,11 +271,15 @@ impl Plan {
         self.rings.iter().find(|rings| rings.hold(class))
     }
 
-    /// Returns the triples that pairs have to sum: those of no ring, and those that a ring does not sum exactly.
+    /// Returns the triples that pairs have to sum: those of no ring whose integral is not zero, and those that a ring does
+    /// not sum exactly, whether it should be zero or not.
     pub fn left(task: Task, rings: &[Rings]) -> Vec<Triple> {
-        let by_pairs = |triple: &Triple| {
-            let ring = rings.iter().find(|rings| rings.hold(triple[2].1));
-            ring.is_none_or(|ring| !ring.are_exact(*triple))
+        let by_pairs = |&triple: &Triple| {
+            let [p, q, sum] = triple;
+            match rings.iter().find(|rings| rings.hold(sum.1)) {
+                Some(ring) => !ring.are_exact(triple),
+                None => !gaunt(p, q, sum).is_zero(),
+            }
         };
         task.triples().into_iter().filter(by_pairs).collect()
     }

@@ -312,7 +312,7 @@ pub fn search(task: Task, seed: u32, tries: usize, done: impl Fn() + Sync) -> Re
         places.iter().flat_map(|&place| (1..=tries).map(move |number| (place, number))).collect();
     let found = threads::map(&jobs, |&(place, number)| attempt(&all[place], number, MOVES[1]));
     let (operations, plan) = found.into_iter().min_by_key(|(operations, _)| *operations).expect("a try is made");
-    Record::new(&plan, operations, seed)
+    Record::new(&plan, operations, (seed, tries))
 }
 
 /// Adds a plan, or puts it in the place of a dearer one of its task; sorted by task.
