@@ -24,7 +24,7 @@ pub static DOMINANT: Family = Family {
     proof: Proof::Nothing,
     what: |spec| {
         format!(
-            "The dominant direction of a signal of order {}, in which the irradiance of its bands 0 and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or so small that its reciprocal overflows.",
+            "The dominant direction of a signal of order {}, in which the irradiance of its bands 0 and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or its square below 2^-126: for bands from 1e-19 to 1e19 in size.",
             spec.order
         )
     },
@@ -99,24 +99,18 @@ fn coefficients(builder: &mut Builder, order: usize) -> Vec<Id> {
     builder.param("c", Shape::Array(order * order), Domain::Coefficients, doc)
 }
 
-/// The direction of band 1, which is (−y, z, −x), scaled by its largest component first: its square neither overflows nor
-/// vanishes.
+/// The direction of band 1, which is (−y, z, −x).
 fn dominant(g: &mut Graph, c: &[Id]) -> [Id; 3] {
     let xyz = [g.neg(c[3]), g.neg(c[1]), c[2]];
-    let sizes = xyz.map(|x| g.abs(x));
-    let most = g.max(sizes[1], sizes[2]);
-    let most = g.max(sizes[0], most);
-    let inverse = g.recip(most);
-    let scaled = xyz.map(|x| g.mul(x, inverse));
-    let square = inner(g, &scaled, &scaled);
+    let square = inner(g, &xyz, &xyz);
     let shorter = g.rsqrt(square);
-    // 2^-126: the reciprocal of what is larger is finite in f32.
-    let quarter = Exact::ratio(1, 1i64 << 42);
-    let least = g.constant(&(&quarter * &quarter) * &quarter);
+    // 2^-126: below it f32 has fewer digits, or none.
+    let third = Exact::ratio(1, 1i64 << 42);
+    let least = g.constant(&(&third * &third) * &third);
     let axis = [0, 0, 1].map(|x| g.constant(Exact::int(x)));
     std::array::from_fn(|i| {
-        let unit = g.mul(scaled[i], shorter);
-        g.select_less(least, most, unit, axis[i])
+        let unit = g.mul(xyz[i], shorter);
+        g.select_less(least, square, unit, axis[i])
     })
 }
 

@@ -267,7 +267,11 @@ fn direction() {
     let mut random = Random::new(1);
     for order in 2..=LARGEST {
         let dir = random.unit::<3>().to_vec();
-        close(&run(&format!("basis:{order}"), &[dir.clone()]), &harmonics(order, &dir, true), "XMSHEvalDirection");
+        close(
+            &run(&format!("basis:{order}"), std::slice::from_ref(&dir)),
+            &harmonics(order, &dir, true),
+            "XMSHEvalDirection",
+        );
     }
 }
 
@@ -453,7 +457,7 @@ fn approximate_light() {
     // Sloan 2008: of order 3, in units of a directional light of exit radiance one.
     let mut random = Random::new(14);
     let c = seeded(&mut random, 9);
-    let fit = run("light_fit:3", &[c.clone()]);
+    let fit = run("light_fit:3", std::slice::from_ref(&c));
     let lobe = |place: usize| zonal_codegen::environment::cosine_lobe(place.isqrt()) / PI;
     let unit = 16.0 * PI / 17.0;
     let light: Vec<f64> = harmonics(3, &fit[..3], true).iter().map(|y| y * unit).collect();
