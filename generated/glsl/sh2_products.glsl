@@ -137,27 +137,24 @@ ZONAL_HIGHP vec3 sh2_dot_rgb(ZONAL_HIGHP vec3[4] a, ZONAL_HIGHP vec3[4] b) {
 // `product_matrix:2`: The symmetric matrix M(a) by which the product of a function of order 2 and any
 // other is M(a) b, cut off at the order; `product_by_matrix:2` applies it.
 // a: the coefficients of a function of order 2, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 4 (4 mul, 0 add, 0 fma); 1 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-8 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-8).
-ZONAL_HIGHP float[10] sh2_product_matrix(ZONAL_HIGHP float[4] a) {
+ZONAL_HIGHP float[7] sh2_product_matrix(ZONAL_HIGHP float[4] a) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
     float t0 = 0.2820948 * a[0];
-    return float[10](
+    return float[7](
         t0,
         0.2820948 * a[1],
         t0,
         0.2820948 * a[2],
-        0.0,
         t0,
         0.2820948 * a[3],
-        0.0,
-        0.0,
         t0
     );
 }
@@ -165,72 +162,67 @@ ZONAL_HIGHP float[10] sh2_product_matrix(ZONAL_HIGHP float[4] a) {
 // `product_matrix:2:rgb`: The symmetric matrix M(a) by which the product of a function of order 2 and
 // any other is M(a) b, cut off at the order; `product_by_matrix:2` applies it.
 // a: the coefficients of a function of order 2, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 12 (12 mul, 0 add, 0 fma); 1 constants, 4 live values.
 // Error: f32 rounding at most 3.2e-8 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-8).
-ZONAL_HIGHP vec3[10] sh2_product_matrix_rgb(ZONAL_HIGHP vec3[4] a) {
+ZONAL_HIGHP vec3[7] sh2_product_matrix_rgb(ZONAL_HIGHP vec3[4] a) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
     vec3 t0 = 0.2820948 * a[0];
-    return vec3[10](
+    return vec3[7](
         t0,
         0.2820948 * a[1],
         t0,
         0.2820948 * a[2],
-        vec3(0.0, 0.0, 0.0),
         t0,
         0.2820948 * a[3],
-        vec3(0.0, 0.0, 0.0),
-        vec3(0.0, 0.0, 0.0),
         t0
     );
 }
 
 // `product_by_matrix:2`: Multiplies functions of order 2 by the one whose matrix `product_matrix:2`
 // made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
-// Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
-//     the worst of 256 measured, 7.1e-8; not proven).
-ZONAL_HIGHP float[4] sh2_product_by_matrix(ZONAL_HIGHP float[10] m, ZONAL_HIGHP float[4] b) {
+// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
+//     worst of 256 measured, 6.5e-8; not proven).
+ZONAL_HIGHP float[4] sh2_product_by_matrix(ZONAL_HIGHP float[7] m, ZONAL_HIGHP float[4] b) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
     return float[4](
-        b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6],
+        b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[5],
         b[1] * m[2] + b[0] * m[1],
-        b[2] * m[5] + b[0] * m[3],
-        b[3] * m[9] + b[0] * m[6]
+        b[2] * m[4] + b[0] * m[3],
+        b[3] * m[6] + b[0] * m[5]
     );
 }
 
 // `product_by_matrix:2:rgb`: Multiplies functions of order 2 by the one whose matrix
 // `product_matrix:2` made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 30 (12 mul, 0 add, 18 fma); 0 constants, 4 live values.
-// Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
-//     the worst of 256 measured, 7.1e-8; not proven).
-ZONAL_HIGHP vec3[4] sh2_product_by_matrix_rgb(ZONAL_HIGHP float[10] m, ZONAL_HIGHP vec3[4] b) {
+// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
+//     worst of 256 measured, 6.5e-8; not proven).
+ZONAL_HIGHP vec3[4] sh2_product_by_matrix_rgb(ZONAL_HIGHP float[7] m, ZONAL_HIGHP vec3[4] b) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
     return vec3[4](
-        b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6],
+        b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[5],
         b[1] * m[2] + b[0] * m[1],
-        b[2] * m[5] + b[0] * m[3],
-        b[3] * m[9] + b[0] * m[6]
+        b[2] * m[4] + b[0] * m[3],
+        b[3] * m[6] + b[0] * m[5]
     );
 }
 

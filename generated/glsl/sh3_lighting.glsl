@@ -714,28 +714,24 @@ ZONAL_HIGHP vec3[9] sh3_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 
 // `dominant:3`: The dominant direction of a signal of order 3, in which the irradiance of its bands 0
 // and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
-// so small that its reciprocal overflows.
+// its square below 2^-126: for bands from 1e-19 to 1e19 in size.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the direction, of unit length.
-// Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-//     reciprocals; 3 constants, 5 live values.
-// Error: f32 rounding at most 3e-7 of one, for c with each band of norm one (3 times the worst of 256
-//     measured, 9.8e-8; not proven).
+// Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
+//     constants, 4 live values.
+// Error: f32 rounding at most 3.7e-7 of one, for c with each band of norm one (3 times the worst of
+//     256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 sh3_dominant(ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
-    float t1 = 1.0 / (t0);
-    float t2 = c[3] * t1;
-    float t3 = c[1] * t1;
-    float t4 = c[2] * t1;
-    float t5 = inversesqrt(t3 * t3 + t2 * t2 + t4 * t4);
+    float t0 = c[1] * c[1] + c[3] * c[3] + c[2] * c[2];
+    float t1 = inversesqrt(t0);
     return vec3(
-        mix(0.0, -(t2 * t5), 1.1754944e-38 < t0),
-        mix(0.0, -(t3 * t5), 1.1754944e-38 < t0),
-        mix(1.0, t4 * t5, 1.1754944e-38 < t0)
+        mix(0.0, -(c[3] * t1), 1.1754944e-38 < t0),
+        mix(0.0, -(c[1] * t1), 1.1754944e-38 < t0),
+        mix(1.0, c[2] * t1, 1.1754944e-38 < t0)
     );
 }
 
@@ -744,36 +740,31 @@ ZONAL_HIGHP vec3 sh3_dominant(ZONAL_HIGHP float[9] c) {
 // signal give the luminance, then take `light_fit_along:3:rgb`. The light of zeros is zero, from z.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-// Operations: 35 (17 mul, 0 add, 13 fma, 5 min, max or select) and 2 inverse square roots or
-//     reciprocals; 12 constants, 8 live values.
-// Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
-//     256 measured, 5.2e-7; not proven).
+// Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
+//     reciprocal; 12 constants, 8 live values.
+// Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
+//     256 measured, 5.7e-7; not proven).
 ZONAL_HIGHP float[5] sh3_light_fit(ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
-    float t1 = 1.0 / (t0);
-    float t2 = c[3] * t1;
-    float t3 = c[1] * t1;
-    float t4 = c[2] * t1;
-    float t5 = inversesqrt(t3 * t3 + t2 * t2 + t4 * t4);
-    float t6 = mix(0.0, -(t2 * t5), 1.1754944e-38 < t0);
-    float t7 = mix(0.0, -(t3 * t5), 1.1754944e-38 < t0);
-    float t8 = mix(1.0, t4 * t5, 1.1754944e-38 < t0);
-    float t9 = t8 * t8;
-    float t10 = 0.31444705 * t8;
-    float t11 = 2.1432505 * t8 * c[2] + (0.58364815 * t9 - 0.19454937) * c[6] - 2.1432505 * t6 * (c[3] + c[7] * t10);
-    float t12 = 0.6739388 * t7;
-    float t13 = t11 - 2.1432505 * t7 * (c[1] + c[5] * t10) + (0.3369694 - 0.3369694 * t9 - t7 * t12) * c[8];
-    float t14 = t13 + c[4] * (t6 * t12);
+    float t0 = c[1] * c[1] + c[3] * c[3] + c[2] * c[2];
+    float t1 = inversesqrt(t0);
+    float t2 = mix(0.0, -(c[3] * t1), 1.1754944e-38 < t0);
+    float t3 = mix(0.0, -(c[1] * t1), 1.1754944e-38 < t0);
+    float t4 = mix(1.0, c[2] * t1, 1.1754944e-38 < t0);
+    float t5 = t4 * t4;
+    float t6 = 0.31444705 * t4;
+    float t7 = 2.1432505 * t4 * c[2] + (0.58364815 * t5 - 0.19454937) * c[6] - 2.1432505 * t2 * (c[3] + c[7] * t6);
+    float t8 = 0.6739388 * t3;
+    float t9 = t7 - 2.1432505 * t3 * (c[1] + c[5] * t6) + (0.3369694 - 0.3369694 * t5 - t3 * t8) * c[8] + c[4] * (t2 * t8);
     return float[5](
-        t6,
-        t7,
-        t8,
-        0.7736139 * t14,
-        0.2820948 * c[0] - 0.061562236 * t14
+        t2,
+        t3,
+        t4,
+        0.7736139 * t9,
+        0.2820948 * c[0] - 0.061562236 * t9
     );
 }
 

@@ -311,12 +311,12 @@ ZONAL_HIGHP vec3 sh3_dot_rgb(ZONAL_HIGHP vec3[9] a, ZONAL_HIGHP vec3[9] b) {
 // `product_matrix:3`: The symmetric matrix M(a) by which the product of a function of order 3 and any
 // other is M(a) b, cut off at the order; `product_by_matrix:3` applies it.
 // a: the coefficients of a function of order 3, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 34 (25 mul, 0 add, 9 fma); 8 constants, 34 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 34 (25 mul, 0 add, 9 fma); 7 constants, 34 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
-ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
+ZONAL_HIGHP float[40] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -330,7 +330,7 @@ ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
     float t6 = 0.15607835 * a[7];
     float t7 = t0 + 0.090111874 * a[6];
     float t8 = 0.15607835 * a[5];
-    return float[45](
+    return float[40](
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -343,13 +343,11 @@ ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
         t1 + 0.21850969 * a[8],
         0.2820948 * a[4],
         t2,
-        0.0,
         t3,
         t4,
         0.2820948 * a[5],
         t5,
         t3,
-        0.0,
         t6,
         t7 - 0.15607835 * a[8],
         0.2820948 * a[6],
@@ -360,7 +358,6 @@ ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
         0.090111874 * a[5],
         t0 + 0.18022375 * a[6],
         0.2820948 * a[7],
-        0.0,
         t2,
         t5,
         t8,
@@ -369,9 +366,7 @@ ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
         t7 + 0.15607835 * a[8],
         0.2820948 * a[8],
         -t3,
-        0.0,
         t2,
-        0.0,
         -t8,
         -(0.18022375 * a[8]),
         t6,
@@ -382,12 +377,12 @@ ZONAL_HIGHP float[45] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
 // `product_matrix:3:rgb`: The symmetric matrix M(a) by which the product of a function of order 3 and
 // any other is M(a) b, cut off at the order; `product_by_matrix:3` applies it.
 // a: the coefficients of a function of order 3, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 102 (75 mul, 0 add, 27 fma); 8 constants, 34 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 102 (75 mul, 0 add, 27 fma); 7 constants, 34 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
-ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
+ZONAL_HIGHP vec3[40] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -401,7 +396,7 @@ ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
     vec3 t6 = 0.15607835 * a[7];
     vec3 t7 = t0 + 0.090111874 * a[6];
     vec3 t8 = 0.15607835 * a[5];
-    return vec3[45](
+    return vec3[40](
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -414,13 +409,11 @@ ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
         t1 + 0.21850969 * a[8],
         0.2820948 * a[4],
         t2,
-        vec3(0.0, 0.0, 0.0),
         t3,
         t4,
         0.2820948 * a[5],
         t5,
         t3,
-        vec3(0.0, 0.0, 0.0),
         t6,
         t7 - 0.15607835 * a[8],
         0.2820948 * a[6],
@@ -431,7 +424,6 @@ ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
         0.090111874 * a[5],
         t0 + 0.18022375 * a[6],
         0.2820948 * a[7],
-        vec3(0.0, 0.0, 0.0),
         t2,
         t5,
         t8,
@@ -440,9 +432,7 @@ ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
         t7 + 0.15607835 * a[8],
         0.2820948 * a[8],
         -t3,
-        vec3(0.0, 0.0, 0.0),
         t2,
-        vec3(0.0, 0.0, 0.0),
         -t8,
         -(0.18022375 * a[8]),
         t6,
@@ -452,72 +442,70 @@ ZONAL_HIGHP vec3[45] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
 
 // `product_by_matrix:3`: Multiplies functions of order 3 by the one whose matrix `product_matrix:3`
 // made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (9 mul, 0 add, 62 fma); 0 constants, 9 live values.
-// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
-//     worst of 256 measured, 6.6e-8; not proven).
-ZONAL_HIGHP float[9] sh3_product_by_matrix(ZONAL_HIGHP float[45] m, ZONAL_HIGHP float[9] b) {
+// Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+//     the worst of 256 measured, 6.1e-8; not proven).
+ZONAL_HIGHP float[9] sh3_product_by_matrix(ZONAL_HIGHP float[40] m, ZONAL_HIGHP float[9] b) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    float t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    float t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[17] + b[6] * m[23] + b[7] * m[30];
-    float t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[6] * m[24] + b[7] * m[31];
-    float t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25] + b[7] * m[32];
-    float t5 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26] + b[7] * m[33];
-    float t6 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    float t7 = b[2] * m[30] + b[0] * m[28] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34] + b[7] * m[35];
-    float t8 = b[1] * m[37] + b[0] * m[36] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43] + b[8] * m[44];
+    float t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[14] + b[6] * m[19];
+    float t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[15] + b[6] * m[20];
+    float t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[16] + b[6] * m[21] + b[7] * m[27];
+    float t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[12] + b[6] * m[22] + b[7] * m[28];
+    float t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[12] + b[4] * m[13] + b[5] * m[17] + b[6] * m[23] + b[7] * m[29];
+    float t5 = b[1] * m[15] + b[0] * m[14] + b[2] * m[16] + b[4] * m[17] + b[5] * m[18] + b[6] * m[24] + b[7] * m[30];
+    float t6 = b[1] * m[20] + b[0] * m[19] + b[2] * m[21] + b[3] * m[22] + b[4] * m[23] + b[5] * m[24] + b[6] * m[25];
+    float t7 = b[2] * m[27] + b[0] * m[26] + b[3] * m[28] + b[4] * m[29] + b[5] * m[30] + b[6] * m[31] + b[7] * m[32];
+    float t8 = b[1] * m[34] + b[0] * m[33] + b[3] * m[35] + b[5] * m[36] + b[6] * m[37] + b[7] * m[38] + b[8] * m[39];
     return float[9](
-        t0 + b[7] * m[28] + b[8] * m[36],
-        t1 + b[8] * m[37],
+        t0 + b[7] * m[26] + b[8] * m[33],
+        t1 + b[8] * m[34],
         t2,
-        t3 + b[8] * m[39],
+        t3 + b[8] * m[35],
         t4,
-        t5 + b[8] * m[41],
-        t6 + b[7] * m[34] + b[8] * m[42],
-        t7 + b[8] * m[43],
+        t5 + b[8] * m[36],
+        t6 + b[7] * m[31] + b[8] * m[37],
+        t7 + b[8] * m[38],
         t8
     );
 }
 
 // `product_by_matrix:3:rgb`: Multiplies functions of order 3 by the one whose matrix
 // `product_matrix:3` made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (27 mul, 0 add, 186 fma); 0 constants, 9 live values.
-// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
-//     worst of 256 measured, 6.6e-8; not proven).
-ZONAL_HIGHP vec3[9] sh3_product_by_matrix_rgb(ZONAL_HIGHP float[45] m, ZONAL_HIGHP vec3[9] b) {
+// Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+//     the worst of 256 measured, 6.1e-8; not proven).
+ZONAL_HIGHP vec3[9] sh3_product_by_matrix_rgb(ZONAL_HIGHP float[40] m, ZONAL_HIGHP vec3[9] b) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    vec3 t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    vec3 t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    vec3 t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[17] + b[6] * m[23] + b[7] * m[30];
-    vec3 t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[6] * m[24] + b[7] * m[31];
-    vec3 t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25] + b[7] * m[32];
-    vec3 t5 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26] + b[7] * m[33];
-    vec3 t6 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    vec3 t7 = b[2] * m[30] + b[0] * m[28] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34] + b[7] * m[35];
-    vec3 t8 = b[1] * m[37] + b[0] * m[36] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43] + b[8] * m[44];
+    vec3 t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[14] + b[6] * m[19];
+    vec3 t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[15] + b[6] * m[20];
+    vec3 t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[16] + b[6] * m[21] + b[7] * m[27];
+    vec3 t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[12] + b[6] * m[22] + b[7] * m[28];
+    vec3 t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[12] + b[4] * m[13] + b[5] * m[17] + b[6] * m[23] + b[7] * m[29];
+    vec3 t5 = b[1] * m[15] + b[0] * m[14] + b[2] * m[16] + b[4] * m[17] + b[5] * m[18] + b[6] * m[24] + b[7] * m[30];
+    vec3 t6 = b[1] * m[20] + b[0] * m[19] + b[2] * m[21] + b[3] * m[22] + b[4] * m[23] + b[5] * m[24] + b[6] * m[25];
+    vec3 t7 = b[2] * m[27] + b[0] * m[26] + b[3] * m[28] + b[4] * m[29] + b[5] * m[30] + b[6] * m[31] + b[7] * m[32];
+    vec3 t8 = b[1] * m[34] + b[0] * m[33] + b[3] * m[35] + b[5] * m[36] + b[6] * m[37] + b[7] * m[38] + b[8] * m[39];
     return vec3[9](
-        t0 + b[7] * m[28] + b[8] * m[36],
-        t1 + b[8] * m[37],
+        t0 + b[7] * m[26] + b[8] * m[33],
+        t1 + b[8] * m[34],
         t2,
-        t3 + b[8] * m[39],
+        t3 + b[8] * m[35],
         t4,
-        t5 + b[8] * m[41],
-        t6 + b[7] * m[34] + b[8] * m[42],
-        t7 + b[8] * m[43],
+        t5 + b[8] * m[36],
+        t6 + b[7] * m[31] + b[8] * m[37],
+        t7 + b[8] * m[38],
         t8
     );
 }

@@ -1409,28 +1409,24 @@ ZONAL_HIGHP vec3[36] sh6_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 
 // `dominant:6`: The dominant direction of a signal of order 6, in which the irradiance of its bands 0
 // and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
-// so small that its reciprocal overflows.
+// its square below 2^-126: for bands from 1e-19 to 1e19 in size.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the direction, of unit length.
-// Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-//     reciprocals; 3 constants, 5 live values.
-// Error: f32 rounding at most 3.3e-7 of one, for c with each band of norm one (3 times the worst of
-//     256 measured, 1.1e-7; not proven).
+// Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
+//     constants, 4 live values.
+// Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
+//     256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 sh6_dominant(ZONAL_HIGHP float[36] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
-    float t1 = 1.0 / (t0);
-    float t2 = c[3] * t1;
-    float t3 = c[1] * t1;
-    float t4 = c[2] * t1;
-    float t5 = inversesqrt(t3 * t3 + t2 * t2 + t4 * t4);
+    float t0 = c[1] * c[1] + c[3] * c[3] + c[2] * c[2];
+    float t1 = inversesqrt(t0);
     return vec3(
-        mix(0.0, -(t2 * t5), 1.1754944e-38 < t0),
-        mix(0.0, -(t3 * t5), 1.1754944e-38 < t0),
-        mix(1.0, t4 * t5, 1.1754944e-38 < t0)
+        mix(0.0, -(c[3] * t1), 1.1754944e-38 < t0),
+        mix(0.0, -(c[1] * t1), 1.1754944e-38 < t0),
+        mix(1.0, c[2] * t1, 1.1754944e-38 < t0)
     );
 }
 
@@ -1439,8 +1435,8 @@ ZONAL_HIGHP vec3 sh6_dominant(ZONAL_HIGHP float[36] c) {
 // signal give the luminance, then take `light_fit_along:6:rgb`. The light of zeros is zero, from z.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-// Operations: 61 (26 mul, 0 add, 30 fma, 5 min, max or select) and 2 inverse square roots or
-//     reciprocals; 24 constants, 10 live values.
+// Operations: 56 (23 mul, 0 add, 30 fma, 3 min, max or select) and 1 inverse square root or
+//     reciprocal; 24 constants, 10 live values.
 // Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.4e-7; not proven).
 ZONAL_HIGHP float[5] sh6_light_fit(ZONAL_HIGHP float[36] c) {
@@ -1448,36 +1444,32 @@ ZONAL_HIGHP float[5] sh6_light_fit(ZONAL_HIGHP float[36] c) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = max(abs(c[3]), max(abs(c[1]), abs(c[2])));
-    float t1 = 1.0 / (t0);
-    float t2 = c[3] * t1;
-    float t3 = c[1] * t1;
-    float t4 = c[2] * t1;
-    float t5 = inversesqrt(t3 * t3 + t2 * t2 + t4 * t4);
-    float t6 = mix(0.0, -(t2 * t5), 1.1754944e-38 < t0);
-    float t7 = mix(0.0, -(t3 * t5), 1.1754944e-38 < t0);
-    float t8 = mix(1.0, t4 * t5, 1.1754944e-38 < t0);
-    float t9 = t8 * t8;
-    float t10 = 0.58364815 * t9 - 0.19454937;
-    float t11 = c[20] * ((0.10869775 * t9 - 0.056936916) * t10 - 0.005639221) + c[6] * t10 + 2.1432505 * t8 * c[2];
-    float t12 = 0.119072415 * t9 - 0.05103104;
-    float t13 = 0.31444705 * t8;
-    float t14 = t11 - 2.1432505 * t6 * (c[3] + (c[7] + c[21] * t12) * t13) - 2.1432505 * t7 * (c[1] + t13 * (c[5] + c[19] * t12));
-    float t15 = 0.6739388 * t7;
-    float t16 = 0.3369694 - 0.3369694 * t9 - t7 * t15;
-    float t17 = 0.16839384 * t9 - 0.024056261;
-    float t18 = t6 * t15;
-    float t19 = 0.5900436 * t9 - 0.5900436;
-    float t20 = 0.05140419 * t8;
-    float t21 = t14 + t16 * (c[8] + c[22] * t17) + t18 * (c[4] + c[18] * t17) - t6 * (t19 + 3.5020604 * t16) * (c[23] * t20);
-    float t22 = t21 + t7 * (t19 - 3.5020604 * t16) * (c[17] * t20) + 0.094440155 * (t16 * t16 - t18 * t18) * c[24];
-    float t23 = t22 + 0.18888031 * t16 * t18 * c[16];
+    float t0 = c[1] * c[1] + c[3] * c[3] + c[2] * c[2];
+    float t1 = inversesqrt(t0);
+    float t2 = mix(0.0, -(c[3] * t1), 1.1754944e-38 < t0);
+    float t3 = mix(0.0, -(c[1] * t1), 1.1754944e-38 < t0);
+    float t4 = mix(1.0, c[2] * t1, 1.1754944e-38 < t0);
+    float t5 = t4 * t4;
+    float t6 = 0.58364815 * t5 - 0.19454937;
+    float t7 = c[20] * ((0.10869775 * t5 - 0.056936916) * t6 - 0.005639221) + c[6] * t6 + 2.1432505 * t4 * c[2];
+    float t8 = 0.119072415 * t5 - 0.05103104;
+    float t9 = 0.31444705 * t4;
+    float t10 = t7 - 2.1432505 * t2 * (c[3] + (c[7] + c[21] * t8) * t9) - 2.1432505 * t3 * (c[1] + t9 * (c[5] + c[19] * t8));
+    float t11 = 0.6739388 * t3;
+    float t12 = 0.3369694 - 0.3369694 * t5 - t3 * t11;
+    float t13 = 0.16839384 * t5 - 0.024056261;
+    float t14 = t2 * t11;
+    float t15 = 0.5900436 * t5 - 0.5900436;
+    float t16 = 0.05140419 * t4;
+    float t17 = t10 + t12 * (c[8] + c[22] * t13) + t14 * (c[4] + c[18] * t13) - t2 * (t15 + 3.5020604 * t12) * (c[23] * t16);
+    float t18 = t17 + t3 * (t15 - 3.5020604 * t12) * (c[17] * t16) + 0.094440155 * (t12 * t12 - t14 * t14) * c[24];
+    float t19 = t18 + 0.18888031 * t12 * t14 * c[16];
     return float[5](
-        t6,
-        t7,
-        t8,
-        0.7663385 * t23,
-        0.2820948 * c[0] - 0.06098328 * t23
+        t2,
+        t3,
+        t4,
+        0.7663385 * t19,
+        0.2820948 * c[0] - 0.06098328 * t19
     );
 }
 

@@ -1610,27 +1610,23 @@ pub fn light_gaussian_rgb<T: Real>(dir: [T; 3], kappa: T, light: [T; 3], c: &[[T
 
 /// `dominant:2`: The dominant direction of a signal of order 2, in which the irradiance of its bands 0
 /// and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
-/// so small that its reciprocal overflows.
+/// its square below 2^-126: for bands from 1e-19 to 1e19 in size.
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction, of unit length.
-/// - Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 3 constants, 5 live values.
-/// - Error: f32 rounding at most 3.2e-7 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 1.1e-7; not proven).
+/// - Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal;
+///   3 constants, 4 live values.
+/// - Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 1.3e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dominant<T: Real>(c: &[T; 4]) -> [T; 3] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
     [
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0)),
     ]
 }
 
@@ -1640,29 +1636,25 @@ pub fn dominant<T: Real>(c: &[T; 4]) -> [T; 3] {
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-/// - Operations: 23 (13 mul, 0 add, 5 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 7 constants, 5 live values.
-/// - Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 5.2e-7; not proven).
+/// - Operations: 18 (10 mul, 0 add, 5 fma, 3 min, max or select) and 1 inverse square root or
+///   reciprocal; 7 constants, 5 live values.
+/// - Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 5.9e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_fit<T: Real>(c: &[T; 4]) -> [T; 5] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
-    let t6 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0));
-    let t7 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0));
-    let t8 = T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0));
-    let t9 = c[1].fnma(T::lit(2.1432504452712773) * t7, c[2].fms(T::lit(2.1432504452712773) * t8, c[3] * (T::lit(2.1432504452712773) * t6)));
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
+    let t2 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0));
+    let t3 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0));
+    let t4 = T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0));
+    let t5 = c[1].fnma(T::lit(2.1432504452712773) * t3, c[2].fms(T::lit(2.1432504452712773) * t4, c[3] * (T::lit(2.1432504452712773) * t2)));
     [
-        t6,
-        t7,
-        t8,
-        T::lit(0.954929658551372) * t9,
-        T::lit(0.28209479177387814).fms(c[0], T::lit(0.07599088773175333) * t9),
+        t2,
+        t3,
+        t4,
+        T::lit(0.954929658551372) * t5,
+        T::lit(0.28209479177387814).fms(c[0], T::lit(0.07599088773175333) * t5),
     ]
 }
 
@@ -1774,59 +1766,55 @@ pub fn dot_rgb<T: Real>(a: &[[T; 3]; 4], b: &[[T; 3]; 4]) -> [T; 3] {
 /// other is M(a) b, cut off at the order; `product_by_matrix:2` applies it.
 ///
 /// - a: the coefficients of a function of order 2, index l(l+1)+m.
-/// - Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-///   i(i+1)/2 + j.
-/// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+/// - Returns the entries of the lower triangle of M(a), row by row, without those that are zero for
+///   every a.
+/// - Operations: 4 (4 mul, 0 add, 0 fma); 1 constants, 4 live values.
 /// - Error: f32 rounding at most 3.2e-8 of the norm of the coefficients, each band of norm one, for
 ///   every input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 4]) -> [V; 10] {
+pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 4]) -> [V; 7] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     [
         t0,
         a[1] * T::lit(0.28209479177387814),
         t0,
         a[2] * T::lit(0.28209479177387814),
-        V::zero(),
         t0,
         a[3] * T::lit(0.28209479177387814),
-        V::zero(),
-        V::zero(),
         t0,
     ]
 }
 
 /// [`product_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 4]) -> [[T; 3]; 10] {
+pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 4]) -> [[T; 3]; 7] {
     product_matrix::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
 }
 
 /// `product_by_matrix:2`: Multiplies functions of order 2 by the one whose matrix `product_matrix:2`
 /// made, once for many.
 ///
-/// - m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2
-///   + j.
+/// - m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 /// - b: the coefficients of a function of order 2, index l(l+1)+m.
 /// - Returns the coefficients of the product, index l(l+1)+m.
 /// - Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
-/// - Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
-///   the worst of 256 measured, 7.1e-8; not proven).
+/// - Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 6.5e-8; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 10], b: &[V; 4]) -> [V; 4] {
+pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 7], b: &[V; 4]) -> [V; 4] {
     [
-        b[3].fma(m[6], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1]))),
+        b[3].fma(m[5], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1]))),
         b[0].fma(m[1], b[1] * m[2]),
-        b[0].fma(m[3], b[2] * m[5]),
-        b[0].fma(m[6], b[3] * m[9]),
+        b[0].fma(m[3], b[2] * m[4]),
+        b[0].fma(m[5], b[3] * m[6]),
     ]
 }
 
 /// [`product_by_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_by_matrix_rgb<T: Real>(m: &[T; 10], b: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+pub fn product_by_matrix_rgb<T: Real>(m: &[T; 7], b: &[[T; 3]; 4]) -> [[T; 3]; 4] {
     product_by_matrix::<T, Channels<T, 3>>(m, &b.map(Channels)).map(|v| v.0)
 }
 

@@ -2253,27 +2253,23 @@ pub fn light_gaussian_rgb<T: Real>(dir: [T; 3], kappa: T, light: [T; 3], c: &[[T
 
 /// `dominant:3`: The dominant direction of a signal of order 3, in which the irradiance of its bands 0
 /// and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
-/// so small that its reciprocal overflows.
+/// its square below 2^-126: for bands from 1e-19 to 1e19 in size.
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction, of unit length.
-/// - Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 3 constants, 5 live values.
-/// - Error: f32 rounding at most 3e-7 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 9.8e-8; not proven).
+/// - Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal;
+///   3 constants, 4 live values.
+/// - Error: f32 rounding at most 3.7e-7 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 1.3e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dominant<T: Real>(c: &[T; 9]) -> [T; 3] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
     [
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0)),
     ]
 }
 
@@ -2283,35 +2279,31 @@ pub fn dominant<T: Real>(c: &[T; 9]) -> [T; 3] {
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-/// - Operations: 35 (17 mul, 0 add, 13 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 12 constants, 8 live values.
-/// - Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 5.2e-7; not proven).
+/// - Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
+///   reciprocal; 12 constants, 8 live values.
+/// - Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 5.7e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_fit<T: Real>(c: &[T; 9]) -> [T; 5] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
-    let t6 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0));
-    let t7 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0));
-    let t8 = T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0));
-    let t9 = t8 * t8;
-    let t10 = c[6].fma(T::lit(0.5836481213405125).fms(t9, T::lit(0.19454937378017081)), c[2] * (T::lit(2.1432504452712773) * t8));
-    let t11 = T::lit(0.31444705933590794) * t8;
-    let t12 = (T::lit(2.1432504452712773) * t7).fnma(c[5].fma(t11, c[1]), (T::lit(2.1432504452712773) * t6).fnma(c[7].fma(t11, c[3]), t10));
-    let t13 = T::lit(0.6739387999359284) * t7;
-    let t14 = c[8].fma(t7.fnma(t13, T::lit(0.3369693999679642).fnma(t9, T::lit(0.3369693999679642))), t12);
-    let t15 = c[4].fma(t6 * t13, t14);
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
+    let t2 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0));
+    let t3 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0));
+    let t4 = T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0));
+    let t5 = t4 * t4;
+    let t6 = c[6].fma(T::lit(0.5836481213405125).fms(t5, T::lit(0.19454937378017081)), c[2] * (T::lit(2.1432504452712773) * t4));
+    let t7 = T::lit(0.31444705933590794) * t4;
+    let t8 = (T::lit(2.1432504452712773) * t3).fnma(c[5].fma(t7, c[1]), (T::lit(2.1432504452712773) * t2).fnma(c[7].fma(t7, c[3]), t6));
+    let t9 = T::lit(0.6739387999359284) * t3;
+    let t10 = c[8].fma(t3.fnma(t9, T::lit(0.3369693999679642).fnma(t5, T::lit(0.3369693999679642))), t8);
+    let t11 = c[4].fma(t2 * t9, t10);
     [
-        t6,
-        t7,
-        t8,
-        T::lit(0.7736139005985798) * t15,
-        T::lit(0.28209479177387814).fms(c[0], T::lit(0.06156223816243308) * t15),
+        t2,
+        t3,
+        t4,
+        T::lit(0.7736139005985798) * t11,
+        T::lit(0.28209479177387814).fms(c[0], T::lit(0.06156223816243308) * t11),
     ]
 }
 
@@ -2530,14 +2522,14 @@ pub fn dot_rgb<T: Real>(a: &[[T; 3]; 9], b: &[[T; 3]; 9]) -> [T; 3] {
 /// other is M(a) b, cut off at the order; `product_by_matrix:3` applies it.
 ///
 /// - a: the coefficients of a function of order 3, index l(l+1)+m.
-/// - Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-///   i(i+1)/2 + j.
-/// - Operations: 34 (25 mul, 0 add, 9 fma); 8 constants, 34 live values.
+/// - Returns the entries of the lower triangle of M(a), row by row, without those that are zero for
+///   every a.
+/// - Operations: 34 (25 mul, 0 add, 9 fma); 7 constants, 34 live values.
 /// - Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for
 ///   every input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 45] {
+pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 40] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = a[6].fnma(T::lit(0.126156626101008), t0);
     let t2 = a[3] * T::lit(0.2185096861184158);
@@ -2560,13 +2552,11 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 45] {
         a[8].fma(T::lit(0.2185096861184158), t1),
         a[4] * T::lit(0.28209479177387814),
         t2,
-        V::zero(),
         t3,
         t4,
         a[5] * T::lit(0.28209479177387814),
         t5,
         t3,
-        V::zero(),
         t6,
         a[8].fnma(T::lit(0.15607834722743988), t7),
         a[6] * T::lit(0.28209479177387814),
@@ -2577,7 +2567,6 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 45] {
         a[5] * T::lit(0.09011187578643429),
         a[6].fma(T::lit(0.18022375157286857), t0),
         a[7] * T::lit(0.28209479177387814),
-        V::zero(),
         t2,
         t5,
         t8,
@@ -2586,9 +2575,7 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 45] {
         a[8].fma(T::lit(0.15607834722743988), t7),
         a[8] * T::lit(0.28209479177387814),
         -t3,
-        V::zero(),
         t2,
-        V::zero(),
         -t8,
         -(a[8] * T::lit(0.18022375157286857)),
         t6,
@@ -2598,48 +2585,47 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 45] {
 
 /// [`product_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 9]) -> [[T; 3]; 45] {
+pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 9]) -> [[T; 3]; 40] {
     product_matrix::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
 }
 
 /// `product_by_matrix:3`: Multiplies functions of order 3 by the one whose matrix `product_matrix:3`
 /// made, once for many.
 ///
-/// - m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2
-///   + j.
+/// - m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 /// - b: the coefficients of a function of order 3, index l(l+1)+m.
 /// - Returns the coefficients of the product, index l(l+1)+m.
 /// - Operations: 71 (9 mul, 0 add, 62 fma); 0 constants, 9 live values.
-/// - Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times
-///   the worst of 256 measured, 6.6e-8; not proven).
+/// - Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 6.1e-8; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 45], b: &[V; 9]) -> [V; 9] {
-    let t0 = b[5].fma(m[15], b[4].fma(m[10], b[3].fma(m[6], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1])))));
-    let t1 = b[5].fma(m[16], b[4].fma(m[11], b[3].fma(m[7], b[2].fma(m[4], b[0].fma(m[1], b[1] * m[2])))));
-    let t2 = b[6].fma(m[23], b[5].fma(m[17], b[3].fma(m[8], b[2].fma(m[5], b[0].fma(m[3], b[1] * m[4])))));
-    let t3 = b[6].fma(m[24], b[4].fma(m[13], b[3].fma(m[9], b[2].fma(m[8], b[0].fma(m[6], b[1] * m[7])))));
-    let t4 = b[6].fma(m[25], b[5].fma(m[19], b[4].fma(m[14], b[3].fma(m[13], b[0].fma(m[10], b[1] * m[11])))));
-    let t5 = b[6].fma(m[26], b[5].fma(m[20], b[4].fma(m[19], b[2].fma(m[17], b[0].fma(m[15], b[1] * m[16])))));
-    let t6 = b[5].fma(m[26], b[4].fma(m[25], b[3].fma(m[24], b[2].fma(m[23], b[0].fma(m[21], b[1] * m[22])))));
-    let t7 = b[6].fma(m[34], b[5].fma(m[33], b[4].fma(m[32], b[3].fma(m[31], b[0].fma(m[28], b[2] * m[30])))));
-    let t8 = b[7].fma(m[43], b[6].fma(m[42], b[5].fma(m[41], b[3].fma(m[39], b[0].fma(m[36], b[1] * m[37])))));
+pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 40], b: &[V; 9]) -> [V; 9] {
+    let t0 = b[5].fma(m[14], b[4].fma(m[10], b[3].fma(m[6], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1])))));
+    let t1 = b[5].fma(m[15], b[4].fma(m[11], b[3].fma(m[7], b[2].fma(m[4], b[0].fma(m[1], b[1] * m[2])))));
+    let t2 = b[6].fma(m[21], b[5].fma(m[16], b[3].fma(m[8], b[2].fma(m[5], b[0].fma(m[3], b[1] * m[4])))));
+    let t3 = b[6].fma(m[22], b[4].fma(m[12], b[3].fma(m[9], b[2].fma(m[8], b[0].fma(m[6], b[1] * m[7])))));
+    let t4 = b[6].fma(m[23], b[5].fma(m[17], b[4].fma(m[13], b[3].fma(m[12], b[0].fma(m[10], b[1] * m[11])))));
+    let t5 = b[6].fma(m[24], b[5].fma(m[18], b[4].fma(m[17], b[2].fma(m[16], b[0].fma(m[14], b[1] * m[15])))));
+    let t6 = b[5].fma(m[24], b[4].fma(m[23], b[3].fma(m[22], b[2].fma(m[21], b[0].fma(m[19], b[1] * m[20])))));
+    let t7 = b[6].fma(m[31], b[5].fma(m[30], b[4].fma(m[29], b[3].fma(m[28], b[0].fma(m[26], b[2] * m[27])))));
+    let t8 = b[7].fma(m[38], b[6].fma(m[37], b[5].fma(m[36], b[3].fma(m[35], b[0].fma(m[33], b[1] * m[34])))));
     [
-        b[8].fma(m[36], b[7].fma(m[28], b[6].fma(m[21], t0))),
-        b[8].fma(m[37], b[6].fma(m[22], t1)),
-        b[7].fma(m[30], t2),
-        b[8].fma(m[39], b[7].fma(m[31], t3)),
-        b[7].fma(m[32], t4),
-        b[8].fma(m[41], b[7].fma(m[33], t5)),
-        b[8].fma(m[42], b[7].fma(m[34], b[6].fma(m[27], t6))),
-        b[8].fma(m[43], b[7].fma(m[35], t7)),
-        b[8].fma(m[44], t8),
+        b[8].fma(m[33], b[7].fma(m[26], b[6].fma(m[19], t0))),
+        b[8].fma(m[34], b[6].fma(m[20], t1)),
+        b[7].fma(m[27], t2),
+        b[8].fma(m[35], b[7].fma(m[28], t3)),
+        b[7].fma(m[29], t4),
+        b[8].fma(m[36], b[7].fma(m[30], t5)),
+        b[8].fma(m[37], b[7].fma(m[31], b[6].fma(m[25], t6))),
+        b[8].fma(m[38], b[7].fma(m[32], t7)),
+        b[8].fma(m[39], t8),
     ]
 }
 
 /// [`product_by_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_by_matrix_rgb<T: Real>(m: &[T; 45], b: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+pub fn product_by_matrix_rgb<T: Real>(m: &[T; 40], b: &[[T; 3]; 9]) -> [[T; 3]; 9] {
     product_by_matrix::<T, Channels<T, 3>>(m, &b.map(Channels)).map(|v| v.0)
 }
 

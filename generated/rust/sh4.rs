@@ -3630,27 +3630,23 @@ pub fn light_gaussian_rgb<T: Real>(dir: [T; 3], kappa: T, light: [T; 3], c: &[[T
 
 /// `dominant:4`: The dominant direction of a signal of order 4, in which the irradiance of its bands 0
 /// and 1 is largest (Sloan 2008): of an RGB signal give the luminance. It is z where band 1 is zero, or
-/// so small that its reciprocal overflows.
+/// its square below 2^-126: for bands from 1e-19 to 1e19 in size.
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction, of unit length.
-/// - Operations: 14 (7 mul, 0 add, 2 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 3 constants, 5 live values.
-/// - Error: f32 rounding at most 3.2e-7 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 1.1e-7; not proven).
+/// - Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal;
+///   3 constants, 4 live values.
+/// - Error: f32 rounding at most 3.6e-7 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 1.2e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dominant<T: Real>(c: &[T; 16]) -> [T; 3] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
     [
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0)),
-        T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0)),
+        T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0)),
     ]
 }
 
@@ -3660,35 +3656,31 @@ pub fn dominant<T: Real>(c: &[T; 16]) -> [T; 3] {
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
-/// - Operations: 35 (17 mul, 0 add, 13 fma, 5 min, max or select) and 2 inverse square roots or
-///   reciprocals; 12 constants, 8 live values.
-/// - Error: f32 rounding at most 1.5e-6 of one, for c with each band of norm one (3 times the worst of
-///   256 measured, 4.9e-7; not proven).
+/// - Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
+///   reciprocal; 12 constants, 8 live values.
+/// - Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 5.1e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn light_fit<T: Real>(c: &[T; 16]) -> [T; 5] {
-    let t0 = T::max(T::abs(c[3]), T::max(T::abs(c[1]), T::abs(c[2])));
-    let t1 = T::recip(t0);
-    let t2 = c[3] * t1;
-    let t3 = c[1] * t1;
-    let t4 = c[2] * t1;
-    let t5 = T::rsqrt(t4.fma(t4, t2.fma(t2, t3 * t3)));
-    let t6 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t2 * t5), T::lit(0.0));
-    let t7 = T::choose(T::lit(1.1754943508222875e-38), t0, -(t3 * t5), T::lit(0.0));
-    let t8 = T::choose(T::lit(1.1754943508222875e-38), t0, t4 * t5, T::lit(1.0));
-    let t9 = t8 * t8;
-    let t10 = c[6].fma(T::lit(0.5836481213405125).fms(t9, T::lit(0.19454937378017081)), c[2] * (T::lit(2.1432504452712773) * t8));
-    let t11 = T::lit(0.31444705933590794) * t8;
-    let t12 = (T::lit(2.1432504452712773) * t7).fnma(c[5].fma(t11, c[1]), (T::lit(2.1432504452712773) * t6).fnma(c[7].fma(t11, c[3]), t10));
-    let t13 = T::lit(0.6739387999359284) * t7;
-    let t14 = c[8].fma(t7.fnma(t13, T::lit(0.3369693999679642).fnma(t9, T::lit(0.3369693999679642))), t12);
-    let t15 = c[4].fma(t6 * t13, t14);
+    let t0 = c[2].fma(c[2], c[3].fma(c[3], c[1] * c[1]));
+    let t1 = T::rsqrt(t0);
+    let t2 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[3] * t1), T::lit(0.0));
+    let t3 = T::choose(T::lit(1.1754943508222875e-38), t0, -(c[1] * t1), T::lit(0.0));
+    let t4 = T::choose(T::lit(1.1754943508222875e-38), t0, c[2] * t1, T::lit(1.0));
+    let t5 = t4 * t4;
+    let t6 = c[6].fma(T::lit(0.5836481213405125).fms(t5, T::lit(0.19454937378017081)), c[2] * (T::lit(2.1432504452712773) * t4));
+    let t7 = T::lit(0.31444705933590794) * t4;
+    let t8 = (T::lit(2.1432504452712773) * t3).fnma(c[5].fma(t7, c[1]), (T::lit(2.1432504452712773) * t2).fnma(c[7].fma(t7, c[3]), t6));
+    let t9 = T::lit(0.6739387999359284) * t3;
+    let t10 = c[8].fma(t3.fnma(t9, T::lit(0.3369693999679642).fnma(t5, T::lit(0.3369693999679642))), t8);
+    let t11 = c[4].fma(t2 * t9, t10);
     [
-        t6,
-        t7,
-        t8,
-        T::lit(0.7736139005985798) * t15,
-        T::lit(0.28209479177387814).fms(c[0], T::lit(0.06156223816243308) * t15),
+        t2,
+        t3,
+        t4,
+        T::lit(0.7736139005985798) * t11,
+        T::lit(0.28209479177387814).fms(c[0], T::lit(0.06156223816243308) * t11),
     ]
 }
 
@@ -4063,14 +4055,14 @@ pub fn dot_rgb<T: Real>(a: &[[T; 3]; 16], b: &[[T; 3]; 16]) -> [T; 3] {
 /// other is M(a) b, cut off at the order; `product_by_matrix:4` applies it.
 ///
 /// - a: the coefficients of a function of order 4, index l(l+1)+m.
-/// - Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-///   i(i+1)/2 + j.
-/// - Operations: 131 (78 mul, 2 add, 51 fma); 23 constants, 108 live values.
+/// - Returns the entries of the lower triangle of M(a), row by row, without those that are zero for
+///   every a.
+/// - Operations: 131 (78 mul, 2 add, 51 fma); 22 constants, 108 live values.
 /// - Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for
 ///   every input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
+pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 125] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = a[6].fnma(T::lit(0.126156626101008), t0);
     let t2 = a[3] * T::lit(0.2185096861184158);
@@ -4150,14 +4142,12 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
         a[9].fms(T::lit(0.22617901315954028), t6),
         t9,
         a[15].fma(T::lit(0.22617901315954028), t3),
-        V::zero(),
         -t12,
         -(a[8] * T::lit(0.18022375157286857)),
         t10,
         t7,
         a[9] * T::lit(0.28209479177387814),
         t13,
-        V::zero(),
         t14,
         t15,
         t16,
@@ -4171,9 +4161,7 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
         t21,
         t22,
         a[15].fnma(T::lit(0.1486770096793976), t23),
-        V::zero(),
         a[9].fma(T::lit(0.1486770096793976), t24),
-        V::zero(),
         t25,
         t0,
         a[11] * T::lit(0.28209479177387814),
@@ -4197,7 +4185,6 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
         a[2].fma(T::lit(0.24776669508347607), a[12] * T::lit(0.168208834801344)),
         a[13].fms(T::lit(0.059470803871759036), a[3] * T::lit(0.14304816810266882)),
         -(a[14] * T::lit(0.18806319451591877)),
-        V::zero(),
         -(a[4] * T::lit(0.18806319451591877)),
         a[5] * T::lit(0.059470803871759036),
         a[6].fma(T::lit(0.168208834801344), t0),
@@ -4219,30 +4206,24 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
         -t21,
         a[8] * T::lit(0.1846743909223718),
         t20,
-        V::zero(),
         a[9].fms(T::lit(0.1486770096793976), t24),
-        V::zero(),
         a[15].fma(T::lit(0.1486770096793976), t23),
         t22,
         t37,
-        V::zero(),
         -t36,
         -(a[8] * T::lit(0.18806319451591877)),
         t33,
         t0,
         a[15] * T::lit(0.28209479177387814),
         -t14,
-        V::zero(),
         t13,
         -t18,
         -t17,
         -(a[15] * T::lit(0.21026104350168)),
         t16,
         t15,
-        V::zero(),
         -t37,
         t35,
-        V::zero(),
         t32,
         t25,
         t19,
@@ -4251,82 +4232,81 @@ pub fn product_matrix<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 136] {
 
 /// [`product_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 16]) -> [[T; 3]; 136] {
+pub fn product_matrix_rgb<T: Real>(a: &[[T; 3]; 16]) -> [[T; 3]; 125] {
     product_matrix::<T, Channels<T, 3>>(&a.map(Channels)).map(|v| v.0)
 }
 
 /// `product_by_matrix:4`: Multiplies functions of order 4 by the one whose matrix `product_matrix:4`
 /// made, once for many.
 ///
-/// - m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2
-///   + j.
+/// - m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 /// - b: the coefficients of a function of order 4, index l(l+1)+m.
 /// - Returns the coefficients of the product, index l(l+1)+m.
 /// - Operations: 234 (16 mul, 0 add, 218 fma); 0 constants, 16 live values.
-/// - Error: f32 rounding at most 1.6e-7 of the product of both factors' norms, for every input (3 times
-///   the worst of 256 measured, 5.4e-8; not proven).
+/// - Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times
+///   the worst of 256 measured, 6.4e-8; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 136], b: &[V; 16]) -> [V; 16] {
+pub fn product_by_matrix<T: Real, V: Signal<T>>(m: &[T; 125], b: &[V; 16]) -> [V; 16] {
     let t0 = b[5].fma(m[15], b[4].fma(m[10], b[3].fma(m[6], b[2].fma(m[3], b[0].fma(m[0], b[1] * m[1])))));
-    let t1 = b[11].fma(m[66], b[10].fma(m[55], b[9].fma(m[45], b[8].fma(m[36], b[7].fma(m[28], b[6].fma(m[21], t0))))));
+    let t1 = b[11].fma(m[62], b[10].fma(m[53], b[9].fma(m[44], b[8].fma(m[36], b[7].fma(m[28], b[6].fma(m[21], t0))))));
     let t2 = b[5].fma(m[16], b[4].fma(m[11], b[3].fma(m[7], b[2].fma(m[4], b[0].fma(m[1], b[1] * m[2])))));
-    let t3 = b[11].fma(m[67], b[10].fma(m[56], b[9].fma(m[46], b[8].fma(m[37], b[7].fma(m[29], b[6].fma(m[22], t2))))));
+    let t3 = b[11].fma(m[63], b[10].fma(m[54], b[9].fma(m[45], b[8].fma(m[37], b[7].fma(m[29], b[6].fma(m[22], t2))))));
     let t4 = b[5].fma(m[17], b[4].fma(m[12], b[3].fma(m[8], b[2].fma(m[5], b[0].fma(m[3], b[1] * m[4])))));
-    let t5 = b[11].fma(m[68], b[10].fma(m[57], b[8].fma(m[38], b[7].fma(m[30], b[6].fma(m[23], t4)))));
+    let t5 = b[11].fma(m[64], b[10].fma(m[55], b[8].fma(m[38], b[7].fma(m[30], b[6].fma(m[23], t4)))));
     let t6 = b[5].fma(m[18], b[4].fma(m[13], b[3].fma(m[9], b[2].fma(m[8], b[0].fma(m[6], b[1] * m[7])))));
-    let t7 = b[11].fma(m[69], b[10].fma(m[58], b[9].fma(m[48], b[8].fma(m[39], b[7].fma(m[31], b[6].fma(m[24], t6))))));
+    let t7 = b[11].fma(m[65], b[10].fma(m[56], b[9].fma(m[46], b[8].fma(m[39], b[7].fma(m[31], b[6].fma(m[24], t6))))));
     let t8 = b[5].fma(m[19], b[4].fma(m[14], b[3].fma(m[13], b[2].fma(m[12], b[0].fma(m[10], b[1] * m[11])))));
-    let t9 = b[11].fma(m[70], b[10].fma(m[59], b[9].fma(m[49], b[7].fma(m[32], b[6].fma(m[25], t8)))));
+    let t9 = b[11].fma(m[66], b[10].fma(m[57], b[9].fma(m[47], b[7].fma(m[32], b[6].fma(m[25], t8)))));
     let t10 = b[5].fma(m[20], b[4].fma(m[19], b[3].fma(m[18], b[2].fma(m[17], b[0].fma(m[15], b[1] * m[16])))));
-    let t11 = b[10].fma(m[60], b[9].fma(m[50], b[8].fma(m[41], b[7].fma(m[33], b[6].fma(m[26], t10)))));
-    let t12 = b[15].fma(m[125], b[14].fma(m[110], b[13].fma(m[96], b[12].fma(m[83], b[11].fma(m[71], t11)))));
+    let t11 = b[10].fma(m[58], b[9].fma(m[48], b[8].fma(m[40], b[7].fma(m[33], b[6].fma(m[26], t10)))));
+    let t12 = b[15].fma(m[116], b[14].fma(m[104], b[13].fma(m[91], b[12].fma(m[79], b[11].fma(m[67], t11)))));
     let t13 = b[5].fma(m[26], b[4].fma(m[25], b[3].fma(m[24], b[2].fma(m[23], b[0].fma(m[21], b[1] * m[22])))));
-    let t14 = b[11].fma(m[72], b[9].fma(m[51], b[8].fma(m[42], b[7].fma(m[34], b[6].fma(m[27], t13)))));
+    let t14 = b[11].fma(m[68], b[9].fma(m[49], b[8].fma(m[41], b[7].fma(m[34], b[6].fma(m[27], t13)))));
     let t15 = b[5].fma(m[33], b[4].fma(m[32], b[3].fma(m[31], b[2].fma(m[30], b[0].fma(m[28], b[1] * m[29])))));
-    let t16 = b[10].fma(m[62], b[9].fma(m[52], b[8].fma(m[43], b[7].fma(m[35], b[6].fma(m[34], t15)))));
-    let t17 = b[15].fma(m[127], b[14].fma(m[112], b[13].fma(m[98], b[12].fma(m[85], b[11].fma(m[73], t16)))));
-    let t18 = b[6].fma(m[42], b[5].fma(m[41], b[3].fma(m[39], b[2].fma(m[38], b[0].fma(m[36], b[1] * m[37])))));
-    let t19 = b[12].fma(m[86], b[11].fma(m[74], b[9].fma(m[53], b[8].fma(m[44], b[7].fma(m[43], t18)))));
-    let t20 = b[6].fma(m[51], b[5].fma(m[50], b[4].fma(m[49], b[3].fma(m[48], b[0].fma(m[45], b[1] * m[46])))));
-    let t21 = b[11].fma(m[75], b[10].fma(m[64], b[9].fma(m[54], b[8].fma(m[53], b[7].fma(m[52], t20)))));
-    let t22 = b[5].fma(m[60], b[4].fma(m[59], b[3].fma(m[58], b[2].fma(m[57], b[0].fma(m[55], b[1] * m[56])))));
-    let t23 = b[12].fma(m[88], b[11].fma(m[76], b[10].fma(m[65], b[9].fma(m[64], b[7].fma(m[62], t22)))));
-    let t24 = b[5].fma(m[71], b[4].fma(m[70], b[3].fma(m[69], b[2].fma(m[68], b[0].fma(m[66], b[1] * m[67])))));
-    let t25 = b[10].fma(m[76], b[9].fma(m[75], b[8].fma(m[74], b[7].fma(m[73], b[6].fma(m[72], t24)))));
-    let t26 = b[15].fma(m[131], b[14].fma(m[116], b[13].fma(m[102], b[12].fma(m[89], b[11].fma(m[77], t25)))));
-    let t27 = b[5].fma(m[83], b[4].fma(m[82], b[3].fma(m[81], b[2].fma(m[80], b[0].fma(m[78], b[1] * m[79])))));
-    let t28 = b[11].fma(m[89], b[10].fma(m[88], b[8].fma(m[86], b[7].fma(m[85], b[6].fma(m[84], t27)))));
-    let t29 = b[5].fma(m[96], b[4].fma(m[95], b[3].fma(m[94], b[2].fma(m[93], b[0].fma(m[91], b[1] * m[92])))));
-    let t30 = b[10].fma(m[101], b[9].fma(m[100], b[8].fma(m[99], b[7].fma(m[98], b[6].fma(m[97], t29)))));
-    let t31 = b[15].fma(m[133], b[14].fma(m[118], b[13].fma(m[104], b[12].fma(m[103], b[11].fma(m[102], t30)))));
-    let t32 = b[7].fma(m[112], b[5].fma(m[110], b[3].fma(m[108], b[2].fma(m[107], b[0].fma(m[105], b[1] * m[106])))));
-    let t33 = b[13].fma(m[118], b[12].fma(m[117], b[11].fma(m[116], b[9].fma(m[114], b[8].fma(m[113], t32)))));
-    let t34 = b[6].fma(m[126], b[5].fma(m[125], b[4].fma(m[124], b[3].fma(m[123], b[0].fma(m[120], b[1] * m[121])))));
-    let t35 = b[13].fma(m[133], b[11].fma(m[131], b[10].fma(m[130], b[8].fma(m[128], b[7].fma(m[127], t34)))));
+    let t16 = b[10].fma(m[59], b[9].fma(m[50], b[8].fma(m[42], b[7].fma(m[35], b[6].fma(m[34], t15)))));
+    let t17 = b[15].fma(m[118], b[14].fma(m[105], b[13].fma(m[93], b[12].fma(m[81], b[11].fma(m[69], t16)))));
+    let t18 = b[6].fma(m[41], b[5].fma(m[40], b[3].fma(m[39], b[2].fma(m[38], b[0].fma(m[36], b[1] * m[37])))));
+    let t19 = b[12].fma(m[82], b[11].fma(m[70], b[9].fma(m[51], b[8].fma(m[43], b[7].fma(m[42], t18)))));
+    let t20 = b[6].fma(m[49], b[5].fma(m[48], b[4].fma(m[47], b[3].fma(m[46], b[0].fma(m[44], b[1] * m[45])))));
+    let t21 = b[11].fma(m[71], b[10].fma(m[60], b[9].fma(m[52], b[8].fma(m[51], b[7].fma(m[50], t20)))));
+    let t22 = b[5].fma(m[58], b[4].fma(m[57], b[3].fma(m[56], b[2].fma(m[55], b[0].fma(m[53], b[1] * m[54])))));
+    let t23 = b[12].fma(m[83], b[11].fma(m[72], b[10].fma(m[61], b[9].fma(m[60], b[7].fma(m[59], t22)))));
+    let t24 = b[5].fma(m[67], b[4].fma(m[66], b[3].fma(m[65], b[2].fma(m[64], b[0].fma(m[62], b[1] * m[63])))));
+    let t25 = b[10].fma(m[72], b[9].fma(m[71], b[8].fma(m[70], b[7].fma(m[69], b[6].fma(m[68], t24)))));
+    let t26 = b[15].fma(m[121], b[14].fma(m[108], b[13].fma(m[97], b[12].fma(m[84], b[11].fma(m[73], t25)))));
+    let t27 = b[5].fma(m[79], b[4].fma(m[78], b[3].fma(m[77], b[2].fma(m[76], b[0].fma(m[74], b[1] * m[75])))));
+    let t28 = b[11].fma(m[84], b[10].fma(m[83], b[8].fma(m[82], b[7].fma(m[81], b[6].fma(m[80], t27)))));
+    let t29 = b[5].fma(m[91], b[4].fma(m[90], b[3].fma(m[89], b[2].fma(m[88], b[0].fma(m[86], b[1] * m[87])))));
+    let t30 = b[10].fma(m[96], b[9].fma(m[95], b[8].fma(m[94], b[7].fma(m[93], b[6].fma(m[92], t29)))));
+    let t31 = b[15].fma(m[122], b[14].fma(m[110], b[13].fma(m[99], b[12].fma(m[98], b[11].fma(m[97], t30)))));
+    let t32 = b[7].fma(m[105], b[5].fma(m[104], b[3].fma(m[103], b[2].fma(m[102], b[0].fma(m[100], b[1] * m[101])))));
+    let t33 = b[13].fma(m[110], b[12].fma(m[109], b[11].fma(m[108], b[9].fma(m[107], b[8].fma(m[106], t32)))));
+    let t34 = b[6].fma(m[117], b[5].fma(m[116], b[4].fma(m[115], b[3].fma(m[114], b[0].fma(m[112], b[1] * m[113])))));
+    let t35 = b[13].fma(m[122], b[11].fma(m[121], b[10].fma(m[120], b[8].fma(m[119], b[7].fma(m[118], t34)))));
     [
-        b[15].fma(m[120], b[14].fma(m[105], b[13].fma(m[91], b[12].fma(m[78], t1)))),
-        b[15].fma(m[121], b[14].fma(m[106], b[13].fma(m[92], b[12].fma(m[79], t3)))),
-        b[14].fma(m[107], b[13].fma(m[93], b[12].fma(m[80], t5))),
-        b[15].fma(m[123], b[14].fma(m[108], b[13].fma(m[94], b[12].fma(m[81], t7)))),
-        b[15].fma(m[124], b[13].fma(m[95], b[12].fma(m[82], t9))),
+        b[15].fma(m[112], b[14].fma(m[100], b[13].fma(m[86], b[12].fma(m[74], t1)))),
+        b[15].fma(m[113], b[14].fma(m[101], b[13].fma(m[87], b[12].fma(m[75], t3)))),
+        b[14].fma(m[102], b[13].fma(m[88], b[12].fma(m[76], t5))),
+        b[15].fma(m[114], b[14].fma(m[103], b[13].fma(m[89], b[12].fma(m[77], t7)))),
+        b[15].fma(m[115], b[13].fma(m[90], b[12].fma(m[78], t9))),
         t12,
-        b[15].fma(m[126], b[13].fma(m[97], b[12].fma(m[84], t14))),
+        b[15].fma(m[117], b[13].fma(m[92], b[12].fma(m[80], t14))),
         t17,
-        b[15].fma(m[128], b[14].fma(m[113], b[13].fma(m[99], t19))),
-        b[14].fma(m[114], b[13].fma(m[100], t21)),
-        b[15].fma(m[130], b[13].fma(m[101], t23)),
+        b[15].fma(m[119], b[14].fma(m[106], b[13].fma(m[94], t19))),
+        b[14].fma(m[107], b[13].fma(m[95], t21)),
+        b[15].fma(m[120], b[13].fma(m[96], t23)),
         t26,
-        b[14].fma(m[117], b[13].fma(m[103], b[12].fma(m[90], t28))),
+        b[14].fma(m[109], b[13].fma(m[98], b[12].fma(m[85], t28))),
         t31,
-        b[15].fma(m[134], b[14].fma(m[119], t33)),
-        b[15].fma(m[135], b[14].fma(m[134], t35)),
+        b[15].fma(m[123], b[14].fma(m[111], t33)),
+        b[15].fma(m[124], b[14].fma(m[123], t35)),
     ]
 }
 
 /// [`product_by_matrix`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn product_by_matrix_rgb<T: Real>(m: &[T; 136], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
+pub fn product_by_matrix_rgb<T: Real>(m: &[T; 125], b: &[[T; 3]; 16]) -> [[T; 3]; 16] {
     product_by_matrix::<T, Channels<T, 3>>(m, &b.map(Channels)).map(|v| v.0)
 }
 

@@ -267,12 +267,12 @@ fn sh3_dot_rgb(a: array<vec3<f32>, 9>, b: array<vec3<f32>, 9>) -> vec3<f32> {
 // `product_matrix:3`: The symmetric matrix M(a) by which the product of a function of order 3 and any
 // other is M(a) b, cut off at the order; `product_by_matrix:3` applies it.
 // a: the coefficients of a function of order 3, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 34 (25 mul, 0 add, 9 fma); 8 constants, 34 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 34 (25 mul, 0 add, 9 fma); 7 constants, 34 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
-fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
+fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 40> {
     let t0 = 0.2820948 * a[0];
     let t1 = t0 - 0.12615663 * a[6];
     let t2 = 0.21850969 * a[3];
@@ -282,7 +282,7 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
     let t6 = 0.15607835 * a[7];
     let t7 = t0 + 0.090111874 * a[6];
     let t8 = 0.15607835 * a[5];
-    return array<f32, 45>(
+    return array<f32, 40>(
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -295,13 +295,11 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
         t1 + 0.21850969 * a[8],
         0.2820948 * a[4],
         t2,
-        0.0,
         t3,
         t4,
         0.2820948 * a[5],
         t5,
         t3,
-        0.0,
         t6,
         t7 - 0.15607835 * a[8],
         0.2820948 * a[6],
@@ -312,7 +310,6 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
         0.090111874 * a[5],
         t0 + 0.18022375 * a[6],
         0.2820948 * a[7],
-        0.0,
         t2,
         t5,
         t8,
@@ -321,9 +318,7 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
         t7 + 0.15607835 * a[8],
         0.2820948 * a[8],
         -t3,
-        0.0,
         t2,
-        0.0,
         -t8,
         -(0.18022375 * a[8]),
         t6,
@@ -334,12 +329,12 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 45> {
 // `product_matrix:3:rgb`: The symmetric matrix M(a) by which the product of a function of order 3 and
 // any other is M(a) b, cut off at the order; `product_by_matrix:3` applies it.
 // a: the coefficients of a function of order 3, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 102 (75 mul, 0 add, 27 fma); 8 constants, 34 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 102 (75 mul, 0 add, 27 fma); 7 constants, 34 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
-fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
+fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 40> {
     let t0 = 0.2820948 * a[0];
     let t1 = t0 - 0.12615663 * a[6];
     let t2 = 0.21850969 * a[3];
@@ -349,7 +344,7 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
     let t6 = 0.15607835 * a[7];
     let t7 = t0 + 0.090111874 * a[6];
     let t8 = 0.15607835 * a[5];
-    return array<vec3<f32>, 45>(
+    return array<vec3<f32>, 40>(
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -362,13 +357,11 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
         t1 + 0.21850969 * a[8],
         0.2820948 * a[4],
         t2,
-        vec3<f32>(0.0, 0.0, 0.0),
         t3,
         t4,
         0.2820948 * a[5],
         t5,
         t3,
-        vec3<f32>(0.0, 0.0, 0.0),
         t6,
         t7 - 0.15607835 * a[8],
         0.2820948 * a[6],
@@ -379,7 +372,6 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
         0.090111874 * a[5],
         t0 + 0.18022375 * a[6],
         0.2820948 * a[7],
-        vec3<f32>(0.0, 0.0, 0.0),
         t2,
         t5,
         t8,
@@ -388,9 +380,7 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
         t7 + 0.15607835 * a[8],
         0.2820948 * a[8],
         -t3,
-        vec3<f32>(0.0, 0.0, 0.0),
         t2,
-        vec3<f32>(0.0, 0.0, 0.0),
         -t8,
         -(0.18022375 * a[8]),
         t6,
@@ -400,64 +390,62 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 45> {
 
 // `product_by_matrix:3`: Multiplies functions of order 3 by the one whose matrix `product_matrix:3`
 // made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (9 mul, 0 add, 62 fma); 0 constants, 9 live values.
-// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
-//     worst of 256 measured, 6.6e-8; not proven).
-fn sh3_product_by_matrix(m: array<f32, 45>, b: array<f32, 9>) -> array<f32, 9> {
-    let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    let t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    let t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[17] + b[6] * m[23] + b[7] * m[30];
-    let t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[6] * m[24] + b[7] * m[31];
-    let t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25] + b[7] * m[32];
-    let t5 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26] + b[7] * m[33];
-    let t6 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    let t7 = b[2] * m[30] + b[0] * m[28] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34] + b[7] * m[35];
-    let t8 = b[1] * m[37] + b[0] * m[36] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43] + b[8] * m[44];
+// Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+//     the worst of 256 measured, 6.1e-8; not proven).
+fn sh3_product_by_matrix(m: array<f32, 40>, b: array<f32, 9>) -> array<f32, 9> {
+    let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[14] + b[6] * m[19];
+    let t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[15] + b[6] * m[20];
+    let t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[16] + b[6] * m[21] + b[7] * m[27];
+    let t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[12] + b[6] * m[22] + b[7] * m[28];
+    let t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[12] + b[4] * m[13] + b[5] * m[17] + b[6] * m[23] + b[7] * m[29];
+    let t5 = b[1] * m[15] + b[0] * m[14] + b[2] * m[16] + b[4] * m[17] + b[5] * m[18] + b[6] * m[24] + b[7] * m[30];
+    let t6 = b[1] * m[20] + b[0] * m[19] + b[2] * m[21] + b[3] * m[22] + b[4] * m[23] + b[5] * m[24] + b[6] * m[25];
+    let t7 = b[2] * m[27] + b[0] * m[26] + b[3] * m[28] + b[4] * m[29] + b[5] * m[30] + b[6] * m[31] + b[7] * m[32];
+    let t8 = b[1] * m[34] + b[0] * m[33] + b[3] * m[35] + b[5] * m[36] + b[6] * m[37] + b[7] * m[38] + b[8] * m[39];
     return array<f32, 9>(
-        t0 + b[7] * m[28] + b[8] * m[36],
-        t1 + b[8] * m[37],
+        t0 + b[7] * m[26] + b[8] * m[33],
+        t1 + b[8] * m[34],
         t2,
-        t3 + b[8] * m[39],
+        t3 + b[8] * m[35],
         t4,
-        t5 + b[8] * m[41],
-        t6 + b[7] * m[34] + b[8] * m[42],
-        t7 + b[8] * m[43],
+        t5 + b[8] * m[36],
+        t6 + b[7] * m[31] + b[8] * m[37],
+        t7 + b[8] * m[38],
         t8
     );
 }
 
 // `product_by_matrix:3:rgb`: Multiplies functions of order 3 by the one whose matrix
 // `product_matrix:3` made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (27 mul, 0 add, 186 fma); 0 constants, 9 live values.
-// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
-//     worst of 256 measured, 6.6e-8; not proven).
-fn sh3_product_by_matrix_rgb(m: array<f32, 45>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
-    let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    let t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    let t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[17] + b[6] * m[23] + b[7] * m[30];
-    let t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[6] * m[24] + b[7] * m[31];
-    let t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25] + b[7] * m[32];
-    let t5 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26] + b[7] * m[33];
-    let t6 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    let t7 = b[2] * m[30] + b[0] * m[28] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34] + b[7] * m[35];
-    let t8 = b[1] * m[37] + b[0] * m[36] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43] + b[8] * m[44];
+// Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
+//     the worst of 256 measured, 6.1e-8; not proven).
+fn sh3_product_by_matrix_rgb(m: array<f32, 40>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+    let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[14] + b[6] * m[19];
+    let t1 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[15] + b[6] * m[20];
+    let t2 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[5] * m[16] + b[6] * m[21] + b[7] * m[27];
+    let t3 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[12] + b[6] * m[22] + b[7] * m[28];
+    let t4 = b[1] * m[11] + b[0] * m[10] + b[3] * m[12] + b[4] * m[13] + b[5] * m[17] + b[6] * m[23] + b[7] * m[29];
+    let t5 = b[1] * m[15] + b[0] * m[14] + b[2] * m[16] + b[4] * m[17] + b[5] * m[18] + b[6] * m[24] + b[7] * m[30];
+    let t6 = b[1] * m[20] + b[0] * m[19] + b[2] * m[21] + b[3] * m[22] + b[4] * m[23] + b[5] * m[24] + b[6] * m[25];
+    let t7 = b[2] * m[27] + b[0] * m[26] + b[3] * m[28] + b[4] * m[29] + b[5] * m[30] + b[6] * m[31] + b[7] * m[32];
+    let t8 = b[1] * m[34] + b[0] * m[33] + b[3] * m[35] + b[5] * m[36] + b[6] * m[37] + b[7] * m[38] + b[8] * m[39];
     return array<vec3<f32>, 9>(
-        t0 + b[7] * m[28] + b[8] * m[36],
-        t1 + b[8] * m[37],
+        t0 + b[7] * m[26] + b[8] * m[33],
+        t1 + b[8] * m[34],
         t2,
-        t3 + b[8] * m[39],
+        t3 + b[8] * m[35],
         t4,
-        t5 + b[8] * m[41],
-        t6 + b[7] * m[34] + b[8] * m[42],
-        t7 + b[8] * m[43],
+        t5 + b[8] * m[36],
+        t6 + b[7] * m[31] + b[8] * m[37],
+        t7 + b[8] * m[38],
         t8
     );
 }

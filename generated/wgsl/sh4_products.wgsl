@@ -547,12 +547,12 @@ fn sh4_dot_rgb(a: array<vec3<f32>, 16>, b: array<vec3<f32>, 16>) -> vec3<f32> {
 // `product_matrix:4`: The symmetric matrix M(a) by which the product of a function of order 4 and any
 // other is M(a) b, cut off at the order; `product_by_matrix:4` applies it.
 // a: the coefficients of a function of order 4, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 131 (78 mul, 2 add, 51 fma); 23 constants, 108 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 131 (78 mul, 2 add, 51 fma); 22 constants, 108 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
-fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
+fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 125> {
     let t0 = 0.2820948 * a[0];
     let t1 = t0 - 0.12615663 * a[6];
     let t2 = 0.21850969 * a[3];
@@ -591,7 +591,7 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
     let t35 = 0.094031595 * a[4];
     let t36 = 0.11516472 * a[5];
     let t37 = 0.148677 * a[5];
-    return array<f32, 136>(
+    return array<f32, 125>(
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -632,14 +632,12 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
         0.22617902 * a[9] - t6,
         t9,
         t3 + 0.22617902 * a[15],
-        0.0,
         -t12,
         -(0.18022375 * a[8]),
         t10,
         t7,
         0.2820948 * a[9],
         t13,
-        0.0,
         t14,
         t15,
         t16,
@@ -653,9 +651,7 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
         t21,
         t22,
         t23 - 0.148677 * a[15],
-        0.0,
         t24 + 0.148677 * a[9],
-        0.0,
         t25,
         t0,
         0.2820948 * a[11],
@@ -679,7 +675,6 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
         0.16820884 * a[12] + 0.24776669 * a[2],
         0.059470803 * a[13] - 0.14304817 * a[3],
         -(0.18806319 * a[14]),
-        0.0,
         -(0.18806319 * a[4]),
         0.059470803 * a[5],
         t0 + 0.16820884 * a[6],
@@ -701,30 +696,24 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
         -t21,
         0.1846744 * a[8],
         t20,
-        0.0,
         0.148677 * a[9] - t24,
-        0.0,
         t23 + 0.148677 * a[15],
         t22,
         t37,
-        0.0,
         -t36,
         -(0.18806319 * a[8]),
         t33,
         t0,
         0.2820948 * a[15],
         -t14,
-        0.0,
         t13,
         -t18,
         -t17,
         -(0.21026105 * a[15]),
         t16,
         t15,
-        0.0,
         -t37,
         t35,
-        0.0,
         t32,
         t25,
         t19
@@ -734,12 +723,12 @@ fn sh4_product_matrix(a: array<f32, 16>) -> array<f32, 136> {
 // `product_matrix:4:rgb`: The symmetric matrix M(a) by which the product of a function of order 4 and
 // any other is M(a) b, cut off at the order; `product_by_matrix:4` applies it.
 // a: the coefficients of a function of order 4, index l(l+1)+m.
-// Returns the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at
-//     i(i+1)/2 + j.
-// Operations: 393 (234 mul, 6 add, 153 fma); 23 constants, 108 live values.
+// Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
+//     a.
+// Operations: 393 (234 mul, 6 add, 153 fma); 22 constants, 108 live values.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
-fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
+fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 125> {
     let t0 = 0.2820948 * a[0];
     let t1 = t0 - 0.12615663 * a[6];
     let t2 = 0.21850969 * a[3];
@@ -778,7 +767,7 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
     let t35 = 0.094031595 * a[4];
     let t36 = 0.11516472 * a[5];
     let t37 = 0.148677 * a[5];
-    return array<vec3<f32>, 136>(
+    return array<vec3<f32>, 125>(
         t0,
         0.2820948 * a[1],
         t1 - 0.21850969 * a[8],
@@ -819,14 +808,12 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
         0.22617902 * a[9] - t6,
         t9,
         t3 + 0.22617902 * a[15],
-        vec3<f32>(0.0, 0.0, 0.0),
         -t12,
         -(0.18022375 * a[8]),
         t10,
         t7,
         0.2820948 * a[9],
         t13,
-        vec3<f32>(0.0, 0.0, 0.0),
         t14,
         t15,
         t16,
@@ -840,9 +827,7 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
         t21,
         t22,
         t23 - 0.148677 * a[15],
-        vec3<f32>(0.0, 0.0, 0.0),
         t24 + 0.148677 * a[9],
-        vec3<f32>(0.0, 0.0, 0.0),
         t25,
         t0,
         0.2820948 * a[11],
@@ -866,7 +851,6 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
         0.16820884 * a[12] + 0.24776669 * a[2],
         0.059470803 * a[13] - 0.14304817 * a[3],
         -(0.18806319 * a[14]),
-        vec3<f32>(0.0, 0.0, 0.0),
         -(0.18806319 * a[4]),
         0.059470803 * a[5],
         t0 + 0.16820884 * a[6],
@@ -888,30 +872,24 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
         -t21,
         0.1846744 * a[8],
         t20,
-        vec3<f32>(0.0, 0.0, 0.0),
         0.148677 * a[9] - t24,
-        vec3<f32>(0.0, 0.0, 0.0),
         t23 + 0.148677 * a[15],
         t22,
         t37,
-        vec3<f32>(0.0, 0.0, 0.0),
         -t36,
         -(0.18806319 * a[8]),
         t33,
         t0,
         0.2820948 * a[15],
         -t14,
-        vec3<f32>(0.0, 0.0, 0.0),
         t13,
         -t18,
         -t17,
         -(0.21026105 * a[15]),
         t16,
         t15,
-        vec3<f32>(0.0, 0.0, 0.0),
         -t37,
         t35,
-        vec3<f32>(0.0, 0.0, 0.0),
         t32,
         t25,
         t19
@@ -920,125 +898,123 @@ fn sh4_product_matrix_rgb(a: array<vec3<f32>, 16>) -> array<vec3<f32>, 136> {
 
 // `product_by_matrix:4`: Multiplies functions of order 4 by the one whose matrix `product_matrix:4`
 // made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 234 (16 mul, 0 add, 218 fma); 0 constants, 16 live values.
-// Error: f32 rounding at most 1.6e-7 of the product of both factors' norms, for every input (3 times
-//     the worst of 256 measured, 5.4e-8; not proven).
-fn sh4_product_by_matrix(m: array<f32, 136>, b: array<f32, 16>) -> array<f32, 16> {
+// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
+//     worst of 256 measured, 6.4e-8; not proven).
+fn sh4_product_by_matrix(m: array<f32, 125>, b: array<f32, 16>) -> array<f32, 16> {
     let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    let t1 = t0 + b[7] * m[28] + b[8] * m[36] + b[9] * m[45] + b[10] * m[55] + b[11] * m[66] + b[12] * m[78];
+    let t1 = t0 + b[7] * m[28] + b[8] * m[36] + b[9] * m[44] + b[10] * m[53] + b[11] * m[62] + b[12] * m[74];
     let t2 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    let t3 = t2 + b[7] * m[29] + b[8] * m[37] + b[9] * m[46] + b[10] * m[56] + b[11] * m[67] + b[12] * m[79];
+    let t3 = t2 + b[7] * m[29] + b[8] * m[37] + b[9] * m[45] + b[10] * m[54] + b[11] * m[63] + b[12] * m[75];
     let t4 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[4] * m[12] + b[5] * m[17] + b[6] * m[23];
-    let t5 = t4 + b[7] * m[30] + b[8] * m[38] + b[10] * m[57] + b[11] * m[68] + b[12] * m[80] + b[13] * m[93];
+    let t5 = t4 + b[7] * m[30] + b[8] * m[38] + b[10] * m[55] + b[11] * m[64] + b[12] * m[76] + b[13] * m[88];
     let t6 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[5] * m[18] + b[6] * m[24];
-    let t7 = t6 + b[7] * m[31] + b[8] * m[39] + b[9] * m[48] + b[10] * m[58] + b[11] * m[69] + b[12] * m[81];
+    let t7 = t6 + b[7] * m[31] + b[8] * m[39] + b[9] * m[46] + b[10] * m[56] + b[11] * m[65] + b[12] * m[77];
     let t8 = b[1] * m[11] + b[0] * m[10] + b[2] * m[12] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25];
-    let t9 = t8 + b[7] * m[32] + b[9] * m[49] + b[10] * m[59] + b[11] * m[70] + b[12] * m[82] + b[13] * m[95];
+    let t9 = t8 + b[7] * m[32] + b[9] * m[47] + b[10] * m[57] + b[11] * m[66] + b[12] * m[78] + b[13] * m[90];
     let t10 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[3] * m[18] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26];
-    let t11 = t10 + b[7] * m[33] + b[8] * m[41] + b[9] * m[50] + b[10] * m[60] + b[11] * m[71] + b[12] * m[83];
+    let t11 = t10 + b[7] * m[33] + b[8] * m[40] + b[9] * m[48] + b[10] * m[58] + b[11] * m[67] + b[12] * m[79];
     let t12 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    let t13 = t12 + b[7] * m[34] + b[8] * m[42] + b[9] * m[51] + b[11] * m[72] + b[12] * m[84] + b[13] * m[97];
+    let t13 = t12 + b[7] * m[34] + b[8] * m[41] + b[9] * m[49] + b[11] * m[68] + b[12] * m[80] + b[13] * m[92];
     let t14 = b[1] * m[29] + b[0] * m[28] + b[2] * m[30] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34];
-    let t15 = t14 + b[7] * m[35] + b[8] * m[43] + b[9] * m[52] + b[10] * m[62] + b[11] * m[73] + b[12] * m[85];
-    let t16 = b[1] * m[37] + b[0] * m[36] + b[2] * m[38] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43];
-    let t17 = t16 + b[8] * m[44] + b[9] * m[53] + b[11] * m[74] + b[12] * m[86] + b[13] * m[99] + b[14] * m[113];
-    let t18 = b[1] * m[46] + b[0] * m[45] + b[3] * m[48] + b[4] * m[49] + b[5] * m[50] + b[6] * m[51] + b[7] * m[52];
-    let t19 = t18 + b[8] * m[53] + b[9] * m[54] + b[10] * m[64] + b[11] * m[75] + b[13] * m[100] + b[14] * m[114];
-    let t20 = b[1] * m[56] + b[0] * m[55] + b[2] * m[57] + b[3] * m[58] + b[4] * m[59] + b[5] * m[60] + b[7] * m[62];
-    let t21 = t20 + b[9] * m[64] + b[10] * m[65] + b[11] * m[76] + b[12] * m[88] + b[13] * m[101] + b[15] * m[130];
-    let t22 = b[1] * m[67] + b[0] * m[66] + b[2] * m[68] + b[3] * m[69] + b[4] * m[70] + b[5] * m[71] + b[6] * m[72];
-    let t23 = t22 + b[7] * m[73] + b[8] * m[74] + b[9] * m[75] + b[10] * m[76] + b[11] * m[77] + b[12] * m[89];
-    let t24 = b[1] * m[79] + b[0] * m[78] + b[2] * m[80] + b[3] * m[81] + b[4] * m[82] + b[5] * m[83] + b[6] * m[84];
-    let t25 = t24 + b[7] * m[85] + b[8] * m[86] + b[10] * m[88] + b[11] * m[89] + b[12] * m[90] + b[13] * m[103];
-    let t26 = b[1] * m[92] + b[0] * m[91] + b[2] * m[93] + b[3] * m[94] + b[4] * m[95] + b[5] * m[96] + b[6] * m[97];
-    let t27 = t26 + b[7] * m[98] + b[8] * m[99] + b[9] * m[100] + b[10] * m[101] + b[11] * m[102] + b[12] * m[103];
-    let t28 = b[1] * m[106] + b[0] * m[105] + b[2] * m[107] + b[3] * m[108] + b[5] * m[110] + b[7] * m[112];
-    let t29 = t28 + b[8] * m[113] + b[9] * m[114] + b[11] * m[116] + b[12] * m[117] + b[13] * m[118] + b[14] * m[119];
-    let t30 = b[1] * m[121] + b[0] * m[120] + b[3] * m[123] + b[4] * m[124] + b[5] * m[125] + b[6] * m[126];
-    let t31 = t30 + b[7] * m[127] + b[8] * m[128] + b[10] * m[130] + b[11] * m[131] + b[13] * m[133] + b[14] * m[134];
+    let t15 = t14 + b[7] * m[35] + b[8] * m[42] + b[9] * m[50] + b[10] * m[59] + b[11] * m[69] + b[12] * m[81];
+    let t16 = b[1] * m[37] + b[0] * m[36] + b[2] * m[38] + b[3] * m[39] + b[5] * m[40] + b[6] * m[41] + b[7] * m[42];
+    let t17 = t16 + b[8] * m[43] + b[9] * m[51] + b[11] * m[70] + b[12] * m[82] + b[13] * m[94] + b[14] * m[106];
+    let t18 = b[1] * m[45] + b[0] * m[44] + b[3] * m[46] + b[4] * m[47] + b[5] * m[48] + b[6] * m[49] + b[7] * m[50];
+    let t19 = t18 + b[8] * m[51] + b[9] * m[52] + b[10] * m[60] + b[11] * m[71] + b[13] * m[95] + b[14] * m[107];
+    let t20 = b[1] * m[54] + b[0] * m[53] + b[2] * m[55] + b[3] * m[56] + b[4] * m[57] + b[5] * m[58] + b[7] * m[59];
+    let t21 = t20 + b[9] * m[60] + b[10] * m[61] + b[11] * m[72] + b[12] * m[83] + b[13] * m[96] + b[15] * m[120];
+    let t22 = b[1] * m[63] + b[0] * m[62] + b[2] * m[64] + b[3] * m[65] + b[4] * m[66] + b[5] * m[67] + b[6] * m[68];
+    let t23 = t22 + b[7] * m[69] + b[8] * m[70] + b[9] * m[71] + b[10] * m[72] + b[11] * m[73] + b[12] * m[84];
+    let t24 = b[1] * m[75] + b[0] * m[74] + b[2] * m[76] + b[3] * m[77] + b[4] * m[78] + b[5] * m[79] + b[6] * m[80];
+    let t25 = t24 + b[7] * m[81] + b[8] * m[82] + b[10] * m[83] + b[11] * m[84] + b[12] * m[85] + b[13] * m[98];
+    let t26 = b[1] * m[87] + b[0] * m[86] + b[2] * m[88] + b[3] * m[89] + b[4] * m[90] + b[5] * m[91] + b[6] * m[92];
+    let t27 = t26 + b[7] * m[93] + b[8] * m[94] + b[9] * m[95] + b[10] * m[96] + b[11] * m[97] + b[12] * m[98];
+    let t28 = b[1] * m[101] + b[0] * m[100] + b[2] * m[102] + b[3] * m[103] + b[5] * m[104] + b[7] * m[105];
+    let t29 = t28 + b[8] * m[106] + b[9] * m[107] + b[11] * m[108] + b[12] * m[109] + b[13] * m[110] + b[14] * m[111];
+    let t30 = b[1] * m[113] + b[0] * m[112] + b[3] * m[114] + b[4] * m[115] + b[5] * m[116] + b[6] * m[117];
+    let t31 = t30 + b[7] * m[118] + b[8] * m[119] + b[10] * m[120] + b[11] * m[121] + b[13] * m[122] + b[14] * m[123];
     return array<f32, 16>(
-        t1 + b[13] * m[91] + b[14] * m[105] + b[15] * m[120],
-        t3 + b[13] * m[92] + b[14] * m[106] + b[15] * m[121],
-        t5 + b[14] * m[107],
-        t7 + b[13] * m[94] + b[14] * m[108] + b[15] * m[123],
-        t9 + b[15] * m[124],
-        t11 + b[13] * m[96] + b[14] * m[110] + b[15] * m[125],
-        t13 + b[15] * m[126],
-        t15 + b[13] * m[98] + b[14] * m[112] + b[15] * m[127],
-        t17 + b[15] * m[128],
+        t1 + b[13] * m[86] + b[14] * m[100] + b[15] * m[112],
+        t3 + b[13] * m[87] + b[14] * m[101] + b[15] * m[113],
+        t5 + b[14] * m[102],
+        t7 + b[13] * m[89] + b[14] * m[103] + b[15] * m[114],
+        t9 + b[15] * m[115],
+        t11 + b[13] * m[91] + b[14] * m[104] + b[15] * m[116],
+        t13 + b[15] * m[117],
+        t15 + b[13] * m[93] + b[14] * m[105] + b[15] * m[118],
+        t17 + b[15] * m[119],
         t19,
         t21,
-        t23 + b[13] * m[102] + b[14] * m[116] + b[15] * m[131],
-        t25 + b[14] * m[117],
-        t27 + b[13] * m[104] + b[14] * m[118] + b[15] * m[133],
-        t29 + b[15] * m[134],
-        t31 + b[15] * m[135]
+        t23 + b[13] * m[97] + b[14] * m[108] + b[15] * m[121],
+        t25 + b[14] * m[109],
+        t27 + b[13] * m[99] + b[14] * m[110] + b[15] * m[122],
+        t29 + b[15] * m[123],
+        t31 + b[15] * m[124]
     );
 }
 
 // `product_by_matrix:4:rgb`: Multiplies functions of order 4 by the one whose matrix
 // `product_matrix:4` made, once for many.
-// m: the lower triangle of M(a), row by row: the entry of row i and column j <= i stands at i(i+1)/2 +
-//     j.
+// m: the entries of the lower triangle of M(a), row by row, without those that are zero for every a.
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 702 (48 mul, 0 add, 654 fma); 0 constants, 16 live values.
-// Error: f32 rounding at most 1.6e-7 of the product of both factors' norms, for every input (3 times
-//     the worst of 256 measured, 5.4e-8; not proven).
-fn sh4_product_by_matrix_rgb(m: array<f32, 136>, b: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
+// Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
+//     worst of 256 measured, 6.4e-8; not proven).
+fn sh4_product_by_matrix_rgb(m: array<f32, 125>, b: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
     let t0 = b[1] * m[1] + b[0] * m[0] + b[2] * m[3] + b[3] * m[6] + b[4] * m[10] + b[5] * m[15] + b[6] * m[21];
-    let t1 = t0 + b[7] * m[28] + b[8] * m[36] + b[9] * m[45] + b[10] * m[55] + b[11] * m[66] + b[12] * m[78];
+    let t1 = t0 + b[7] * m[28] + b[8] * m[36] + b[9] * m[44] + b[10] * m[53] + b[11] * m[62] + b[12] * m[74];
     let t2 = b[1] * m[2] + b[0] * m[1] + b[2] * m[4] + b[3] * m[7] + b[4] * m[11] + b[5] * m[16] + b[6] * m[22];
-    let t3 = t2 + b[7] * m[29] + b[8] * m[37] + b[9] * m[46] + b[10] * m[56] + b[11] * m[67] + b[12] * m[79];
+    let t3 = t2 + b[7] * m[29] + b[8] * m[37] + b[9] * m[45] + b[10] * m[54] + b[11] * m[63] + b[12] * m[75];
     let t4 = b[1] * m[4] + b[0] * m[3] + b[2] * m[5] + b[3] * m[8] + b[4] * m[12] + b[5] * m[17] + b[6] * m[23];
-    let t5 = t4 + b[7] * m[30] + b[8] * m[38] + b[10] * m[57] + b[11] * m[68] + b[12] * m[80] + b[13] * m[93];
+    let t5 = t4 + b[7] * m[30] + b[8] * m[38] + b[10] * m[55] + b[11] * m[64] + b[12] * m[76] + b[13] * m[88];
     let t6 = b[1] * m[7] + b[0] * m[6] + b[2] * m[8] + b[3] * m[9] + b[4] * m[13] + b[5] * m[18] + b[6] * m[24];
-    let t7 = t6 + b[7] * m[31] + b[8] * m[39] + b[9] * m[48] + b[10] * m[58] + b[11] * m[69] + b[12] * m[81];
+    let t7 = t6 + b[7] * m[31] + b[8] * m[39] + b[9] * m[46] + b[10] * m[56] + b[11] * m[65] + b[12] * m[77];
     let t8 = b[1] * m[11] + b[0] * m[10] + b[2] * m[12] + b[3] * m[13] + b[4] * m[14] + b[5] * m[19] + b[6] * m[25];
-    let t9 = t8 + b[7] * m[32] + b[9] * m[49] + b[10] * m[59] + b[11] * m[70] + b[12] * m[82] + b[13] * m[95];
+    let t9 = t8 + b[7] * m[32] + b[9] * m[47] + b[10] * m[57] + b[11] * m[66] + b[12] * m[78] + b[13] * m[90];
     let t10 = b[1] * m[16] + b[0] * m[15] + b[2] * m[17] + b[3] * m[18] + b[4] * m[19] + b[5] * m[20] + b[6] * m[26];
-    let t11 = t10 + b[7] * m[33] + b[8] * m[41] + b[9] * m[50] + b[10] * m[60] + b[11] * m[71] + b[12] * m[83];
+    let t11 = t10 + b[7] * m[33] + b[8] * m[40] + b[9] * m[48] + b[10] * m[58] + b[11] * m[67] + b[12] * m[79];
     let t12 = b[1] * m[22] + b[0] * m[21] + b[2] * m[23] + b[3] * m[24] + b[4] * m[25] + b[5] * m[26] + b[6] * m[27];
-    let t13 = t12 + b[7] * m[34] + b[8] * m[42] + b[9] * m[51] + b[11] * m[72] + b[12] * m[84] + b[13] * m[97];
+    let t13 = t12 + b[7] * m[34] + b[8] * m[41] + b[9] * m[49] + b[11] * m[68] + b[12] * m[80] + b[13] * m[92];
     let t14 = b[1] * m[29] + b[0] * m[28] + b[2] * m[30] + b[3] * m[31] + b[4] * m[32] + b[5] * m[33] + b[6] * m[34];
-    let t15 = t14 + b[7] * m[35] + b[8] * m[43] + b[9] * m[52] + b[10] * m[62] + b[11] * m[73] + b[12] * m[85];
-    let t16 = b[1] * m[37] + b[0] * m[36] + b[2] * m[38] + b[3] * m[39] + b[5] * m[41] + b[6] * m[42] + b[7] * m[43];
-    let t17 = t16 + b[8] * m[44] + b[9] * m[53] + b[11] * m[74] + b[12] * m[86] + b[13] * m[99] + b[14] * m[113];
-    let t18 = b[1] * m[46] + b[0] * m[45] + b[3] * m[48] + b[4] * m[49] + b[5] * m[50] + b[6] * m[51] + b[7] * m[52];
-    let t19 = t18 + b[8] * m[53] + b[9] * m[54] + b[10] * m[64] + b[11] * m[75] + b[13] * m[100] + b[14] * m[114];
-    let t20 = b[1] * m[56] + b[0] * m[55] + b[2] * m[57] + b[3] * m[58] + b[4] * m[59] + b[5] * m[60] + b[7] * m[62];
-    let t21 = t20 + b[9] * m[64] + b[10] * m[65] + b[11] * m[76] + b[12] * m[88] + b[13] * m[101] + b[15] * m[130];
-    let t22 = b[1] * m[67] + b[0] * m[66] + b[2] * m[68] + b[3] * m[69] + b[4] * m[70] + b[5] * m[71] + b[6] * m[72];
-    let t23 = t22 + b[7] * m[73] + b[8] * m[74] + b[9] * m[75] + b[10] * m[76] + b[11] * m[77] + b[12] * m[89];
-    let t24 = b[1] * m[79] + b[0] * m[78] + b[2] * m[80] + b[3] * m[81] + b[4] * m[82] + b[5] * m[83] + b[6] * m[84];
-    let t25 = t24 + b[7] * m[85] + b[8] * m[86] + b[10] * m[88] + b[11] * m[89] + b[12] * m[90] + b[13] * m[103];
-    let t26 = b[1] * m[92] + b[0] * m[91] + b[2] * m[93] + b[3] * m[94] + b[4] * m[95] + b[5] * m[96] + b[6] * m[97];
-    let t27 = t26 + b[7] * m[98] + b[8] * m[99] + b[9] * m[100] + b[10] * m[101] + b[11] * m[102] + b[12] * m[103];
-    let t28 = b[1] * m[106] + b[0] * m[105] + b[2] * m[107] + b[3] * m[108] + b[5] * m[110] + b[7] * m[112];
-    let t29 = t28 + b[8] * m[113] + b[9] * m[114] + b[11] * m[116] + b[12] * m[117] + b[13] * m[118] + b[14] * m[119];
-    let t30 = b[1] * m[121] + b[0] * m[120] + b[3] * m[123] + b[4] * m[124] + b[5] * m[125] + b[6] * m[126];
-    let t31 = t30 + b[7] * m[127] + b[8] * m[128] + b[10] * m[130] + b[11] * m[131] + b[13] * m[133] + b[14] * m[134];
+    let t15 = t14 + b[7] * m[35] + b[8] * m[42] + b[9] * m[50] + b[10] * m[59] + b[11] * m[69] + b[12] * m[81];
+    let t16 = b[1] * m[37] + b[0] * m[36] + b[2] * m[38] + b[3] * m[39] + b[5] * m[40] + b[6] * m[41] + b[7] * m[42];
+    let t17 = t16 + b[8] * m[43] + b[9] * m[51] + b[11] * m[70] + b[12] * m[82] + b[13] * m[94] + b[14] * m[106];
+    let t18 = b[1] * m[45] + b[0] * m[44] + b[3] * m[46] + b[4] * m[47] + b[5] * m[48] + b[6] * m[49] + b[7] * m[50];
+    let t19 = t18 + b[8] * m[51] + b[9] * m[52] + b[10] * m[60] + b[11] * m[71] + b[13] * m[95] + b[14] * m[107];
+    let t20 = b[1] * m[54] + b[0] * m[53] + b[2] * m[55] + b[3] * m[56] + b[4] * m[57] + b[5] * m[58] + b[7] * m[59];
+    let t21 = t20 + b[9] * m[60] + b[10] * m[61] + b[11] * m[72] + b[12] * m[83] + b[13] * m[96] + b[15] * m[120];
+    let t22 = b[1] * m[63] + b[0] * m[62] + b[2] * m[64] + b[3] * m[65] + b[4] * m[66] + b[5] * m[67] + b[6] * m[68];
+    let t23 = t22 + b[7] * m[69] + b[8] * m[70] + b[9] * m[71] + b[10] * m[72] + b[11] * m[73] + b[12] * m[84];
+    let t24 = b[1] * m[75] + b[0] * m[74] + b[2] * m[76] + b[3] * m[77] + b[4] * m[78] + b[5] * m[79] + b[6] * m[80];
+    let t25 = t24 + b[7] * m[81] + b[8] * m[82] + b[10] * m[83] + b[11] * m[84] + b[12] * m[85] + b[13] * m[98];
+    let t26 = b[1] * m[87] + b[0] * m[86] + b[2] * m[88] + b[3] * m[89] + b[4] * m[90] + b[5] * m[91] + b[6] * m[92];
+    let t27 = t26 + b[7] * m[93] + b[8] * m[94] + b[9] * m[95] + b[10] * m[96] + b[11] * m[97] + b[12] * m[98];
+    let t28 = b[1] * m[101] + b[0] * m[100] + b[2] * m[102] + b[3] * m[103] + b[5] * m[104] + b[7] * m[105];
+    let t29 = t28 + b[8] * m[106] + b[9] * m[107] + b[11] * m[108] + b[12] * m[109] + b[13] * m[110] + b[14] * m[111];
+    let t30 = b[1] * m[113] + b[0] * m[112] + b[3] * m[114] + b[4] * m[115] + b[5] * m[116] + b[6] * m[117];
+    let t31 = t30 + b[7] * m[118] + b[8] * m[119] + b[10] * m[120] + b[11] * m[121] + b[13] * m[122] + b[14] * m[123];
     return array<vec3<f32>, 16>(
-        t1 + b[13] * m[91] + b[14] * m[105] + b[15] * m[120],
-        t3 + b[13] * m[92] + b[14] * m[106] + b[15] * m[121],
-        t5 + b[14] * m[107],
-        t7 + b[13] * m[94] + b[14] * m[108] + b[15] * m[123],
-        t9 + b[15] * m[124],
-        t11 + b[13] * m[96] + b[14] * m[110] + b[15] * m[125],
-        t13 + b[15] * m[126],
-        t15 + b[13] * m[98] + b[14] * m[112] + b[15] * m[127],
-        t17 + b[15] * m[128],
+        t1 + b[13] * m[86] + b[14] * m[100] + b[15] * m[112],
+        t3 + b[13] * m[87] + b[14] * m[101] + b[15] * m[113],
+        t5 + b[14] * m[102],
+        t7 + b[13] * m[89] + b[14] * m[103] + b[15] * m[114],
+        t9 + b[15] * m[115],
+        t11 + b[13] * m[91] + b[14] * m[104] + b[15] * m[116],
+        t13 + b[15] * m[117],
+        t15 + b[13] * m[93] + b[14] * m[105] + b[15] * m[118],
+        t17 + b[15] * m[119],
         t19,
         t21,
-        t23 + b[13] * m[102] + b[14] * m[116] + b[15] * m[131],
-        t25 + b[14] * m[117],
-        t27 + b[13] * m[104] + b[14] * m[118] + b[15] * m[133],
-        t29 + b[15] * m[134],
-        t31 + b[15] * m[135]
+        t23 + b[13] * m[97] + b[14] * m[108] + b[15] * m[121],
+        t25 + b[14] * m[109],
+        t27 + b[13] * m[99] + b[14] * m[110] + b[15] * m[122],
+        t29 + b[15] * m[123],
+        t31 + b[15] * m[124]
     );
 }
 
