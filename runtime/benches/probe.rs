@@ -1,7 +1,7 @@
 //! What a probe costs: many signals evaluated, rotated and tilted, each in a direction of its own, at the orders 3, 4 and 6
 //! and for one channel and three. Elements are signals.
 //!
-//! `cargo bench -p zonal --bench probe`
+//! `cargo bench -p zonal --bench probe --features order6`
 
 use std::hint::black_box;
 
