@@ -358,17 +358,3 @@ fn figure(value: f64, largest: f64) -> String {
         _ => format!("{value:.5e}"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::figure;
-
-    #[test]
-    fn figures_have_six_digits_of_the_largest() {
-        assert_eq!([1.0, -0.25].map(|value| figure(value, 1.0)), ["1.00000", "-0.25000"]);
-        assert_eq!(figure(123_456.7, 999_999.0), "123457");
-        assert_eq!(figure(1.5e-38, 2e-38), "1.50000e-38");
-        assert_eq!(figure(-2.25e36, 3e36), "-2.25000e36");
-        assert_eq!(figure(0.0, 0.0), "0");
-    }
-}
