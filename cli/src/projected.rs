@@ -29,7 +29,8 @@ const CSV: &str = "csv";
 /// What is asked of a map.
 #[derive(Clone, Debug, Args)]
 pub struct Asked {
-    /// The map: a file, .hdr, .exr or .png, as latitude and longitude or as a cube; or the folder of a cube's six faces.
+    /// The map, .hdr, .exr or .png: latitude and longitude, or a cubemap in a strip, a cross or six files, which their
+    /// folder names or a pattern, as in `sky/day_*.png`.
     pub map: PathBuf,
     /// How many bands; 5 if left out, or as many as the convention has.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=64))]

@@ -31,7 +31,7 @@
 //!   is an error. Without it **nothing is parsed**: a text is returned and written as it was printed. zonal's own tests have
 //!   checked every kernel of the catalogue, but not your names, orders and mixtures in it; the compilers that read the files
 //!   do. A build script then compiles 23 crates instead of 47, in about half of the time.
-//! * `exr`: environment maps in OpenEXR. Radiance HDR needs no feature.
+//! * `exr`: environment maps in OpenEXR; `png`: in PNG. Radiance HDR needs no feature.
 //!
 //! Convention everywhere: real orthonormal harmonics with the Condon-Shortley phase (band 1 is −y, z, −x), index
 //! l(l+1)+m; order n is the bands 0 to n − 1, n² coefficients; a rotation R takes c to D(R) c with y(Rω) = D(R) y(ω).

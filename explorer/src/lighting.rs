@@ -1,7 +1,6 @@
 //! A map as the page needs it: its coefficients, the lights of the picture of all bands, a small picture of it, and figures
 //! of its bands. It knows nothing of pages.
 
-use crate::page::Asset;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use zonal_codegen::catalog::ORDERS;
@@ -11,6 +10,9 @@ use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_picture::lights::Lights;
 use zonal_picture::shade::LIGHTS_A_ROW;
 use zonal_picture::vector::{across, add, cross, length};
+
+/// A file of the page: its path below the folder, with `/`, and its bytes.
+pub type Asset = (String, Vec<u8>);
 
 /// The order of the light and of the tables of the page; lower ones are their first bands.
 pub const ORDER: usize = *ORDERS.end();

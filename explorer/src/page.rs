@@ -1,6 +1,6 @@
 //! The files of the explorer: its page, the shaders of every choice, and the data that they read, all from the library.
 
-use crate::lighting::{self, Lit, ORDER, floats};
+use crate::lighting::{self, Asset, Lit, ORDER, floats};
 use crate::own::{self, Own};
 use crate::upload;
 use indicatif::ProgressBar;
@@ -21,9 +21,6 @@ use zonal_picture::mesh::{self, Mesh};
 use zonal_picture::method::{Judged, Method};
 use zonal_picture::normal_map::{LEAST_Z, NormalMap};
 use zonal_picture::shade::{self, Shading};
-
-/// A file of the page: its path below the folder, with `/`, and its bytes.
-pub type Asset = (String, Vec<u8>);
 
 /// The reflectances to choose from.
 const BRDFS: [(&str, &str); 6] = [
@@ -86,8 +83,8 @@ pub fn reflectances(own: &Own) -> Result<Vec<Brdf>, Fault> {
     Ok(all)
 }
 
-/// Every file of the page. `takes_maps` says whether it is served by a program that reads maps that are dropped on it.
-pub fn assets(own: &Own, takes_maps: bool, bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
+/// Every file of the page.
+pub fn assets(own: &Own, bar: &ProgressBar) -> Result<Vec<Asset>, Failure> {
     let reflectances = reflectances(own)?;
     let mut all: Vec<Asset> =
         zonal_templates::EXPLORER.iter().map(|&(path, text)| (path.to_owned(), text.as_bytes().to_vec())).collect();
@@ -121,7 +118,7 @@ pub fn assets(own: &Own, takes_maps: bool, bar: &ProgressBar) -> Result<Vec<Asse
         "bands": lighting::BANDS,
         "lightsARow": shade::LIGHTS_A_ROW,
         "first": own.first,
-        "drop": takes_maps.then(|| json!({"path": upload::PATH, "most": upload::MAX_BODY})),
+        "drop": {"path": upload::PATH, "most": upload::MAX_BODY},
     });
     all.push(("data/index.json".to_owned(), index.to_string().into_bytes()));
     Ok(all)

@@ -1,8 +1,9 @@
 //! The command `explore`: writes the page and serves it to this machine alone.
 
 use crate::http::{self, Answer, Site};
+use crate::lighting::Asset;
 use crate::own::Own;
-use crate::page::{self, Asset};
+use crate::page;
 use crate::upload::{self, Uploads};
 use std::borrow::Cow;
 use std::io;
@@ -33,7 +34,7 @@ pub fn explore(own: &Own, folder: Option<PathBuf>, port: u16, serves: bool, repl
     // A port that is taken is known before anything is made.
     let listener = serves.then(|| listen(port)).transpose()?;
     let bar = progress("generating the explorer");
-    let assets = page::assets(own, serves, &bar)?;
+    let assets = page::assets(own, &bar)?;
     let folder = folder.unwrap_or_else(|| PathBuf::from(FOLDER));
     let list: Vec<(&str, &[u8])> = assets.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice())).collect();
     let changed = files::write_below(&folder, &list, replace)?;

@@ -1,9 +1,8 @@
 //! Maps that are dropped on the page: what its request holds, and where what was made of it is kept. A body is a head of one
 //! line a file, its length in bytes and its name; an empty line; and the files, one after another.
 
-use crate::lighting;
+use crate::lighting::{self, Asset};
 use crate::own;
-use crate::page::Asset;
 use serde_json::Value;
 use std::sync::{Mutex, PoisonError, RwLock};
 use zonal_codegen::fault::Fault;

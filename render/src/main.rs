@@ -14,7 +14,7 @@ use zonal_codegen::files::{self, MARK, Replace};
 use zonal_codegen::scene::Scene;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_picture::method::Method;
-use zonal_render::figures::{Figures, Truth, convergence, percent};
+use zonal_render::figures::{Figures, Row, Truth, convergence, percent};
 use zonal_render::gpu::{Gpu, Stage};
 use zonal_render::strip;
 use zonal_render::subject::{Instead, Subject};
@@ -39,7 +39,7 @@ struct Arguments {
     /// Draws a strip: exact, the scene's method, their difference in false colours, no rotation.
     #[arg(long)]
     compare: bool,
-    /// Prints how the exact picture nears brute force on the CPU, for the orders 2 to 10.
+    /// Prints how the exact picture nears brute force on the CPU, for the orders 2 to 10; the JSON has it too.
     #[arg(long)]
     reference: bool,
     /// The number of bands, instead of the scene's.
@@ -62,6 +62,9 @@ struct Beside<'a> {
     origin: String,
     #[serde(flatten)]
     figures: &'a Figures,
+    /// How the exact picture nears brute force, if that was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reference: Vec<Row>,
 }
 
 /// A bar, on terminals only; it vanishes when it is dropped.
@@ -104,12 +107,16 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
             picture.operations, picture.milliseconds
         );
     }
+    let mut rows = Vec::new();
     if arguments.reference {
+        let (told, found) = reference(&gpu, &subject, &bar)?;
         text += "\n";
-        text += &reference(&gpu, &subject, &bar)?;
+        text += &told;
+        rows = found;
     }
-    let json = serde_json::to_string_pretty(&Beside { origin: format!("{MARK} render"), figures: &figures })
-        .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
+    let json =
+        serde_json::to_string_pretty(&Beside { origin: format!("{MARK} render"), figures: &figures, reference: rows })
+            .map_err(|error| Diagnostic::nowhere(error.to_string(), ""))?;
     let json = json + "\n";
     let sidecar = output.with_extension("json");
     let ((folder, picture), (_, beside)) = (files::split(&output), files::split(&sidecar));
@@ -127,8 +134,8 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     Ok(text)
 }
 
-/// The table of `--reference`.
-fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<String, Diagnostic> {
+/// The table of `--reference`, and its rows.
+fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<(String, Vec<Row>), Diagnostic> {
     bar.set_position(0);
     bar.set_message("brute force");
     let stage = Stage::new(gpu, subject, subject.size)?;
@@ -141,12 +148,12 @@ fn reference(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<String, 
         subject.map.texels.len()
     );
     let _ = writeln!(text, "  {:>5} {:>10} {:>10} {:>10} {:>14}", "order", "mean", "rms", "worst", "expected rms");
-    for row in rows {
+    for row in &rows {
         let [mean, rms, worst, expected] =
             [row.errors.mean, row.errors.rms, row.errors.worst, row.expected].map(percent);
         let _ = writeln!(text, "  {:>5} {mean:>10} {rms:>10} {worst:>10} {expected:>14}", row.order);
     }
-    Ok(text)
+    Ok((text, rows))
 }
 
 fn main() -> ExitCode {

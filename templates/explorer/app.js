@@ -32,7 +32,9 @@ const GLANCE = 700;
 /** All choices, also those in the address after `#`. */
 const state = { ...FIRST };
 
-const load = (path, kind) => fetch(path).then((answer) => {
+const load = (path, kind) => fetch(path).catch(() => {
+  throw new Error("What served this page has ended: run `zonal explore` again, and load the page again.");
+}).then((answer) => {
   if (!answer.ok) throw new Error(`${path} is missing (${answer.status}): run \`zonal explore\` again.`);
   return answer[kind]();
 });
@@ -193,7 +195,7 @@ function limit() {
 function allBands(view) {
   const { light, brdf } = shown.choices;
   const map = row("maps", light);
-  const few = moving && milliseconds.all > SLOW;
+  const few = moving && milliseconds.all > SLOW / 2;
   const range = few ? [0, map.lights[0]] : [map.rows[0] * index.lightsARow, map.lights[1]];
   return { brdf: row("brdfs", brdf).numbers, range, key: JSON.stringify([shown.looks, state.strength, view, range]) };
 }

@@ -3,7 +3,7 @@
 import { evaluate, percent } from "./figures.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const [WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT] = [360, 200, 52, 34, 12, 10];
+const [WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT] = [360, 200, 60, 34, 12, 10];
 
 function element(name, attributes, text) {
   const made = document.createElementNS(SVG, name);

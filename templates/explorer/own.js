@@ -16,14 +16,13 @@ async function send({ path, most }, files) {
 }
 
 /**
- * Takes files from an input and from what is dropped anywhere on the page. `drop` is the index's word on where they go, if
- * anywhere; `taken(row)` is called with a map's row, `failed(text)` with a reason, `busy(names)` before either.
+ * Takes files from an input and from what is dropped anywhere on the page. `drop` is the index's word on where they go;
+ * `taken(row)` is called with a map's row, `failed(text)` with a reason, `busy(names)` before either.
  */
 export function listenForMaps(drop, input, { taken, failed, busy }) {
   async function take(list) {
     const files = [...list];
     if (!files.length) return;
-    if (!drop) return failed("This page was exported; maps are read by one that `zonal explore` serves.");
     busy(files.map(({ name }) => name));
     try {
       taken(await send(drop, files));

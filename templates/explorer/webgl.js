@@ -230,6 +230,11 @@ export async function open(files) {
       gl.bindVertexArray(empty);
       gl.drawArrays(gl.TRIANGLES, 0, 3);
       contexts.forEach((context, i) => context.drawImage(canvas, i * width, 0, width, height, 0, 0, width, height));
+      // Frames must not pile up before a slow driver.
+      const drawn = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      gl.flush();
+      while (gl.clientWaitSync(drawn, 0, 0) === gl.TIMEOUT_EXPIRED) await new Promise((done) => setTimeout(done, 4));
+      gl.deleteSync(drawn);
     },
 
     /** The radiance of the chosen picture, of the exact one and of all bands, as last drawn. */

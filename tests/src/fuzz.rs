@@ -55,6 +55,7 @@ fn kinds() -> Vec<Kind> {
     let specs: Vec<String> = catalog::standard().iter().map(Spec::to_string).collect();
     let hdr = [&b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 8 +X 16\n"[..], &[128, 64, 32, 129].repeat(128)]
         .concat();
+    let cube = [&b"#?RADIANCE\n\n+X 16 -Y 12\n"[..], &[128, 64, 32, 129].repeat(192)].concat();
     let exr = include_bytes!("../data/adversarial_sky_negative.exr");
     let normals =
         zonal_scenes::below("normals").next().and_then(zonal_scenes::embedded).expect("there is a normal map");
@@ -70,6 +71,8 @@ fn kinds() -> Vec<Kind> {
             read: |bytes| drop(String::from_utf8_lossy(bytes).parse::<Spec>()),
         },
         Kind { name: "hdr", seeds: vec![hdr], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
+        Kind { name: "cube", seeds: vec![cube], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
+        Kind { name: "png", seeds: vec![png()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| drop(Mesh::from_obj("fuzz", bytes)) },
         Kind {
@@ -78,6 +81,17 @@ fn kinds() -> Vec<Kind> {
             read: |bytes| drop(NormalMap::from_bytes("fuzz", bytes)),
         },
     ]
+}
+
+/// A map as a PNG image of 16 bits.
+fn png() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 16, 8);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&[77; 16 * 8 * 8]));
+    written.expect("memory takes any image");
+    bytes
 }
 
 /// A number below `end`, which is above 0.

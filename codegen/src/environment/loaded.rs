@@ -1,6 +1,7 @@
 //! Files that become a map: which format they are in by their content, how the image in them is laid out, and what a person is
 //! told of both.
 
+use super::decoded::Decoded;
 use super::error::{MAX_BYTES, MapError};
 use super::layout::{Expected, Layout, check_size};
 use super::map::Map;
@@ -11,18 +12,6 @@ use super::six;
 use crate::input;
 use std::fmt;
 use std::path::Path;
-
-/// An image as it is decoded.
-pub(super) struct Decoded {
-    /// The number of columns.
-    pub width: usize,
-    /// The number of rows.
-    pub height: usize,
-    /// Linear R, G and B, row by row from the top.
-    pub texels: Vec<[f64; 3]>,
-    /// What it was decoded from.
-    pub encoding: String,
-}
 
 /// A map with what its files said of themselves.
 #[derive(Clone, Debug, PartialEq)]

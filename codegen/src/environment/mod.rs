@@ -23,6 +23,7 @@
 //! docs/MATH.md#projection-of-maps has the integrals.
 
 mod cube;
+mod decoded;
 pub mod error;
 pub mod harmonics;
 pub mod lamps;

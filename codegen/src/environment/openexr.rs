@@ -1,8 +1,8 @@
 //! OpenEXR, as the crate `exr` reads it: the first part that has R, G and B; else the layer that has them, if one can be told;
 //! else luminance alone. Without the feature `exr` every such file is refused.
 
+use super::decoded::Decoded;
 use super::error::MapError;
-use super::loaded::Decoded;
 
 /// The first bytes of a file.
 pub(super) const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];

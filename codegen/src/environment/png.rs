@@ -1,8 +1,8 @@
 //! PNG, as the crate `png` decodes it: 8 or 16 bits, grey, colour or a palette, in sRGB unless the file says that it is linear.
 //! Alpha is left out. Without the feature `png` every such file is refused.
 
+use super::decoded::Decoded;
 use super::error::MapError;
-use super::loaded::Decoded;
 
 /// The first bytes of a file.
 pub(super) const MAGIC: [u8; 8] = *b"\x89PNG\r\n\x1a\n";

@@ -3,9 +3,9 @@
 //! header's exposure is left alone. Loops over texels are plain ones over slices, since a build script compiles them
 //! without optimisation: an iterator or an index of a vector costs several calls a texel there.
 
+use super::decoded::Decoded;
 use super::error::MapError;
 use super::layout::{Expected, check_size};
-use super::loaded::Decoded;
 
 /// An image, scan line by scan line.
 pub(super) struct Radiance<'a> {

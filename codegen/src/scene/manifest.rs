@@ -87,7 +87,10 @@ fn values(field: &str, table: &str) -> Option<String> {
         "kind" if table.starts_with("[brdf]") => words::<Kind>(),
         "kind" => words::<Job>(),
         "name" => Some("the stem of the files, as in `name = \"probe\"`".to_owned()),
-        "map" => Some("the file of an environment map, .hdr or .exr".to_owned()),
+        "map" => Some(
+            "the file of an environment map, .hdr, .exr or .png; or six faces of a cube, as in \"sky/*.png\""
+                .to_owned(),
+        ),
         "budget" => Some(BUDGET.to_owned()),
         // Names a family: it is an example of a spec.
         "spec" => Some("what to print, as in `spec = \"rotate:5:rgb\"`".to_owned()),

@@ -10,7 +10,8 @@
 //! output = "zonal-out/glossy"         # this if left out; below the folder that zonal runs in
 //!
 //! [environment]                       # optional: a map's coefficients as constants
-//! map = "maps/city_256x128.hdr"       # beside the scene file
+//! map = "maps/city_256x128.hdr"       # beside the scene file: .hdr, .exr or .png, latitude and longitude or a cubemap; or
+//!                                     # six faces, "sky" for their folder or "sky/day_*.png"
 //! signal = "radiance"                 # or "irradiance"
 //! max_order = 5                       # 10 if left out
 //! budget = 0.05                       # the relative rms error of what is seen that leaving bands out may cost: of what the
@@ -20,7 +21,7 @@
 //! name = "city"                       # the constants are called CITY
 //! axes = "three_js"                   # optional: whose axes the coefficients are in; or three axes of yours, to the map's
 //!                                     # centre, to the left of it and up, as in "x,-z,y"; zonal's if left out: z is up,
-//!                                     # the centre along +x, -y to its right
+//!                                     # the centre along +x, -y to its right. A picture's mesh is in these axes too
 //! convention = "zonal"                # this if left out; or a program that takes the coefficients, for its axes, signs and
 //!                                     # factors: docs/ENGINES.md has the names
 //!

@@ -109,3 +109,31 @@ fn what_is_no_mesh_is_refused_with_a_reason() {
         assert!(error.starts_with("a.obj: ") && error.contains(part), "{error}");
     }
 }
+
+type Turn = fn([f32; 3]) -> [f32; 3];
+
+#[test]
+fn a_mesh_may_be_in_the_axes_of_a_program() {
+    let text = assets::embedded("meshes/bunny.obj").expect("embedded");
+    let plain = Mesh::from_obj("bunny", text).expect("a mesh");
+    let of = |axes: &str| Mesh::in_axes("bunny", text, Some(axes.parse().expect("three axes"))).expect("a mesh");
+    // Right-handed with y up, the map's centre along +x: what a file is without axes.
+    assert_eq!(of("x,-z,y"), plain);
+    let volume = |mesh: &Mesh| -> f64 {
+        let at = |i: u32| mesh.positions[i as usize].map(f64::from);
+        mesh.indices.chunks(3).map(|f| dot(cross(at(f[0]), at(f[1])), at(f[2]))).sum::<f64>() / 6.0
+    };
+    assert!(volume(&plain) > 0.1);
+    // The map's centre along +z: turned by a quarter about z. Left-handed: mirrored, and still with its faces outwards.
+    let turns: [(&str, Turn); 2] = [("z,x,y", |[x, y, z]| [-y, x, z]), ("x,z,y", |[x, y, z]| [x, -y, z])];
+    for (axes, turn) in turns {
+        let found = of(axes);
+        assert!((volume(&found) / volume(&plain) - 1.0).abs() < 1e-3, "{axes}: {}", volume(&found));
+        let corner = |mesh: &Mesh, turn: Turn| {
+            let sums = mesh.positions.iter().map(|p| turn(*p));
+            sums.fold([f32::MIN; 3], |most, p| std::array::from_fn(|i| most[i].max(p[i])))
+        };
+        let (wanted, got) = (corner(&plain, turn), corner(&found, |p| p));
+        assert!((0..3).all(|i| (wanted[i] - got[i]).abs() < 1e-3), "{axes}: {wanted:?} {got:?}");
+    }
+}

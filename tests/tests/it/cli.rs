@@ -597,6 +597,73 @@ fn answer(address: &str, request: &str) -> (String, String, Vec<u8>) {
     (head.split(' ').nth(1).unwrap_or("").to_owned(), content, bytes[end + 4..].to_vec())
 }
 
+/// The answer of a server to a body that is sent to `/map` with some more lines of a head: its status and its body.
+fn posted(address: &str, lines: &str, body: &[u8]) -> (String, String) {
+    use std::io::Write;
+    let mut stream = std::net::TcpStream::connect(address).expect("the server listens");
+    write!(stream, "POST /map HTTP/1.1\r\nHost: {address}\r\n{lines}\r\n").expect("sent");
+    stream.write_all(body).expect("sent");
+    let mut bytes = Vec::new();
+    stream.read_to_end(&mut bytes).expect("answered");
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let (head, body) = text.split_once("\r\n\r\n").expect("a head");
+    (head.split(' ').nth(1).unwrap_or("").to_owned(), body.to_owned())
+}
+
+/// What a dropped map is answered with, and what guards the place it is sent to.
+fn takes_maps(address: &str) {
+    let hdr = [&b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 2 +X 4\n"[..], &[128, 64, 32, 129].repeat(8)].concat();
+    let body = [format!("{} folder/sky.hdr\n\n", hdr.len()).as_bytes(), &hdr].concat();
+    let length = |length: usize| format!("Content-Length: {length}\r\n");
+    let own = format!("{}Origin: http://{address}\r\n", length(body.len()));
+    let (status, row) = posted(address, &own, &body);
+    assert_eq!(status, "200", "{row}");
+    let row: serde_json::Value = serde_json::from_str(&row).expect("a row of the index");
+    assert_eq!((&row["id"], &row["label"]), (&"own-dropped-1".into(), &"sky.hdr".into()));
+    assert_eq!(row["told"], "4 × 2, latitude and longitude, Radiance HDR");
+    // A uniform map is band 0 alone.
+    assert!((row["shares"][0].as_f64().expect("a number") - 1.0).abs() < 1e-12, "{row}");
+    let file = format!("GET /{}", row["file"].as_str().expect("a path"));
+    assert_eq!(answer(address, &file).0, "200");
+    for (lines, body, status, told) in [
+        (length(14), &b"7 a.txt\n\nA text"[..], "422", "the request is none of this page: it ends too early"),
+        (
+            length(15),
+            b"6 a.txt\n\nA text",
+            "422",
+            "a.txt: holds unknown data, neither Radiance HDR nor OpenEXR nor PNG",
+        ),
+        (length(13), b"4 a.jpg\n\n\xff\xd8\xff\xe0", "422", "holds a Jpeg image"),
+        (length((1 << 28) + 1), b"", "413", "larger than 256 MB together; name them on the command line"),
+        (String::new(), b"", "411", "a body needs its length"),
+        (length(1) + "Origin: http://example.org\r\n", b"a", "403", "maps are taken from this page alone"),
+        (length(1) + "Host: example.org\r\n", b"a", "403", "served to this machine alone"),
+    ] {
+        // A length that is wrong would be waited for.
+        let lines = if status == "422" { length(body.len()) } else { lines };
+        let (found, text) = posted(address, &lines, body);
+        assert_eq!(found, status, "{text}");
+        assert!(text.contains(told), "{text}");
+    }
+}
+
+#[test]
+fn the_explorer_refuses_what_it_cannot_show_before_it_serves() {
+    let folder = Folder::new();
+    let explore =
+        |arguments: &[&str]| fails(&folder, &[&["explore", "--no-serve", "--out", "page"], arguments].concat());
+    assert!(explore(&["none.hdr"]).contains("none.hdr: cannot be read"));
+    folder.put("a.hdr", "a text");
+    assert!(explore(&["a.hdr"]).contains("a.hdr: holds unknown data"));
+    folder.put("a.obj", "a text");
+    assert!(explore(&["--mesh", "a.obj"]).contains("a.obj: "));
+    assert!(explore(&["--mesh", "none.obj"]).contains("none.obj: cannot be read"));
+    folder.put("a.toml", "name = \"a\"\n[environment]\nmap = \"b.hdr\"\nsignal = \"radiance\"\nbudget = 0.1\n");
+    let message = explore(&["a.toml"]);
+    assert!(message.contains("b.hdr: cannot be read") && message.contains("a.toml:3"), "{message}");
+    assert!(!folder.path("page").exists(), "nothing is half-written");
+}
+
 #[test]
 fn the_explorer_is_written_and_served() {
     use std::io::{BufRead, BufReader};
@@ -637,6 +704,7 @@ fn the_explorer_is_written_and_served() {
     ] {
         assert_eq!(answer(&address, request).0, status, "{request}");
     }
+    takes_maps(&address);
     child.kill().expect("stopped");
     let end = child.wait_with_output().expect("ends");
     assert_eq!(String::from_utf8_lossy(&end.stderr), "");
