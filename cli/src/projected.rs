@@ -29,7 +29,8 @@ const CSV: &str = "csv";
 /// What is asked of a map.
 #[derive(Clone, Debug, Args)]
 pub struct Asked {
-    /// The map: a file, .hdr, .exr or .png, as latitude and longitude or as a cube; or the folder of a cube's six faces.
+    /// The map, .hdr, .exr or .png: latitude and longitude, or a cubemap in a strip, a cross or six files, which their
+    /// folder names or a pattern, as in `sky/day_*.png`.
     pub map: PathBuf,
     /// How many bands; 5 if left out, or as many as the convention has.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=64))]
@@ -356,19 +357,5 @@ fn figure(value: f64, largest: f64) -> String {
             format!("{value:.decimals$}")
         }
         _ => format!("{value:.5e}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::figure;
-
-    #[test]
-    fn figures_have_six_digits_of_the_largest() {
-        assert_eq!([1.0, -0.25].map(|value| figure(value, 1.0)), ["1.00000", "-0.25000"]);
-        assert_eq!(figure(123_456.7, 999_999.0), "123457");
-        assert_eq!(figure(1.5e-38, 2e-38), "1.50000e-38");
-        assert_eq!(figure(-2.25e36, 3e36), "-2.25000e36");
-        assert_eq!(figure(0.0, 0.0), "0");
     }
 }

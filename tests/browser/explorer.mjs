@@ -44,7 +44,8 @@ async function visit(choices, { before, ...options } = {}) {
   });
   const opened = await open(context, `${server.url}/#resolution=0.5&${choices}`);
   facts.errors.push(opened.errors);
-  await opened.page.waitForFunction(() => ["ready", "failed"].includes(document.body.dataset.state));
+  // A software driver takes its time for the first picture, of which all bands are summed.
+  await opened.page.waitForFunction(() => ["ready", "failed"].includes(document.body.dataset.state), null, { timeout: 200000 });
   return opened.page;
 }
 
