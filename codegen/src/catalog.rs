@@ -37,7 +37,8 @@ pub fn standard() -> Vec<Spec> {
 pub fn markdown(rows: &[Row]) -> String {
     let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition or a fused \
                     multiply-add is one operation; an inverse\nsquare root or a reciprocal (special) is counted apart. \
-                    Rounding is in f32, relative to what each file's head says, and proven.\n\n\
+                    Rounding is in f32, relative to what each file's head says, and proven;\n\
+                    of products it is measured, and three times that is promised.\n\n\
                     | spec | total | mul | add | fma | special | constants | live | f32 rounding |\n\
                     |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
