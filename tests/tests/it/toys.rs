@@ -67,7 +67,7 @@ fn every_toy_passes_every_languages_check_and_says_that_it_is_measured() {
             assert!(text.contains(&measured), "{name} in {target}: {text}");
             let relative = match function.spec.family == &CHOICES {
                 true => "of the norm of a band, for dir of unit length",
-                false => "of the product of both signals' norms, for every input",
+                false => "of the product of both factors' norms, for every input",
             };
             assert!(text.contains(relative), "{name} in {target}: {text}");
         }

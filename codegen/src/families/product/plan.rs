@@ -102,7 +102,7 @@ impl Rings {
 
     /// Whether their sum for a triple is its integral.
     pub fn are_exact(&self, triple: Triple) -> bool {
-        triple.iter().map(|(l, _)| l).sum::<usize>() <= 2 * (self.nodes + self.exponent) - 1
+        triple.iter().map(|(l, _)| l).sum::<usize>() < 2 * (self.nodes + self.exponent)
     }
 }
 
