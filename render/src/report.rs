@@ -22,6 +22,8 @@ pub const BRDFS: [(&str, Brdf); 4] = [
 pub const EXPONENTS: [f64; 3] = [5.0, 20.0, 80.0];
 /// The orders that they are followed through.
 pub const ORDERS: std::ops::RangeInclusive<usize> = 2..=10;
+/// The reflectances that are followed under spherical lights.
+pub const LIT: [Brdf; 3] = [Brdf::Lambert, Brdf::Phong { exponent: 5.0 }, Brdf::Phong { exponent: 20.0 }];
 /// What stands in for the exact kernel, the last by doing nothing.
 pub const METHODS: [Method; 4] = [Method::Taylor15, Method::Lf3, Method::Tilt, Method::None];
 /// The size of the pictures that are measured.
@@ -55,15 +57,24 @@ pub struct Report {
     pub maps: Vec<(String, Vec<Case>)>,
     /// The map under which pictures were followed, and the exponents' rows.
     pub convergence: (String, Vec<(f64, Vec<Row>)>),
+    /// The scene with spherical lights, how many, and the rows of each of [`LIT`].
+    pub lit: (String, usize, Vec<(Brdf, Vec<Row>)>),
 }
 
 impl Report {
-    /// Measures a subject under maps, the first of which serves for the convergence.
+    /// Measures a subject under maps, the first of which serves for the convergence, and another one, `lit`, under the
+    /// spherical lights of its scene.
     ///
     /// # Errors
     ///
     /// If a shader is too long or the device fails.
-    pub fn measure(gpu: &Gpu, subject: &Subject, maps: &[(&str, Map)], bar: &ProgressBar) -> Result<Self, Diagnostic> {
+    pub fn measure(
+        gpu: &Gpu,
+        subject: &Subject,
+        maps: &[(&str, Map)],
+        lit: &Subject,
+        bar: &ProgressBar,
+    ) -> Result<Self, Diagnostic> {
         let mut of_maps = Vec::new();
         for (name, map) in maps {
             let cases: Result<Vec<Case>, Diagnostic> =
@@ -75,9 +86,12 @@ impl Report {
             let brdf = Brdf::Phong { exponent };
             bar.set_message(brdf.to_string());
             let subject = Subject { brdf, map: maps[0].1.clone(), ..subject.clone() };
-            let stage = Stage::new(gpu, &subject, SIZE)?;
-            let truth = Truth::new(&stage, POINTS, bar)?;
-            followed.push((exponent, convergence(&stage, &truth, ORDERS)?));
+            followed.push((exponent, follow(gpu, &subject, bar)?));
+        }
+        let mut of_lit = Vec::new();
+        for brdf in LIT {
+            bar.set_message(brdf.to_string());
+            of_lit.push((brdf, follow(gpu, &Subject { brdf, ..lit.clone() }, bar)?));
         }
         let slopes = subject.normals.slopes();
         let tilt = |share: f64| {
@@ -90,6 +104,7 @@ impl Report {
             tilts: [0.5, 0.9, 0.99].map(tilt),
             maps: of_maps,
             convergence: (maps[0].0.to_owned(), followed),
+            lit: (lit.name.clone(), lit.lights.len(), of_lit),
         })
     }
 
@@ -105,7 +120,31 @@ impl Report {
         );
         self.write_claim(&mut text);
         self.write_convergence(&mut text);
+        self.write_lit(&mut text);
         text
+    }
+
+    fn write_lit(&self, text: &mut String) {
+        let (scene, count, followed) = &self.lit;
+        let _ = write!(
+            text,
+            "\n## Under spherical lights\n\n\
+             ![A teapot at night under three spheres of light]({scene}.png)\n\n\
+             The picture of `scenes/{scene}.toml`: its map and {count} spheres of their own size, colour and distance, each \
+             added to the map's coefficients by `light_sphere:n`. Against brute force, which sums every texel of the map \
+             and many directions to each sphere, the root mean square error of the exact kernel, and in brackets what \
+             theory expects. Map and spheres are seen from the middle of the object.\n\n| order |"
+        );
+        for (brdf, _) in followed {
+            let _ = write!(text, " `{brdf}` |");
+        }
+        let _ = writeln!(text, "\n|---|{}", "---|".repeat(followed.len()));
+        for (i, order) in ORDERS.enumerate() {
+            let cells = followed
+                .iter()
+                .map(|(_, rows)| format!("{} ({})", percent(rows[i].errors.rms), percent(rows[i].expected)));
+            let _ = writeln!(text, "| {order} | {} |", cells.collect::<Vec<_>>().join(" | "));
+        }
     }
 
     fn write_claim(&self, text: &mut String) {
@@ -208,6 +247,13 @@ impl Report {
         });
         let _ = writeln!(text, "| for 50 % | {} |", half.collect::<Vec<_>>().join(" | "));
     }
+}
+
+/// How a subject's pictures near brute force.
+fn follow(gpu: &Gpu, subject: &Subject, bar: &ProgressBar) -> Result<Vec<Row>, Diagnostic> {
+    let stage = Stage::new(gpu, subject, SIZE)?;
+    let truth = Truth::new(&stage, POINTS, bar)?;
+    convergence(&stage, &truth, ORDERS)
 }
 
 fn case(

@@ -7,22 +7,26 @@ use zonal_codegen::environment::Map;
 use zonal_codegen::scene::Scene;
 use zonal_picture::method::{Judged, Method};
 use zonal_render::gpu::Gpu;
-use zonal_render::report::{METHODS, Report};
+use zonal_render::report::{LIT, METHODS, Report};
 use zonal_render::subject::{Instead, Subject};
 
 fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
+fn subject(scene: &str) -> Subject {
+    let scene = Scene::read(&repository(scene)).unwrap_or_else(|error| panic!("{error}"));
+    Subject::new(&scene, Instead::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
 fn measured() -> Report {
-    let scene = Scene::read(&repository("scenes/teapot.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let subject = Subject::new(&scene, Instead::default()).unwrap_or_else(|error| panic!("{error}"));
+    let (subject, lit) = (subject("scenes/teapot.toml"), subject("scenes/lights.toml"));
     let gpu = Gpu::open().unwrap_or_else(|error| panic!("{error}"));
     let maps = ["courtyard", "city"].map(|name| {
         let path = repository(&format!("scenes/maps/{name}_256x128.hdr"));
         (name, Map::read(&path).unwrap_or_else(|error| panic!("{error}")))
     });
-    Report::measure(&gpu, &subject, &maps, &ProgressBar::hidden()).unwrap_or_else(|error| panic!("{error}"))
+    Report::measure(&gpu, &subject, &maps, &lit, &ProgressBar::hidden()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A text with a mark for every number, and the numbers.
@@ -85,6 +89,16 @@ fn the_page_is_what_is_measured_and_the_papers_claim_holds() {
             let ratio = row.errors.rms / row.expected;
             assert!((0.6..1.6).contains(&ratio), "phong:{exponent} {row:?}");
         }
+    }
+    for (brdf, rows) in &report.lit.2 {
+        for pair in rows.windows(2) {
+            // Of Lambert's lobe the odd bands from 3 on are nothing.
+            assert!(pair[1].errors.rms <= pair[0].errors.rms * 1.05, "{brdf} {pair:?}");
+        }
+        // What is left at order 10 is what the lobe has above, and tables near grazing, no light that is missing or elsewhere.
+        let last = rows.last().expect("there are orders");
+        let most = if *brdf == LIT[2] { 0.15 } else { 0.02 };
+        assert!(last.errors.rms < most && last.errors.rms < rows[0].errors.rms / 9.0, "{brdf} {last:?}");
     }
     // An exponent of s needs about √s bands, so four times the exponent twice as many; light has less in higher bands.
     let needed: Vec<f64> = report.convergence.1.iter().filter_map(|(_, rows)| Report::order_for(rows, 0.5)).collect();
