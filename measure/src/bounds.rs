@@ -128,7 +128,7 @@ impl<T: Number> Number for Lanes<T> {
 /// What is compared: bands, or numbers one by one.
 fn ranges(measure: Measure, order: usize, count: usize) -> Vec<Range<usize>> {
     match measure {
-        Measure::Bands | Measure::Through(_) => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
+        Measure::Bands | Measure::Added | Measure::Through(_) => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
         Measure::Product => std::iter::once(0..count).collect(),
         _ => (0..count).map(|i| i..i + 1).collect(),
     }

@@ -95,10 +95,10 @@ fn the_page_is_what_is_measured_and_the_papers_claim_holds() {
             // Of Lambert's lobe the odd bands from 3 on are nothing.
             assert!(pair[1].errors.rms <= pair[0].errors.rms * 1.05, "{brdf} {pair:?}");
         }
-        // What is left at order 10 is the table's and the texels', not a light that is missing or in another place.
+        // What is left at order 10 is what the lobe has above, and tables near grazing, no light that is missing or elsewhere.
         let last = rows.last().expect("there are orders");
-        let most = if *brdf == LIT[2] { 0.15 } else { 0.01 };
-        assert!(last.errors.rms < most && last.errors.rms < rows[0].errors.rms / 10.0, "{brdf} {last:?}");
+        let most = if *brdf == LIT[2] { 0.15 } else { 0.02 };
+        assert!(last.errors.rms < most && last.errors.rms < rows[0].errors.rms / 9.0, "{brdf} {last:?}");
     }
     // An exponent of s needs about √s bands, so four times the exponent twice as many; light has less in higher bands.
     let needed: Vec<f64> = report.convergence.1.iter().filter_map(|(_, rows)| Report::order_for(rows, 0.5)).collect();

@@ -416,7 +416,7 @@ fn vectors_take_lights_without_their_intensity() {
     let folder = std::env::temp_dir().join(format!("zonal-lights-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a temporary folder");
     let file = folder.join("inputs.json");
-    let zeros = vec!["0"; 9].join(", ");
+    let zeros = ["0"; 9].join(", ");
     std::fs::write(&file, format!("[{{\"dir\": [0, 0.6, 0.8], \"s\": 0.25, \"c\": [{zeros}]}}]")).expect("writable");
     for (text, channels) in [("light_sphere:3", 1), ("light_sphere:3:rgb", 3)] {
         let output = command().args(["vectors", text, "--inputs"]).arg(&file).output().expect("the command starts");
