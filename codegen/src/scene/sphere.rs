@@ -106,7 +106,7 @@ mod tests {
             ("position = [1, 0, 0]\nradius = 0.5\nradiance = [1, -1, 1]", "radiance is out of range"),
             ("position = [1, 0, 0]\nradius = 0.5\nradiance = [1, inf, 1]", "radiance is out of range"),
             ("position = [1, 0, 0]\nradius = 0.5", "radiance"),
-            ("position = [1, 0]\nradius = 0.5\nradiance = [1, 1, 1]", "position"),
+            ("position = [1, 0]\nradius = 0.5\nradiance = [1, 1, 1]", "expected an array of length 3"),
             ("position = [1, 0, 0]\nradius = 0.5\nradiance = [1, 1, 1]\nsize = 1", "size"),
         ] {
             let error = scene(table).unwrap_err();
