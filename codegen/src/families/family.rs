@@ -2,6 +2,7 @@
 //! measured by and proven from, what the planner may take it for, its rows of the catalogue. And the spec, which names
 //! one kernel of a family. It knows no family.
 
+pub use crate::families::group::Group;
 use crate::families::parts::small_angle::SmallAngle;
 use crate::ir::code::{Branch, Code};
 use crate::ir::kernel::Kernel;
@@ -28,69 +29,6 @@ pub const SMALL_ANGLE_DEGREES: f64 = 25.0;
 /// [`SMALL_ANGLE_DEGREES`] in radians.
 pub fn small_angle() -> f64 {
     SMALL_ANGLE_DEGREES.to_radians()
-}
-
-/// What families are listed under: the files of the catalogue and the table of the README follow it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Group {
-    /// The basis, and sums over it.
-    Evaluate,
-    /// Exact rotations.
-    Rotate,
-    /// The rotation of z to a normal, from the normal.
-    Tilt,
-    /// Rotations by a small angle.
-    SmallAngle,
-    /// The sparse zonal factorisation.
-    Factorise,
-    /// What rotations are made of: about one axis.
-    Piece,
-    /// Functions of the angle from an axis, and lights.
-    Light,
-    /// Products of functions.
-    Multiply,
-}
-
-impl Group {
-    /// All groups, in order.
-    pub const ALL: [Self; 8] = [
-        Self::Evaluate,
-        Self::Rotate,
-        Self::Tilt,
-        Self::SmallAngle,
-        Self::Factorise,
-        Self::Piece,
-        Self::Light,
-        Self::Multiply,
-    ];
-
-    /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Evaluate => "evaluation",
-            Self::Rotate => "rotation",
-            Self::Tilt => "tilting",
-            Self::SmallAngle => "small_angles",
-            Self::Factorise => "factorisation",
-            Self::Piece => "pieces",
-            Self::Light => "lighting",
-            Self::Multiply => "products",
-        }
-    }
-
-    /// What its kernels do, in a sentence without its stop.
-    pub fn what(self) -> &'static str {
-        match self {
-            Self::Evaluate => "the basis, and sums over it",
-            Self::Rotate => "exact rotations, and what is done once for many of them",
-            Self::Tilt => "the shortest rotation of z to a normal",
-            Self::SmallAngle => "rotations by a small angle, approximately",
-            Self::Factorise => "the sparse zonal factorisation",
-            Self::Piece => "what rotations are made of, about one axis",
-            Self::Light => "zonal functions, convolution with them, lights",
-            Self::Multiply => "products of functions on the sphere",
-        }
-    }
 }
 
 /// What a rounding error is measured against.

@@ -11,6 +11,7 @@ pub mod convolution;
 pub mod factors;
 pub mod family;
 pub mod fitted;
+pub mod group;
 pub mod lifted;
 pub mod lights;
 pub mod loops;

@@ -75,7 +75,7 @@ fn constants(text: &str) -> Vec<std::ops::Range<usize>> {
 }
 
 /// The text with its first, middle or last constant changed, each with a word on what was done; a text without constants
-/// gets a sum for its first difference.
+/// gets a sum for its first difference, or a difference for its first sum.
 fn corrupted(text: &str) -> Vec<(String, String)> {
     let found = constants(text);
     let mut places = vec![0, found.len() / 2, found.len().saturating_sub(1)];
@@ -87,12 +87,15 @@ fn corrupted(text: &str) -> Vec<(String, String)> {
         let text = format!("{}{new:?}{}", &text[..range.start], &text[range.end..]);
         Some((format!("constant {place}: {old} became {new}"), text))
     };
-    let sign = || {
-        let code = text.lines().find(|line| !line.starts_with("//") && line.contains(" - "))?;
-        Some((format!("a minus of `{}`", code.trim()), text.replacen(code, &code.replacen(" - ", " + ", 1), 1)))
+    let sign = |(old, new)| {
+        let code = text.lines().find(|line| !line.starts_with("//") && line.contains(old))?;
+        Some((format!("a sign of `{}`", code.trim()), text.replacen(code, &code.replacen(old, new, 1), 1)))
     };
     let changed: Vec<(String, String)> = places.into_iter().filter_map(change).collect();
-    if changed.is_empty() { sign().into_iter().collect() } else { changed }
+    match changed.is_empty() {
+        true => [(" - ", " + "), (" + ", " - ")].into_iter().find_map(sign).into_iter().collect(),
+        false => changed,
+    }
 }
 
 /// The specs to run: all, or those of [`ARRAYS`], or the toys, or of each family that which has the nearest order to [`MUTATED_ORDER`], in one channel.
@@ -195,6 +198,7 @@ mod tests {
         assert_eq!(corrupted("a = 2.0;").len(), 1);
         assert_eq!(corrupted("a = 2.0;")[0].1, "a = 2.002;");
         assert_eq!(corrupted("// b - c\na = b - c;")[0].1, "// b - c\na = b + c;");
+        assert_eq!(corrupted("a = b + c;")[0].1, "a = b - c;");
         assert!(corrupted("a = b;").is_empty());
     }
 

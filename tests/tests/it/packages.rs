@@ -33,7 +33,19 @@ const BESIDE: [(&str, &[&str]); 4] = [
     ("zonal-codegen", &["data"]),
     ("zonal-kernels", &["COSTS.md", "MANIFEST.tsv", "glsl", "rust", "wgsl"]),
     ("zonal-scenes", &["diffuse.toml", "glossy.toml", "lights.toml", "maps", "meshes", "normals", "teapot.toml"]),
-    ("zonal-templates", &["explorer", "glsl.tera", "picture", "real.rs.tera", "rust.tera", "wgsl.tera"]),
+    (
+        "zonal-templates",
+        &[
+            "explorer",
+            "glsl.tera",
+            "picture",
+            "real.rs.tera",
+            "rust.tera",
+            "scene.schema.json",
+            "scene.toml.tera",
+            "wgsl.tera",
+        ],
+    ),
 ];
 
 /// The categories of crates.io that are used; it refuses names that it does not know.

@@ -14,7 +14,6 @@ use zonal_codegen::generate::build;
 use zonal_codegen::ir::eval::Number;
 use zonal_codegen::ir::op::Kind;
 use zonal_codegen::math::half::Half;
-use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::accuracy::Meaning;
 use zonal_codegen::promise::law;
 use zonal_codegen::promise::samples::inputs;
@@ -483,19 +482,6 @@ fn the_basis_is_orthonormal() {
                 let error = (got - f64::from(u8::from(a == b))).abs();
                 assert!(error <= 1e-13, "order {order}: entry {a}, {b} is {error:e} off");
             }
-        }
-    }
-}
-
-/// The quadrature itself: x^2k integrates to 2 / (2k + 1) up to twice the number of nodes.
-#[test]
-fn the_quadrature_is_exact() {
-    for count in [2, 5, 10] {
-        let nodes: Vec<(f64, f64)> = gauss_legendre(count, -1.0, 1.0).collect();
-        for power in 0..2 * count as i32 {
-            let got: f64 = nodes.iter().map(|(x, weight)| weight * x.powi(power)).sum();
-            let want = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
-            assert!((got - want).abs() <= 1e-14, "{count} nodes, x^{power}: {got}");
         }
     }
 }

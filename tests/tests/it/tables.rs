@@ -5,6 +5,7 @@ use serde::de::DeserializeOwned;
 use zonal_codegen::families::lifted;
 use zonal_codegen::math::exact::Exact;
 use zonal_codegen::math::index::{coefficients, degrees, index};
+use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::math::tables;
 
 fn golden<T: DeserializeOwned>(name: &str) -> T {
@@ -174,4 +175,17 @@ fn basis(order: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
         (cosine, sine) = (cosine * x - sine * y, cosine * y + sine * x);
     }
     values
+}
+
+/// The quadrature itself: x^2k integrates to 2 / (2k + 1) up to twice the number of nodes.
+#[test]
+fn the_quadrature_is_exact() {
+    for count in [2, 5, 10] {
+        let nodes: Vec<(f64, f64)> = gauss_legendre(count, -1.0, 1.0).collect();
+        for power in 0..2 * count as i32 {
+            let got: f64 = nodes.iter().map(|(x, weight)| weight * x.powi(power)).sum();
+            let want = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
+            assert!((got - want).abs() <= 1e-14, "{count} nodes, x^{power}: {got}");
+        }
+    }
 }
