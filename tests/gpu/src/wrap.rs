@@ -3,6 +3,7 @@
 //! from a texture, and one for compilers that only look.
 
 use zonal_codegen::emit::dialect::Dialect;
+use zonal_codegen::emit::language::record::Way;
 use zonal_codegen::emit::language::{Arrays, GLSL, Target};
 use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::ir::graph::Kind;
@@ -181,8 +182,13 @@ pub fn pixels(function: &Function, dialect: Dialect, text: &str) -> String {
 pub fn fragment(function: &Function, dialect: Dialect, version: &str, text: &str) -> String {
     let (shape, kind) = function.built.code.result();
     let params = function.built.code.params();
-    let uniforms: String = params.iter().map(|param| format!("uniform {};\n", dialect.parameter(param))).collect();
-    let arguments: Vec<String> = params.iter().map(|param| param.name.to_owned()).collect();
+    // A parameter may be called as what GLSL has built in, a uniform may not.
+    let arguments: Vec<String> = params.iter().map(|param| format!("given_{}", param.name)).collect();
+    let uniform = |(param, name): (&Param, &String)| {
+        let parameter = dialect.language.parameter;
+        format!("uniform {};\n", parameter(name, &dialect.passed(param.shape, param.kind), Way::In))
+    };
+    let uniforms: String = params.iter().zip(&arguments).map(uniform).collect();
     let last = dialect.component("result", shape, kind, shape.len() - 1);
     let precision = if version.ends_with("es") { "precision highp float;\n" } else { "" };
     format!(

@@ -82,6 +82,8 @@ adapters! {
     value_value_value_signal(A: [], B: [], C: [], D: [&]);
     list(C: [&]);
     list_value_signal(A: [&], B: [], C: [&]);
+    value_list_signal(A: [], B: [&], C: [&]);
+    list_list_signal(A: [&], B: [&], C: [&]);
 }
 
 /// Every function of one order under its name in shaders.
@@ -122,7 +124,7 @@ macro_rules! order {
                 tilt / tilt_rgb, taylor1_y / taylor1_y_rgb, taylor15_y / taylor15_y_rgb, taylor2_y / taylor2_y_rgb,
                 lf3_y / lf3_y_rgb, lf5_y / lf5_y_rgb, taylor15_y_loop / taylor15_y_rgb_loop,
                 eval_monomial / eval_monomial_rgb, rotate_small / rotate_small_rgb;
-            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb;
+            list_signal: rotate_euler / rotate_euler_rgb, rotate_angles / rotate_angles_rgb, zhf / zhf_rgb, dot / dot_rgb;
             list_value_signal: taylor1_zyz / taylor1_zyz_rgb, taylor15_zyz / taylor15_zyz_rgb,
                 taylor2_zyz / taylor2_zyz_rgb, lf3_zyz / lf3_zyz_rgb, lf5_zyz / lf5_zyz_rgb;
             $($more)*
@@ -163,6 +165,37 @@ macro_rules! lights {
     )* };
 }
 
+/// The products of an order.
+macro_rules! products {
+    ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
+        functions! {
+            $scalar, $table, $module,
+            value: axis_angles;
+            signal: square / square_rgb, product_cosine / product_cosine_rgb, product_hemisphere / product_hemisphere_rgb;
+            list_signal: product / product_rgb, product_zonal / product_zonal_rgb;
+            value_list_signal: product_zonal_about / product_zonal_about_rgb;
+            list_list_signal: product_zonal_about_angles / product_zonal_about_angles_rgb;
+            $($more)*
+        }
+    };
+}
+
+/// The same with what there is to order 4.
+macro_rules! products_to_4 {
+    ($scalar:ident, $table:ident, $module:ident, $($more:tt)*) => {
+        products! {
+            $scalar, $table, $module,
+            signal: product_matrix / product_matrix_rgb;
+            value_signal: product_cosine_about / product_cosine_about_rgb,
+                product_hemisphere_about / product_hemisphere_about_rgb;
+            list_signal: product_by_matrix / product_by_matrix_rgb, product_grey / product_grey_rgb,
+                product_cosine_about_angles / product_cosine_about_angles_rgb,
+                product_hemisphere_about_angles / product_hemisphere_about_angles_rgb;
+            $($more)*
+        }
+    };
+}
+
 macro_rules! every_order {
     ($scalar:ident) => {{
         let mut table: BTreeMap<&'static str, Flattened<$scalar>> = BTreeMap::new();
@@ -183,6 +216,12 @@ macro_rules! every_order {
         order_from_4!($scalar, table, sh9, value_signal: rotate_loop / rotate_rgb_loop;);
         order_from_4!($scalar, table, sh10, value_signal: rotate_loop / rotate_rgb_loop;);
         lights!($scalar, table, sh2 sh3 sh4 sh5 sh6);
+        products_to_4!($scalar, table, sh2,);
+        products_to_4!($scalar, table, sh3, list_signal: of_sh2_and_sh3_product / of_sh2_and_sh3_product_rgb;);
+        products_to_4!($scalar, table, sh4, list_signal: of_sh2_and_sh4_product / of_sh2_and_sh4_product_rgb;);
+        products!($scalar, table, sh5,
+            list_signal: of_sh2_and_sh5_product / of_sh2_and_sh5_product_rgb, product_grey / product_grey_rgb;);
+        products!($scalar, table, sh6,);
         table
     }};
 }
