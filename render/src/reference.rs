@@ -40,7 +40,7 @@ impl Lights {
         Self::of(&map)
     }
 
-    /// These lights and spheres, each as [`RINGS`] times [`SPOKES`] directions to it from the middle of the object, which
+    /// These lights and spheres, each as 8 rings of 32 directions to it from the middle of the object, which
     /// is where the map is seen from too.
     #[must_use]
     pub fn with(mut self, spheres: &[SphereLight]) -> Self {

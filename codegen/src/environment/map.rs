@@ -6,7 +6,7 @@ use super::layout::{Expected, FACES, check_size};
 use std::f64::consts::PI;
 
 /// The radiance around a point. Twice as wide as high it is a latitude-longitude map; six times as high as wide it is a
-/// cube, its faces one below the other in the order of [`FACES`](super::FACES). See the [module](super) for the directions
+/// cube, its faces one below the other in the order of [`FACES`]. See the [module](super) for the directions
 /// of both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
