@@ -67,8 +67,7 @@ impl Loaded {
     /// If the format is another one, the bytes are damaged, the image has none of the layouts or is too large, or a texel is
     /// not finite or negative, or all are zero.
     ///
-    /// No bytes make it panic. (A damaged OpenEXR file in DWA compression can still name sizes for which its decoder
-    /// asks for more memory than there is, which ends the process.)
+    /// No bytes make it panic.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, MapError> {
         let Decoded { width, height, texels, encoding } = decoded(name, bytes, Expected::Whole)?;
         let size = [width, height];

@@ -95,6 +95,38 @@ fn channels(name: &str, headers: &[exr::meta::header::Header]) -> Result<Channel
     )
 }
 
+/// The most bytes or numbers that a part of a block in DWA compression may say that it holds: far more than any has.
+#[cfg(feature = "exr")]
+const MAX_SECTION: u64 = 1 << 28;
+
+/// Whether every block in DWA compression says that its parts are of sizes that there can be. A block begins with eleven
+/// counters of eight bytes, and the decoder asks for as much memory as they say.
+#[cfg(feature = "exr")]
+fn has_sane_sections(bytes: &[u8]) -> exr::error::Result<bool> {
+    use exr::block::chunk::CompressedBlock;
+    use exr::compression::Compression;
+    const COUNTERS: usize = 11;
+    let reader = exr::block::read(std::io::Cursor::new(bytes), false)?;
+    let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
+    let parts: Vec<bool> = reader.headers().iter().map(|header| is_dwa(header.compression)).collect();
+    if !parts.contains(&true) {
+        return Ok(true);
+    }
+    for chunk in reader.all_chunks(false)? {
+        let chunk = chunk?;
+        let pixels = match &chunk.compressed_block {
+            CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+            CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+            _ => continue,
+        };
+        let counters = pixels.as_chunks::<8>().0.iter().take(COUNTERS).map(|bytes| u64::from_le_bytes(*bytes));
+        if parts.get(chunk.layer_index) == Some(&true) && counters.into_iter().any(|counter| counter > MAX_SECTION) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
 /// Texels outside of the display window are lost, those that the file leaves out are black.
 #[cfg(feature = "exr")]
 fn decode(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
@@ -105,6 +137,9 @@ fn decode(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapErro
         Error::Io(error) if error.kind() == ErrorKind::UnexpectedEof => MapError::malformed(name, "it ends too early"),
         error => MapError::malformed(name, &error.to_string()),
     };
+    if !has_sane_sections(bytes).map_err(undecodable)? {
+        return Err(MapError::malformed(name, "a block in DWA compression names a size that none has"));
+    }
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(undecodable)?;
     let Channels { part, names, encoding } = channels(name, reader.headers())?;
     let header = &reader.headers()[part];

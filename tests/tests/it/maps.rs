@@ -276,6 +276,40 @@ fn a_radiance_file_may_begin_in_any_corner() {
     assert!(size == [384, 64] && distance(&projection) < 1e-3, "{}", distance(&projection));
 }
 
+/// Its decoder asks for as much memory as a block says that its parts hold.
+#[test]
+fn a_block_in_dwa_compression_names_no_size_that_none_has() {
+    use exr::prelude::*;
+    let (_, image) = layouts().swap_remove(0);
+    let channel = |k: usize, name: &str| {
+        AnyChannel::new(name, FlatSamples::F32(image.texels.iter().map(|texel| texel[k] as f32).collect()))
+    };
+    let list = ["R", "G", "B"].iter().enumerate().map(|(k, name)| channel(k, name)).collect();
+    let encoding = Encoding { compression: Compression::DWAA(None), ..Encoding::FAST_LOSSLESS };
+    let image =
+        exr::image::Image::from_encoded_channels((image.width, image.height()), encoding, AnyChannels::sort(list));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).expect("written");
+    let bytes = bytes.into_inner();
+    let found = loaded(&bytes);
+    assert!(distance(&found.map.project(ORDER)) < 0.05, "what is lossy is read");
+    // A block begins with eleven counters, the first of which is the version.
+    let counters = |block: &[u8]| -> Vec<u64> {
+        block.chunks_exact(8).map(|word| u64::from_le_bytes(word.try_into().expect("eight"))).collect()
+    };
+    let is_block = |block: &[u8]| {
+        let counters = counters(block);
+        counters[0] == 2 && counters.iter().all(|counter| *counter < bytes.len() as u64)
+    };
+    let start = bytes.windows(88).position(is_block).expect("a block of version 2");
+    for counter in 1..10 {
+        let mut bytes = bytes.clone();
+        bytes[start + 8 * counter..][..8].copy_from_slice(&(1u64 << 40).to_le_bytes());
+        let text = message(&bytes);
+        assert!(text.contains("names a size that none has"), "counter {counter}: {text}");
+    }
+}
+
 #[test]
 fn layers_and_luminance_of_openexr_are_read_or_refused_with_a_hint() {
     use exr::prelude::{AnyChannel, FlatSamples};
