@@ -95,9 +95,10 @@ fn channels(name: &str, headers: &[exr::meta::header::Header]) -> Result<Channel
     )
 }
 
-/// The most bytes or numbers that a part of a block in DWA compression may say that it holds: far more than any has.
+/// What a part of a block in DWA compression may say that it holds beyond twice the bytes of the block, which no part of one
+/// has.
 #[cfg(feature = "exr")]
-const MAX_SECTION: u64 = 1 << 28;
+const SECTION_SLACK: u64 = 1 << 16;
 
 /// Whether every block in DWA compression says that its parts are of sizes that there can be. A block begins with eleven
 /// counters of eight bytes, and the decoder asks for as much memory as they say.
@@ -108,8 +109,11 @@ fn has_sane_sections(bytes: &[u8]) -> exr::error::Result<bool> {
     const COUNTERS: usize = 11;
     let reader = exr::block::read(std::io::Cursor::new(bytes), false)?;
     let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
-    let parts: Vec<bool> = reader.headers().iter().map(|header| is_dwa(header.compression)).collect();
-    if !parts.contains(&true) {
+    let limit = |header: &exr::meta::header::Header| {
+        is_dwa(header.compression).then(|| 2 * header.max_block_byte_size() as u64 + SECTION_SLACK)
+    };
+    let limits: Vec<Option<u64>> = reader.headers().iter().map(limit).collect();
+    if limits.iter().all(Option::is_none) {
         return Ok(true);
     }
     for chunk in reader.all_chunks(false)? {
@@ -119,8 +123,9 @@ fn has_sane_sections(bytes: &[u8]) -> exr::error::Result<bool> {
             CompressedBlock::Tile(block) => &block.compressed_pixels_le,
             _ => continue,
         };
-        let counters = pixels.as_chunks::<8>().0.iter().take(COUNTERS).map(|bytes| u64::from_le_bytes(*bytes));
-        if parts.get(chunk.layer_index) == Some(&true) && counters.into_iter().any(|counter| counter > MAX_SECTION) {
+        let mut counters = pixels.as_chunks::<8>().0.iter().take(COUNTERS).map(|bytes| u64::from_le_bytes(*bytes));
+        let limit = limits.get(chunk.layer_index).copied().flatten();
+        if limit.is_some_and(|limit| counters.any(|counter| counter > limit)) {
             return Ok(false);
         }
     }
