@@ -24,14 +24,16 @@ fn name(file: &Path) -> String {
 ///
 /// # Errors
 ///
-/// If a file is there, `map` is no file, or the file system refuses.
+/// If a file is there, `map` is not, or the file system refuses.
 pub fn run(file: &Path, map: Option<&Path>, replace: Replace) -> Result<(), Failure> {
     let (folder, base) = files::split(file);
     let written = match map {
         None => "light.hdr".to_owned(),
-        Some(map) if !map.is_file() => {
-            let message = format!("{}: is no file", map.display());
-            return Err(Diagnostic::nowhere(message, "name an environment map, .hdr or .exr").into());
+        Some(map) if !map.exists() => {
+            let message = format!("{}: is not there", map.display());
+            return Err(
+                Diagnostic::nowhere(message, "name an environment map, or the folder of a cube's six faces").into()
+            );
         }
         // A scene names its files relative to itself.
         Some(map) if folder != Path::new(".") => {

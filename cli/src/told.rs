@@ -1,6 +1,7 @@
 //! What `generate` tells of a plan, to a person who has not seen it before: the order of the light, what it errs by and why,
 //! and of each kernel what it does, takes and errs by. Each figure is said with its meaning.
 
+use zonal_codegen::emit::docs;
 use zonal_codegen::families::Spec;
 use zonal_codegen::plan::environment::EnvironmentPlan;
 use zonal_codegen::plan::text::{percent, short};
@@ -25,15 +26,12 @@ pub fn plan(plan: &Plan) -> String {
 fn kernel(chosen: &Chosen, light: Option<&EnvironmentPlan>) -> String {
     let row = &chosen.row;
     let mut text = format!("\nThe function `{}`, which is `{}`: {}.\n", row.name, row.spec, chosen.reason);
+    let mut special = String::new();
     if let Ok(spec) = row.spec.parse::<Spec>() {
         text += &format!("  {}\n", (spec.family.what)(&spec));
+        special = docs::special(&spec.code(), row.channels);
     }
     let channels = if row.channels == 3 { " for R, G and B together" } else { "" };
-    let special = match row.cost.special {
-        0 => String::new(),
-        1 => ", and one inverse square root or reciprocal".to_owned(),
-        count => format!(", and {count} inverse square roots or reciprocals"),
-    };
     text += &format!(
         "  It takes {} multiplications, additions or multiply-adds{channels}{special}. In f32 it rounds off {} of {} at most.\n",
         row.cost.total,

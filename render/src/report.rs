@@ -61,6 +61,17 @@ pub struct Report {
     pub lit: (String, usize, Vec<(Brdf, Vec<Row>)>),
 }
 
+/// Writes a table of what was followed from order to order, a column each: its error, and in brackets what theory expects.
+fn write_followed<T>(text: &mut String, followed: &[(T, Vec<Row>)], name: impl Fn(&T) -> String) {
+    let names: String = followed.iter().map(|(what, _)| format!(" `{}` |", name(what))).collect();
+    let _ = writeln!(text, "| order |{names}\n|---|{}", "---|".repeat(followed.len()));
+    for (i, order) in ORDERS.enumerate() {
+        let cells =
+            followed.iter().map(|(_, rows)| format!("{} ({})", percent(rows[i].errors.rms), percent(rows[i].expected)));
+        let _ = writeln!(text, "| {order} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+}
+
 impl Report {
     /// Measures a subject under maps, the first of which serves for the convergence, and another one, `lit`, under the
     /// spherical lights of its scene.
@@ -135,16 +146,7 @@ impl Report {
              and many directions to each sphere, the root mean square error of the exact kernel, and in brackets what \
              theory expects. Map and spheres are seen from the middle of the object.\n\n| order |"
         );
-        for (brdf, _) in followed {
-            let _ = write!(text, " `{brdf}` |");
-        }
-        let _ = writeln!(text, "\n|---|{}", "---|".repeat(followed.len()));
-        for (i, order) in ORDERS.enumerate() {
-            let cells = followed
-                .iter()
-                .map(|(_, rows)| format!("{} ({})", percent(rows[i].errors.rms), percent(rows[i].expected)));
-            let _ = writeln!(text, "| {order} | {} |", cells.collect::<Vec<_>>().join(" | "));
-        }
+        write_followed(text, followed, |brdf| brdf.to_string());
     }
 
     fn write_claim(&self, text: &mut String) {
@@ -230,18 +232,9 @@ impl Report {
              analytic reflectance, f64), for Phong lobes: the root mean square error, and in brackets what theory \
              expects, the root of Σ |b_l|² |L_l|² / (2l+1) over the bands l that are left out, averaged over the views. \
              The energy of a Phong lobe of exponent s falls with the band as exp(−l²/s), so that it needs some √s \
-             bands: twice as many for four times the exponent.\n\n| order |"
+             bands: twice as many for four times the exponent.\n\n"
         );
-        for (exponent, _) in followed {
-            let _ = write!(text, " `phong:{exponent}` |");
-        }
-        let _ = writeln!(text, "\n|---|{}", "---|".repeat(followed.len()));
-        for (i, order) in ORDERS.enumerate() {
-            let cells = followed
-                .iter()
-                .map(|(_, rows)| format!("{} ({})", percent(rows[i].errors.rms), percent(rows[i].expected)));
-            let _ = writeln!(text, "| {order} | {} |", cells.collect::<Vec<_>>().join(" | "));
-        }
+        write_followed(text, followed, |exponent| format!("phong:{exponent}"));
         let half = followed.iter().map(|(_, rows)| {
             Self::order_for(rows, 0.5).map_or_else(|| "none of these".to_owned(), |order| format!("{order:.1}"))
         });

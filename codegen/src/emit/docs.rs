@@ -75,10 +75,13 @@ fn parameter(param: &Param) -> String {
     format!("{}: {}.", param.name, param.doc)
 }
 
-/// So many special operations of these names, in words.
-fn special(count: usize, names: &[&str]) -> String {
+/// Returns how many special operations a kernel has and which, as a sentence goes on after its other operations; nothing if it
+/// has none.
+pub fn special(code: &Code, channels: usize) -> String {
+    let (count, names) = (code.cost(channels).special, code.names(Price::Special));
     let usual = [Op::Recip(()).name(), Op::Rsqrt(()).name()];
     match (names.iter().all(|name| usual.contains(name)), count) {
+        (_, 0) => String::new(),
         (true, 1) => " and 1 inverse square root or reciprocal".to_owned(),
         (true, _) => format!(" and {count} inverse square roots or reciprocals"),
         (false, _) => format!(" and {count} special ({})", names.join(", ")),
@@ -88,10 +91,7 @@ fn special(count: usize, names: &[&str]) -> String {
 /// What a kernel costs, in a sentence.
 pub fn cost(built: &Built, channels: usize) -> String {
     let cost = built.code.cost(channels);
-    let special = match cost.special {
-        0 => String::new(),
-        count => special(count, &built.code.names(Price::Special)),
-    };
+    let special = special(&built.code, channels);
     let choice = match cost.choice {
         0 => String::new(),
         n => format!(", {n} min, max or select"),

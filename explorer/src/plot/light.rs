@@ -3,6 +3,7 @@
 
 use super::pixels;
 use super::sheet::{Area, COLOURS, Sheet, WIDTH, drawn};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use std::error::Error;
 use zonal_cli::projected::Projected;
@@ -73,16 +74,7 @@ impl Lit<'_> {
             .x_label_area_size(36)
             .y_label_area_size(56)
             .build_cartesian_2d(0.5..last as f64 + 0.5, (LEAST[0]..1.0).log_scale())?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .disable_x_mesh()
-            .x_labels(last)
-            .x_label_formatter(&|x| format!("{x:.0}"))
-            .y_label_formatter(&|y| format!("{} %", 100.0 * y))
-            .x_desc("order")
-            .y_desc("root mean square, of what is seen")
-            .draw()?;
+        mesh(&mut chart, last, "order", "root mean square, of what is seen")?;
         if let Some(budget) = self.budget.filter(|budget| *budget >= LEAST[0]) {
             let line = LineSeries::new(vec![(0.5, budget), (last as f64 + 0.5, budget)], BLACK.stroke_width(1));
             chart
@@ -121,16 +113,7 @@ impl Lit<'_> {
             .x_label_area_size(36)
             .y_label_area_size(64)
             .build_cartesian_2d(-0.5..last as f64 - 0.5, (LEAST[1]..1.0).log_scale())?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .disable_x_mesh()
-            .x_labels(last)
-            .x_label_formatter(&|x| format!("{x:.0}"))
-            .y_label_formatter(&|y| format!("{} %", 100.0 * y))
-            .x_desc("band")
-            .y_desc("share of the energy of what is seen")
-            .draw()?;
+        mesh(&mut chart, last, "band", "share of the energy of what is seen")?;
         let count = self.projected.curves.len() as f64;
         for (i, (curve, colour)) in self.projected.curves.iter().zip(COLOURS).enumerate() {
             let bar = |l: usize| {
@@ -144,4 +127,21 @@ impl Lit<'_> {
         }
         Ok(())
     }
+}
+
+/// The chart of what is seen over orders or bands, in per cent.
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, LogCoord<f64>>>;
+
+fn mesh(chart: &mut Chart<'_, '_>, count: usize, x: &str, y: &str) -> Result<(), Box<dyn Error>> {
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .disable_x_mesh()
+        .x_labels(count)
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| format!("{} %", 100.0 * y))
+        .x_desc(x)
+        .y_desc(y)
+        .draw()?;
+    Ok(())
 }

@@ -75,16 +75,8 @@ fn answer() -> String {
         saved("tilt", 10, 5.0, 0.01),
         saved("tilt", 5, 15.0, 0.01),
     );
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let last = lines.last_mut().expect("starts with one");
-        match last.len() + word.len() < 120 {
-            true if last.is_empty() => last.push_str(word),
-            true => *last += &format!(" {word}"),
-            false => lines.push(word.to_owned()),
-        }
-    }
-    lines.join("\n") + "\n"
+    let lines = textwrap(&text).into_iter().map(|line| line.trim_start().to_owned() + "\n");
+    lines.collect()
 }
 
 /// What the first command prints, but for the time it took and what was there before.
