@@ -144,7 +144,7 @@ impl Report {
              The picture of `scenes/{scene}.toml`: its map and {count} spheres of their own size, colour and distance, each \
              added to the map's coefficients by `light_sphere:n`. Against brute force, which sums every texel of the map \
              and many directions to each sphere, the root mean square error of the exact kernel, and in brackets what \
-             theory expects. Map and spheres are seen from the middle of the object.\n\n| order |"
+             theory expects. Map and spheres are seen from the middle of the object.\n\n"
         );
         write_followed(text, followed, |brdf| brdf.to_string());
     }
