@@ -2,11 +2,14 @@
 //! it returns a value or an error.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
+use zonal_cli::inputs;
 use zonal_codegen::catalog;
 use zonal_codegen::environment::Map;
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::product::plan::Records;
+use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::promise::samples::Random;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_picture::mesh::Mesh;
@@ -27,6 +30,9 @@ const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\ntr
                      pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
                      [[plan]]\norders = [2, 2, 2]\nsquare = true\noperations = 20\nseed = 1\ntries = 1\npairs = [\"10 10: 00\"]\n\
                      [[plan.rings]]\nclasses = [1, 1]\nnodes = 1\nexponent = 1\n";
+/// Inputs of `rotate:3:rgb`: nested, flat, and grey.
+const INPUTS: &str = "[{\"q\": [0, 0, 0, 1], \"c\": [[1, 2, 3], [4, 5, 6], [7, 8, 9], [1, 2, 3], [4, 5, 6], [7, 8, 9], \
+                      [1, 2, 3], [4, 5, 6], [7, 8, 9]]}, {\"q\": [0.5, -0.5, 5e-1, 0.5], \"c\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}]";
 /// What numbers are replaced by, and what is put in anywhere.
 const EXTREMES: [&[u8]; 16] = [
     b"0",
@@ -47,8 +53,8 @@ const EXTREMES: [&[u8]; 16] = [
     b"..",
 ];
 
-/// Reads an input; what it returns does not matter.
-type Reader = fn(&[u8]);
+/// Reads an input and returns whether it was accepted.
+type Reader = fn(&[u8]) -> bool;
 
 /// What is changed, and what reads it.
 struct Kind {
@@ -70,29 +76,40 @@ fn kinds() -> Vec<Kind> {
         Kind {
             name: "scene",
             seeds: texts(&SCENES),
-            read: |bytes| drop(Scene::parse("fuzz", &String::from_utf8_lossy(bytes), Maps::Embedded(&[]))),
+            read: |bytes| Scene::parse("fuzz", &String::from_utf8_lossy(bytes), Maps::Embedded(&[])).is_ok(),
         },
         Kind {
             name: "spec",
             seeds: specs.into_iter().map(String::into_bytes).collect(),
-            read: |bytes| drop(String::from_utf8_lossy(bytes).parse::<Spec>()),
+            read: |bytes| String::from_utf8_lossy(bytes).parse::<Spec>().is_ok(),
         },
-        Kind { name: "hdr", seeds: vec![hdr], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
-        Kind { name: "cube", seeds: vec![cube], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
-        Kind { name: "png", seeds: vec![png()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
-        Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
-        Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| drop(Mesh::from_obj("fuzz", bytes)) },
+        Kind { name: "hdr", seeds: vec![hdr], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "cube", seeds: vec![cube], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "png", seeds: vec![png()], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| Mesh::from_obj("fuzz", bytes).is_ok() },
         Kind {
             name: "plans",
             seeds: texts(&[PLANS]),
-            read: |bytes| drop(Records::read(&String::from_utf8_lossy(bytes))),
+            read: |bytes| Records::read(&String::from_utf8_lossy(bytes)).is_ok(),
         },
+        Kind { name: "inputs", seeds: texts(&[INPUTS]), read: read_inputs },
         Kind {
             name: "normals",
             seeds: vec![normals.to_vec()],
-            read: |bytes| drop(NormalMap::from_bytes("fuzz", bytes)),
+            read: |bytes| NormalMap::from_bytes("fuzz", bytes).is_ok(),
         },
     ]
+}
+
+/// Reads inputs of a kernel, as `zonal vectors` does.
+fn read_inputs(bytes: &[u8]) -> bool {
+    static KERNEL: LazyLock<(Spec, Vec<Param>)> = LazyLock::new(|| {
+        let spec: Spec = "rotate:3:rgb".parse().expect("is in the catalogue");
+        let params = spec.code().params().to_vec();
+        (spec, params)
+    });
+    inputs::from_text("fuzz", &String::from_utf8_lossy(bytes), &KERNEL.0, &KERNEL.1).is_ok()
 }
 
 /// A map as a PNG image of 16 bits.
@@ -145,6 +162,8 @@ pub struct Outcome {
     pub kind: &'static str,
     /// How many inputs were read.
     pub count: usize,
+    /// How many of them the reader accepted.
+    pub accepted: usize,
     /// The inputs on which the reader panicked, as text.
     pub panics: Vec<String>,
     /// How long the slowest input took.
@@ -159,13 +178,20 @@ pub fn run(count: usize, seed: u64) -> Vec<Outcome> {
     let share = count.div_ceil(kinds.len());
     let outcome = |(number, kind): (u64, Kind)| {
         let mut random = Random::new(seed ^ (number << 32));
-        let mut outcome =
-            Outcome { kind: kind.name, count: share, panics: vec![], longest: Duration::ZERO, slowest: vec![] };
+        let mut outcome = Outcome {
+            kind: kind.name,
+            count: share,
+            accepted: 0,
+            panics: vec![],
+            longest: Duration::ZERO,
+            slowest: vec![],
+        };
         for _ in 0..share {
             let input = changed(&kind.seeds[below(&mut random, kind.seeds.len())], &mut random);
             let start = Instant::now();
-            if catch_unwind(AssertUnwindSafe(|| (kind.read)(&input))).is_err() {
-                outcome.panics.push(String::from_utf8_lossy(&input).into_owned());
+            match catch_unwind(AssertUnwindSafe(|| (kind.read)(&input))) {
+                Ok(accepted) => outcome.accepted += usize::from(accepted),
+                Err(_) => outcome.panics.push(String::from_utf8_lossy(&input).into_owned()),
             }
             let time = start.elapsed();
             if time > outcome.longest {

@@ -14,9 +14,9 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|_| ()));
     let mut failed = false;
     for outcome in fuzz::run(count as usize, seed) {
-        let fuzz::Outcome { kind, count, panics, longest, slowest } = outcome;
+        let fuzz::Outcome { kind, count, accepted, panics, longest, slowest } = outcome;
         println!(
-            "{kind:8} {count} inputs, {} panics, the slowest of {} bytes took {longest:?}",
+            "{kind:8} {count} inputs, {accepted} accepted, {} panics, the slowest of {} bytes took {longest:?}",
             panics.len(),
             slowest.len()
         );

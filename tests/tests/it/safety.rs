@@ -355,5 +355,7 @@ fn a_name_is_refused_where_its_language_is_asked_for() {
 fn no_input_makes_a_reader_panic() {
     for outcome in zonal_tests::fuzz::run(3000, 1) {
         assert!(outcome.panics.is_empty(), "{}: {:?}", outcome.kind, outcome.panics);
+        // Changes go deep only where something is still read.
+        assert!((1..outcome.count).contains(&outcome.accepted), "{}: {} accepted", outcome.kind, outcome.accepted);
     }
 }
