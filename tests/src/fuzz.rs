@@ -1,6 +1,8 @@
 //! Inputs that nobody would write: those that zonal ships, changed at random places from a seed. Whatever a reader is given,
 //! it returns a value or an error.
 
+use exr::compression::Compression;
+use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
@@ -69,7 +71,9 @@ fn kinds() -> Vec<Kind> {
     let hdr = [&b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n-Y 8 +X 16\n"[..], &[128, 64, 32, 129].repeat(128)]
         .concat();
     let cube = [&b"#?RADIANCE\n\n+X 16 -Y 12\n"[..], &[128, 64, 32, 129].repeat(192)].concat();
-    let exr = include_bytes!("../data/adversarial_sky_negative.exr");
+    // Its radiance is below zero, so that it is never accepted; what it tries is the decoder.
+    let dwa = include_bytes!("../data/adversarial_sky_negative.exr").to_vec();
+    let exr = [Compression::Uncompressed, Compression::RLE, Compression::ZIP1, Compression::PIZ].map(exr);
     let normals =
         zonal_scenes::below("normals").next().and_then(zonal_scenes::embedded).expect("there is a normal map");
     vec![
@@ -86,7 +90,8 @@ fn kinds() -> Vec<Kind> {
         Kind { name: "hdr", seeds: vec![hdr], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
         Kind { name: "cube", seeds: vec![cube], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
         Kind { name: "png", seeds: vec![png()], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
-        Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "exr", seeds: exr.into_iter().collect(), read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
+        Kind { name: "dwa", seeds: vec![dwa], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
         Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| Mesh::from_obj("fuzz", bytes).is_ok() },
         Kind {
             name: "plans",
@@ -110,6 +115,17 @@ fn read_inputs(bytes: &[u8]) -> bool {
         (spec, params)
     });
     inputs::from_text("fuzz", &String::from_utf8_lossy(bytes), &KERNEL.0, &KERNEL.1).is_ok()
+}
+
+/// A map as an OpenEXR image.
+fn exr(compression: Compression) -> Vec<u8> {
+    use exr::prelude::*;
+    let mut bytes = Cursor::new(Vec::new());
+    let channels = SpecificChannels::rgb(|place: Vec2<usize>| (1.0_f32, place.x() as f32, f16::from_f32(0.5)));
+    let encoding = Encoding { compression, ..Encoding::UNCOMPRESSED };
+    let written = Image::from_encoded_channels((16, 8), encoding, channels).write().to_buffered(&mut bytes);
+    written.expect("memory takes any image");
+    bytes.into_inner()
 }
 
 /// A map as a PNG image of 16 bits.

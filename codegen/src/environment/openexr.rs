@@ -2,6 +2,8 @@
 //! else luminance alone. Without the feature `exr` every such file is refused.
 
 use super::decoded::Decoded;
+#[cfg(feature = "exr")]
+use super::error::MAX_WIDTH;
 use super::error::MapError;
 
 /// The first bytes of a file.
@@ -132,6 +134,21 @@ fn has_sane_sections(bytes: &[u8]) -> exr::error::Result<bool> {
     Ok(true)
 }
 
+/// How many texels a part's data window may have: twice those of the largest map, for what lies beyond a picture's edges.
+#[cfg(feature = "exr")]
+const MAX_TEXELS: usize = MAX_WIDTH * MAX_WIDTH;
+
+/// Whether every part is of a size that there can be: a damaged data window makes the decoder ask for all memory. Each block
+/// has an entry of eight bytes in a table of the file.
+#[cfg(feature = "exr")]
+fn has_sane_windows(headers: &[exr::meta::header::Header], bytes: usize) -> bool {
+    headers.iter().all(|header| {
+        let texels = header.layer_size.width().checked_mul(header.layer_size.height());
+        let is_listed = header.chunk_count.checked_mul(8).is_some_and(|listed| listed <= bytes);
+        is_listed && texels.is_some_and(|texels| texels <= MAX_TEXELS)
+    })
+}
+
 /// Texels outside of the display window are lost, those that the file leaves out are black.
 #[cfg(feature = "exr")]
 fn decode(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
@@ -142,10 +159,13 @@ fn decode(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapErro
         Error::Io(error) if error.kind() == ErrorKind::UnexpectedEof => MapError::malformed(name, "it ends too early"),
         error => MapError::malformed(name, &error.to_string()),
     };
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(undecodable)?;
+    if !has_sane_windows(reader.headers(), bytes.len()) {
+        return Err(MapError::malformed(name, "its data window is larger than the file can hold"));
+    }
     if !has_sane_sections(bytes).map_err(undecodable)? {
         return Err(MapError::malformed(name, "a block in DWA compression names a size that none has"));
     }
-    let reader = exr::block::read(Cursor::new(bytes), false).map_err(undecodable)?;
     let Channels { part, names, encoding } = channels(name, reader.headers())?;
     let header = &reader.headers()[part];
     let window = header.shared_attributes.display_window;

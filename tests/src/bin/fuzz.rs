@@ -1,13 +1,20 @@
-//! `cargo run --release -p zonal-tests --bin fuzz -- 1000000 [SEED]`: reads that many changed inputs and says on which a
-//! reader panicked and how long the slowest took. It fails if one panicked.
+//! `cargo run --release -p zonal-tests --bin fuzz -- 1000000 [SEED [FOLDER]]`: reads that many changed inputs and says on
+//! which a reader panicked and how long the slowest took, which it writes into the folder. It fails if one panicked or took
+//! longer than ten seconds.
 
+use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 use zonal_tests::fuzz;
 
+/// How long a reader may take, on the machine that it runs on.
+const LIMIT: Duration = Duration::from_secs(10);
+
 fn main() -> ExitCode {
-    let mut numbers = std::env::args().skip(1).map(|text| text.parse::<u64>());
-    let (Some(Ok(count)), Ok(seed)) = (numbers.next(), numbers.next().unwrap_or(Ok(1))) else {
-        eprintln!("write how many inputs, and the seed if it is not to be 1");
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |place: usize| arguments.get(place).map(|text| text.parse::<u64>());
+    let (Some(Ok(count)), Ok(seed)) = (number(0), number(1).unwrap_or(Ok(1))) else {
+        eprintln!("write how many inputs, the seed if it is not to be 1, and a folder for the slowest if it is wanted");
         return ExitCode::from(2);
     };
     // What a reader catches itself is no fault, and what escapes is told below.
@@ -23,7 +30,12 @@ fn main() -> ExitCode {
         for input in panics.iter().take(3) {
             println!("    {input:?}");
         }
-        failed |= !panics.is_empty();
+        if let Some(Err(error)) = arguments.get(2).map(|folder| std::fs::write(Path::new(folder).join(kind), &slowest))
+        {
+            eprintln!("the slowest input cannot be written: {error}");
+            failed = true;
+        }
+        failed |= !panics.is_empty() || longest > LIMIT;
     }
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
