@@ -86,7 +86,7 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
     out(&table(&lines))
 }
 
-pub fn show(spec: &str, target: &str, arrays: Option<&str>) -> Result<(), Failure> {
+pub fn show(spec: &str, target: &str, arrays: Option<&str>, form: Option<&str>) -> Result<(), Failure> {
     let spec = spec_of(spec)?;
     let target = language::named(target).map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let bar = progress("building and measuring");
@@ -96,9 +96,10 @@ pub fn show(spec: &str, target: &str, arrays: Option<&str>) -> Result<(), Failur
         origin: format!("`{spec}`"),
         functions,
         arrays: arrays.and_then(Arrays::named),
+        form: form.and_then(|form| language::forms().into_iter().find(|known| *known == form)),
         ..Module::default()
     };
-    let file = generate::file(&module, target, format!("{}.{}", spec.name(), target.extension))?;
+    let file = generate::file(&module, target, "")?;
     drop(bar);
     out(&file.text)
 }

@@ -93,6 +93,9 @@ enum Command {
         /// How it takes and returns arrays, if the language knows more than one way.
         #[arg(long, value_parser = Arrays::ALL.map(|(_, name)| name))]
         arrays: Option<String>,
+        /// The form of the file, for what takes it in otherwise.
+        #[arg(long, value_parser = language::forms())]
+        form: Option<String>,
     },
     /// Projects an environment map, and says which order it takes and why.
     Project {
@@ -168,7 +171,9 @@ fn main() -> ExitCode {
         Command::Plan { scene, json, plot: None, .. } => commands::plan(scene.as_deref(), json),
         Command::Plan { plot: Some(_), .. } => hand_over::same(),
         Command::List { family, order, json } => commands::list(family.as_deref(), order, json),
-        Command::Show { spec, target, arrays } => commands::show(&spec, &target, arrays.as_deref()),
+        Command::Show { spec, target, arrays, form } => {
+            commands::show(&spec, &target, arrays.as_deref(), form.as_deref())
+        }
         Command::Project { asked, plot: None, .. } => commands::project(&asked),
         Command::Project { plot: Some(_), .. } => hand_over::same(),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),

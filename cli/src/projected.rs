@@ -240,8 +240,7 @@ impl Projected {
             name,
             ..Module::default()
         };
-        let path = format!("{}.{}", module.name, target.extension);
-        Ok(generate::file(&module, target, path)?.text)
+        Ok(generate::file(&module, target, "")?.text)
     }
 
     fn json(&self, path: &Path) -> serde_json::Value {

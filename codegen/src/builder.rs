@@ -23,7 +23,7 @@ use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
 use crate::plan::environment::EnvironmentPlan;
 use crate::scene::diagnostic::{Diagnostic, Place};
-use crate::scene::{Located, Maps, Scene, Wanted};
+use crate::scene::{self, Located, Maps, Scene, Wanted};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -69,6 +69,7 @@ pub struct Builder {
     kernels: Vec<Wanted>,
     targets: Vec<Target>,
     arrays: Option<Arrays>,
+    form: Option<Located<String>>,
     replace: Replace,
 }
 
@@ -78,7 +79,7 @@ fn located(source: &str, text: &str) -> Located<String> {
 
 impl Builder {
     fn from_origin(origin: Origin) -> Self {
-        Self { origin, kernels: vec![], targets: vec![], arrays: None, replace: Replace::Own }
+        Self { origin, kernels: vec![], targets: vec![], arrays: None, form: None, replace: Replace::Own }
     }
 
     /// An empty builder whose files are called `name`.
@@ -123,6 +124,13 @@ impl Builder {
         self
     }
 
+    /// Sets the form of the files, by its name, as `form` of a scene does.
+    #[must_use]
+    pub fn form(mut self, form: &str) -> Self {
+        self.form = Some(located("Builder::form", form));
+        self
+    }
+
     /// Replaces files that zonal did not write, too; without it they are an error, and nothing is written.
     #[must_use]
     pub fn force(mut self) -> Self {
@@ -140,6 +148,9 @@ impl Builder {
         if !self.targets.is_empty() {
             scene.targets.clone_from(&self.targets);
             language::sort(&mut scene.targets);
+        }
+        if let Some(form) = &self.form {
+            scene.form = Some(scene::form(form, &scene.targets)?);
         }
         Ok(scene)
     }
@@ -224,8 +235,7 @@ pub fn files_of(plan: &Plan) -> Result<Vec<File>, Error> {
     let name = &plan.scene;
     let mut files = Vec::new();
     for &target in &plan.targets {
-        let path = format!("{name}.{}", target.extension);
-        let file = generate::file(&plan.module, target, path).map_err(|error| located_limit(plan, error))?;
+        let file = generate::file(&plan.module, target, "").map_err(|error| located_limit(plan, error))?;
         files.push(file);
     }
     files.push(File {

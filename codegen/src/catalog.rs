@@ -106,8 +106,7 @@ pub fn files_of(functions: &[Function]) -> Result<Vec<File>, GenerateError> {
     };
     threads::map(functions, check).into_iter().collect::<Result<(), GenerateError>>()?;
     let shader = |(module, target): &(&Module, Target)| -> Result<File, GenerateError> {
-        let path = format!("{target}/{}.{}", module.name, target.extension);
-        Ok(File { path, text: module.text(target)? })
+        Ok(File { path: format!("{target}/{}", module.file_name(target)?), text: module.text(target)? })
     };
     let shaders: Result<Vec<File>, GenerateError> = threads::map(&tasks, shader).into_iter().collect();
     let rust = threads::map(&orders, |&order| rust_file(order, functions));

@@ -1,7 +1,7 @@
 //! What goes into one file: functions and constants, and why one of them cannot be printed.
 
 use crate::emit::dialect::Dialect;
-use crate::emit::language::{self, Arrays, Target};
+use crate::emit::language::{self, Arrays, Form, Target};
 use crate::families::family::Spec;
 use crate::promise::built::Built;
 use std::sync::Arc;
@@ -41,6 +41,8 @@ pub struct Module {
     pub constants: Vec<Constants>,
     /// How the functions take and return arrays; a language's own way if it is left open.
     pub arrays: Option<Arrays>,
+    /// The form of the file; a language's own if it is left open.
+    pub form: Option<&'static str>,
 }
 
 /// Why a kernel cannot be printed.
@@ -62,6 +64,33 @@ impl Module {
     pub fn of(function: Function) -> Self {
         let (name, origin) = (function.shader_name(), format!("`{}`", function.spec));
         Self { name, origin, functions: vec![function], ..Self::default() }
+    }
+}
+
+impl Module {
+    /// Returns the form of the file in a language, if it is not the language's own.
+    ///
+    /// # Errors
+    ///
+    /// If the language does not know the form.
+    pub fn form(&self, target: Target) -> Result<Option<&'static Form>, Limit> {
+        let Some(name) = self.form else { return Ok(None) };
+        target.form(name).map(Some).ok_or_else(|| Limit {
+            spec: self.name.clone(),
+            target,
+            why: format!("{} has no form `{name}`", target.title),
+            help: "leave `form` out, or name another target".to_owned(),
+        })
+    }
+
+    /// Returns what the file is called in a language, with its extension.
+    ///
+    /// # Errors
+    ///
+    /// As [`Module::form`].
+    pub fn file_name(&self, target: Target) -> Result<String, Limit> {
+        let extension = self.form(target)?.map_or(target.extension, |form| form.extension);
+        Ok(format!("{}.{extension}", self.name))
     }
 }
 

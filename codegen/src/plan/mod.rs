@@ -124,6 +124,7 @@ impl Plan {
                 functions: vec![],
                 constants: environment.iter().map(EnvironmentPlan::constants).collect(),
                 arrays: scene.arrays,
+                form: scene.form,
             },
             environment,
             kernels: vec![],

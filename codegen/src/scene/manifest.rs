@@ -35,6 +35,11 @@ struct Manifest {
     /// item into a vector of four, as uniform buffers hold them.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::Passed>"))]
     arrays: Option<Placed<String>>,
+    /// The form of the files for what takes them in: `naga_oil` (WGSL with its import path), `wesl` (WGSL as a module of a
+    /// WESL package), `bare` (WGSL or GLSL without comments and guards, for wgslFn and glslFn of three.js); each language's
+    /// own if it is left out.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::FormName>"))]
+    form: Option<Placed<String>>,
     /// The folder to write to, relative to the folder that zonal runs in, which it may not leave; `zonal-out/` and the name
     /// if it is left out.
     output: Option<Placed<String>>,
@@ -253,6 +258,9 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
     if let Some(text) = manifest.arrays {
         scene.arrays = Some(arrays(&locate.at(text), &scene.targets)?);
     }
+    if let Some(text) = manifest.form {
+        scene.form = Some(form(&locate.at(text), &scene.targets)?);
+    }
     if let Some(output) = manifest.output {
         let output = locate.at(output);
         let path = Path::new(&output.value);
@@ -321,13 +329,33 @@ fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnost
     match targets.iter().find(|target| !target.arrays.contains(&arrays)) {
         None => Ok(arrays),
         Some(target) => {
-            let able = language::ALL.iter().filter(|target| target.arrays.contains(&arrays));
-            let able: Vec<String> = able.map(|target| format!("\"{target}\"")).collect();
             let message = format!("{} does not pass arrays as `{value}`", target.title);
-            let help = format!("leave it out, or write `targets = [{}]`", able.join(", "));
-            Err(Diagnostic::at(place, message, help))
+            Err(Diagnostic::at(place, message, fewer(|target| target.arrays.contains(&arrays))))
         }
     }
+}
+
+/// Returns the form of this name, which every target knows.
+pub(crate) fn form(text: &Located<String>, targets: &[Target]) -> Result<&'static str, Diagnostic> {
+    let Located { value, place } = text;
+    let names = language::forms();
+    let Some(&name) = names.iter().find(|name| *name == value) else {
+        return Err(Diagnostic::at(place, format!("`{value}` is no form of a file"), hint(value, &names)));
+    };
+    match targets.iter().find(|target| target.form(name).is_none()) {
+        None => Ok(name),
+        Some(target) => {
+            let message = format!("{} has no form `{name}`", target.title);
+            Err(Diagnostic::at(place, message, fewer(|target| target.form(name).is_some())))
+        }
+    }
+}
+
+/// What to do where a target cannot do what others can.
+fn fewer(is_able: impl Fn(Target) -> bool) -> String {
+    let able = language::ALL.iter().filter(|target| is_able(target));
+    let able: Vec<String> = able.map(|target| format!("\"{target}\"")).collect();
+    format!("leave it out, or write `targets = [{}]`", able.join(", "))
 }
 
 /// The convention that an environment names, with the axes that it names; zonal's stands at the place of the scene.

@@ -37,6 +37,7 @@ mod words;
 pub use crate::families::family::Job;
 pub use budget::{Norm, Precision, RelativeTo};
 pub use located::{Located, Order};
+pub(crate) use manifest::form;
 #[cfg(feature = "schema")]
 pub use manifest::schema;
 pub use sphere::SphereLight;

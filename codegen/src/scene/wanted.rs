@@ -96,6 +96,8 @@ pub struct Scene {
     pub targets: Vec<Target>,
     /// How kernels take and return arrays, if it is said.
     pub arrays: Option<Arrays>,
+    /// The form of the files, if it is not each language's own; every target knows it.
+    pub form: Option<&'static str>,
     /// The output folder, relative.
     pub output: String,
     /// The environment.
@@ -122,6 +124,7 @@ impl Scene {
             name,
             targets: language::ALL.to_vec(),
             arrays: None,
+            form: None,
             environment: None,
             kernels: vec![],
             rotations: vec![],

@@ -28,4 +28,5 @@ macro_rules! word {
 
 word!(Language, language::names());
 word!(Passed, Arrays::ALL.map(|(_, name)| name));
+word!(FormName, language::forms());
 word!(ConventionName, convention::names());

@@ -1,9 +1,9 @@
 //! The builder: the same files as the command line, pure until it writes, errors that say where.
 
 use zonal_codegen::builder::{Builder, Error};
-use zonal_codegen::emit::language::{ALL, RUST};
+use zonal_codegen::emit::language::{ALL, RUST, WGSL};
 use zonal_codegen::emit::validate::validate;
-use zonal_codegen::files::Difference;
+use zonal_codegen::files::{Difference, File};
 use zonal_tests::command::Folder;
 use zonal_tests::repository;
 
@@ -28,6 +28,31 @@ fn specs_become_files() {
     assert_eq!(files, builder.generate().expect("valid"), "twice the same bytes");
     let rust = builder.target(&RUST).generate().expect("valid");
     assert_eq!((rust.len(), &rust[0]), (2, &files[2]));
+}
+
+#[test]
+fn forms_of_files() {
+    let of = |form: &str| Builder::new("light").spec("eval:3").spec("rotate:2").target(&WGSL).form(form);
+    let file = |builder: Builder| builder.generate().expect("valid").swap_remove(0);
+    let plain = file(Builder::new("light").spec("eval:3").spec("rotate:2").target(&WGSL));
+    let oil = file(of("naga_oil"));
+    assert_eq!(oil.path, "light.wgsl");
+    assert_eq!(oil.text.strip_prefix("#define_import_path zonal::light\n\n"), Some(plain.text.as_str()));
+    assert_eq!(file(of("wesl")), File { path: "light.wesl".to_owned(), text: plain.text.clone() });
+    let bare = file(of("bare"));
+    assert!(bare.text.starts_with("fn ") && !bare.text.contains("//"), "{}", bare.text);
+    validate(&WGSL, &bare.path, &bare.text).expect("valid");
+    // Nothing in it says that zonal wrote it; the report beside it does.
+    let folder = Folder::new();
+    let out = folder.path("out");
+    assert_eq!(of("bare").write(&out).expect("writable"), 2);
+    assert_eq!(of("bare").spec("eval:4").write(&out).expect("writable"), 2);
+    let every = Builder::new("light").spec("eval:3");
+    assert_eq!(
+        message(every.clone().form("naga_oil")),
+        "Builder::form:1:1: GLSL has no form `naga_oil`; leave it out, or write `targets = [\"wgsl\"]`"
+    );
+    assert!(message(every.form("naga")).contains("`naga` is no form of a file"));
 }
 
 #[test]

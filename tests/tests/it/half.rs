@@ -24,7 +24,7 @@ fn halves() -> Vec<Spec> {
 
 fn text(spec: &Spec) -> String {
     let module = Module { functions: build(std::slice::from_ref(spec)), origin: spec.to_string(), ..Module::default() };
-    file(&module, &WGSL, spec.name()).unwrap_or_else(|error| panic!("{spec}: {error}")).text
+    file(&module, &WGSL, "").unwrap_or_else(|error| panic!("{spec}: {error}")).text
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn what_f16_cannot_do_is_refused() {
     }
     for target in [&GLSL, &RUST] {
         let module = Module { functions: build(&[spec("tilt:4:f16")]), ..Module::default() };
-        let error = file(&module, target, "a".to_owned()).expect_err("only WGSL has f16").to_string();
+        let error = file(&module, target, "").expect_err("only WGSL has f16").to_string();
         assert!(error.contains("only WGSL has f16"), "{error}");
     }
 }

@@ -28,6 +28,7 @@ const C: Language = Language {
     name: "c99",
     title: "C",
     extension: "c",
+    forms: &[],
     single: Float { name: "float", literal: |value| shader::literal(value) + "f", tiny: "1e-15f" },
     half: None,
     types: Types {
@@ -242,7 +243,7 @@ fn program(functions: &[Function], target: Target, arrays: Option<Arrays>, text:
 /// Prints, checks, compiles and runs the sample and compares it with the interpreter.
 fn runs_as_the_interpreter(target: Target, arrays: Option<Arrays>, contraction: Contraction) {
     let functions = scalars();
-    let printed = file(&module(functions.clone(), arrays), target, "sample.c".to_owned());
+    let printed = file(&module(functions.clone(), arrays), target, "");
     let text = printed.unwrap_or_else(|error| panic!("{error}")).text;
     let folder = Folder::new();
     let path = folder.path("sample");
@@ -357,14 +358,14 @@ fn a_builder_takes_it_and_its_words_are_no_names() {
 fn constants_are_printed_and_compiled() {
     let light = Constants { name: "light".to_owned(), doc: "A light.".to_owned(), values: vec![[0.1, -2.0, 1e-15]; 4] };
     let module = Module { constants: vec![light], ..module(vec![], None) };
-    let text = file(&module, &C99, "light.c".to_owned()).unwrap_or_else(|error| panic!("{error}")).text;
+    let text = file(&module, &C99, "").unwrap_or_else(|error| panic!("{error}")).text;
     assert!(text.contains("const vec3 LIGHT[4] = {\n    (vec3){0.1, -2.0, 1e-15},\n"), "{text}");
 }
 
 #[test]
 fn what_its_compiler_says_is_reported() {
     let turn = scalars().into_iter().find(|function| function.spec.to_string() == "rotate:4").expect("is there");
-    let error = file(&module(vec![turn], None), &WRONG, "sample.c".to_owned()).expect_err("C has no inversesqrtf");
+    let error = file(&module(vec![turn], None), &WRONG, "").expect_err("C has no inversesqrtf");
     assert!(matches!(error, GenerateError::Invalid(_)));
     let error = error.to_string();
     assert!(error.starts_with("the generated wrong of `sample.c` is refused"), "{error}");

@@ -60,7 +60,7 @@ fn every_toy_passes_every_languages_check_and_says_that_it_is_measured() {
         let accuracy = &function.built.accuracy;
         assert!(!accuracy.proven && accuracy.measured_f32 > 0.0, "{name}: {accuracy:?}");
         for target in language::ALL {
-            let text = file(&Module::of(function.clone()), target, name.clone());
+            let text = file(&Module::of(function.clone()), target, "");
             let text = text.unwrap_or_else(|error| panic!("{error}")).text.replace(['\n', '/'], " ");
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             let measured = format!("3 times the worst of 256 measured, {:e}; not proven)", accuracy.measured_f32);
@@ -147,8 +147,7 @@ fn rust_computes_what_the_interpreter_does() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("operations");
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
     let (text, program) = (folder.join("toys.rs"), folder.join("program"));
-    std::fs::write(&text, file(&module, &RUST, "toys".to_owned()).expect("the toys are Rust").text)
-        .expect("is written");
+    std::fs::write(&text, file(&module, &RUST, "").expect("the toys are Rust").text).expect("is written");
     let rustc = Command::new("rustc")
         .args(["--edition=2024", "-Copt-level=1", "-o"])
         .args([&program, &repository("tests/fixture/operations.rs")])

@@ -2,6 +2,7 @@
 //! highp, whatever the shader around it says: the macro in signatures, a statement in bodies, both in the template.
 
 use crate::emit::language::expression::Text;
+use crate::emit::language::form::{self, Form};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{Arrays, Float, ITEMS, Language, MultiplyAdd, Statements, Type, Types, Way, Words};
@@ -12,6 +13,15 @@ pub static GLSL: Language = Language {
     name: "glsl",
     title: "GLSL",
     extension: "glsl",
+    forms: &[Form {
+        name: form::BARE,
+        extension: "glsl",
+        what: form::BARE_WHAT,
+        text: |_, text| {
+            // Precision is always said: GLSL from 1.30 on takes it, whether it is ES or not.
+            form::bare(&text, |line| line.starts_with('#')).replace(HIGHP, "highp")
+        },
+    }],
     single: Float { name: "float", literal: shader::literal, tiny: "1e-15" },
     half: None,
     types: Types {

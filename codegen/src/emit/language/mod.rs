@@ -1,12 +1,14 @@
 //! The languages that kernels are printed in, each in a file of its own, and the one list of them.
 
 pub mod expression;
+pub mod form;
 pub mod glsl;
 pub mod record;
 pub mod rust;
 pub mod shader;
 pub mod wgsl;
 
+pub use crate::emit::language::form::Form;
 pub use crate::emit::language::glsl::GLSL;
 pub use crate::emit::language::record::{Arrays, Language};
 pub use crate::emit::language::rust::RUST;
@@ -37,6 +39,14 @@ pub fn named(name: &str) -> Result<Target, String> {
 pub fn sort(targets: &mut Vec<Target>) {
     targets.sort_by_key(|target| (ALL.iter().position(|known| known == target).unwrap_or(ALL.len()), target.name));
     targets.dedup();
+}
+
+/// Returns the names of all forms of files, each once.
+pub fn forms() -> Vec<&'static str> {
+    let mut names: Vec<&str> = ALL.iter().flat_map(|language| language.forms).map(|form| form.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// Returns the languages that have something, as the subject of a sentence: "only WGSL has", "only WGSL and GLSL have".

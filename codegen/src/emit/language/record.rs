@@ -3,6 +3,7 @@
 //! it prints.
 
 use crate::emit::language::expression::{Binding, Text};
+use crate::emit::language::form::Form;
 use crate::ir::graph::Kind;
 use crate::ir::kernel::Shape;
 use crate::ir::op::{Op, Sign};
@@ -17,6 +18,8 @@ pub struct Language {
     pub title: &'static str,
     /// The extension of its files.
     pub extension: &'static str,
+    /// The forms that its files can have besides their own.
+    pub forms: &'static [Form],
     /// The floating-point numbers that stand for f32.
     pub single: Float,
     /// The floating-point numbers that stand for f16, if it has them.
@@ -83,6 +86,13 @@ pub(super) fn unchecked(_: &str) -> Result<(), String> {
 
 /// What the one item of a struct is called that holds an array.
 pub const ITEMS: &str = "at";
+
+impl Language {
+    /// Returns the form of this name.
+    pub fn form(&self, name: &str) -> Option<&'static Form> {
+        self.forms.iter().find(|form| form.name == name)
+    }
+}
 
 impl PartialEq for Language {
     fn eq(&self, other: &Self) -> bool {

@@ -15,6 +15,7 @@ pub static RUST: Language = Language {
     name: "rust",
     title: "Rust",
     extension: "rs",
+    forms: &[],
     single: Float { name: "T", literal, tiny: "T::TINY" },
     half: None,
     types: Types { vector: array, matrix: |of| array(&array(of, 3), 3), array },

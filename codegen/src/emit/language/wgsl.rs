@@ -1,6 +1,7 @@
 //! WGSL, WebGPU's shading language.
 
 use crate::emit::language::expression::Text;
+use crate::emit::language::form::{self, Form};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
 use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Statements, Type, Types, Words};
@@ -11,6 +12,26 @@ pub static WGSL: Language = Language {
     name: "wgsl",
     title: "WGSL",
     extension: "wgsl",
+    forms: &[
+        Form {
+            name: "naga_oil",
+            extension: "wgsl",
+            what: "a module of naga_oil, as Bevy took shaders up to 0.19, imported as `zonal::` and the name of the file",
+            text: |stem, text| format!("#define_import_path zonal::{stem}\n\n{text}"),
+        },
+        Form {
+            name: "wesl",
+            extension: "wesl",
+            what: "a module of a WESL package, as Bevy takes shaders from 0.20 on",
+            text: |_, text| text,
+        },
+        Form {
+            name: form::BARE,
+            extension: "wgsl",
+            what: form::BARE_WHAT,
+            text: |_, text| form::bare(&text, |_| false),
+        },
+    ],
     single: Float { name: "f32", literal: shader::literal, tiny: "1e-15" },
     half: Some(Float { name: "f16", literal: shader::half_literal, tiny: "1e-15" }),
     types: Types {

@@ -77,6 +77,28 @@ fn glslang_accepts_arrays_passed_in_other_ways() {
 }
 
 #[test]
+fn glslang_accepts_bare_functions_in_every_version() {
+    let bare = GLSL.form("bare").expect("GLSL has it");
+    for version in VERSIONS {
+        let folder = folder(&format!("bare {version}"));
+        let low = catalogue().iter().filter(|function| function.spec.order <= 3);
+        let files: Vec<PathBuf> = low
+            .map(|function| {
+                let dialect = wrap::dialect(function, &GLSL, None);
+                let text = (bare.text)("", wrap::file(function, dialect));
+                assert!(!text.contains("//") && !text.contains('#') && !text.contains("ZONAL_HIGHP"), "{text}");
+                let path = folder.join(format!("{}.frag", function.shader_name()));
+                std::fs::write(&path, wrap::fragment(function, dialect, version, &text)).expect("can be written");
+                path
+            })
+            .collect();
+        for batch in files.chunks(BATCH) {
+            glslang(batch).unwrap_or_else(|error| panic!("{error}"));
+        }
+    }
+}
+
+#[test]
 fn glslang_refuses_one_bad_file_among_good_ones() {
     let folder = folder("glsl bad");
     let text = "#version 300 es\nprecision highp float;\nout vec4 colour;\nvoid main() { colour = vec4(1.0); }\n";

@@ -68,3 +68,25 @@ fn a_light_probe_of_three_js_and_a_kernel_give_one_irradiance() {
     assert!(wrong.iter().all(|&wrong| wrong > 0.1), "{wrong:?}");
     println!("three.js's light probe and the kernel differ by {right:e}");
 }
+
+#[test]
+fn its_parsers_read_bare_functions() {
+    let work = Folder::new();
+    let shown = |target: &str, form: &[&str]| {
+        let run = work.run([&["show", "eval:3:rgb", "--target", target], form].concat());
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        json!({ "language": target, "text": run.out })
+    };
+    let bare = ["--form", "bare"];
+    work.put("jobs.json", json!([shown("glsl", &[]), shown("glsl", &bare), shown("wgsl", &bare)]).to_string());
+    let mut node = Command::new("node");
+    let output = node.arg(repository("tests/browser/functions.mjs")).arg(work.path("jobs.json")).output();
+    let output = output.unwrap_or_else(|_| panic!("{}", missing("Node", "nodejs npm")));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let seen: Vec<Value> = serde_json::from_slice(&output.stdout).expect("the script prints JSON");
+    assert!(seen[0]["error"].is_string(), "guards are no function: {}", seen[0]);
+    for seen in &seen[1..] {
+        assert_eq!((&seen["name"], &seen["inputs"]), (&json!("sh3_eval_rgb"), &json!(["dir", "c"])), "{seen}");
+        assert!(["vec3", "vec3<f32>"].contains(&seen["type"].as_str().expect("a name")), "{seen}");
+    }
+}
