@@ -39,8 +39,10 @@ pub fn standard() -> Vec<Spec> {
 pub fn markdown(rows: &[Row]) -> String {
     let mut text = "# What each kernel costs\n\nGenerated with the kernels. A multiplication, an addition, a fused multiply-add or a \
                     choice of two numbers is one\noperation; an inverse square root, a reciprocal, a root or a power \
-                    (special) is counted apart. Rounding is in f32,\nrelative to what each file's head says, proven or \
-                    measured as `MANIFEST.tsv` has it.\n\n\
+                    (special) is counted apart. *Live* is how many \
+                    values\nthe text needs at once, parameters and results aside: what a compiler has to keep in registers. \
+                    Rounding is in f32,\nrelative to what each file's head says, proven or measured as `MANIFEST.tsv` has \
+                    it.\n\n\
                     | spec | total | mul | add | fma | special | constants | live | f32 rounding |\n\
                     |---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
@@ -106,7 +108,7 @@ pub fn files_of(functions: &[Function]) -> Result<Vec<File>, GenerateError> {
     };
     threads::map(functions, check).into_iter().collect::<Result<(), GenerateError>>()?;
     let shader = |(module, target): &(&Module, Target)| -> Result<File, GenerateError> {
-        Ok(File { path: format!("{target}/{}", module.file_name(target)?), text: module.text(target)? })
+        Ok(File { path: format!("{target}/{}", module.file_name(target)), text: module.text(target)? })
     };
     let shaders: Result<Vec<File>, GenerateError> = threads::map(&tasks, shader).into_iter().collect();
     let rust = threads::map(&orders, |&order| rust_file(order, functions));

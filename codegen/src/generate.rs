@@ -33,10 +33,10 @@ pub fn build(specs: &[Spec]) -> Vec<Function> {
 /// Prints and validates one module in one language, by [`validate`], below a folder, which may be empty and else ends in
 /// `/`. What a form makes of the text is not validated again.
 pub fn file(module: &Module, target: Target, folder: &str) -> Result<File, GenerateError> {
-    let path = format!("{folder}{}", module.file_name(target)?);
+    let path = format!("{folder}{}", module.file_name(target));
     let text = module.text(target)?;
     validate(target, &path, &text)?;
-    let text = match module.form(target)? {
+    let text = match module.form(target) {
         Some(form) => (form.text)(&module.name, text),
         None => text,
     };

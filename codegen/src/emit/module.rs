@@ -41,7 +41,7 @@ pub struct Module {
     pub constants: Vec<Constants>,
     /// How the functions take and return arrays; a language's own way if it is left open.
     pub arrays: Option<Arrays>,
-    /// The form of the file; a language's own if it is left open.
+    /// The form of the file; a language's own if it is left open, or the language does not know it.
     pub form: Option<&'static str>,
 }
 
@@ -69,28 +69,14 @@ impl Module {
 
 impl Module {
     /// Returns the form of the file in a language, if it is not the language's own.
-    ///
-    /// # Errors
-    ///
-    /// If the language does not know the form.
-    pub fn form(&self, target: Target) -> Result<Option<&'static Form>, Limit> {
-        let Some(name) = self.form else { return Ok(None) };
-        target.form(name).map(Some).ok_or_else(|| Limit {
-            spec: self.name.clone(),
-            target,
-            why: format!("{} has no form `{name}`", target.title),
-            help: "leave `form` out, or name another target".to_owned(),
-        })
+    pub fn form(&self, target: Target) -> Option<&'static Form> {
+        self.form.and_then(|name| target.form(name))
     }
 
     /// Returns what the file is called in a language, with its extension.
-    ///
-    /// # Errors
-    ///
-    /// As [`Module::form`].
-    pub fn file_name(&self, target: Target) -> Result<String, Limit> {
-        let extension = self.form(target)?.map_or(target.extension, |form| form.extension);
-        Ok(format!("{}.{extension}", self.name))
+    pub fn file_name(&self, target: Target) -> String {
+        let extension = self.form(target).map_or(target.extension, |form| form.extension);
+        format!("{}.{extension}", self.name)
     }
 }
 

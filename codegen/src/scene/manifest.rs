@@ -37,7 +37,7 @@ struct Manifest {
     arrays: Option<Placed<String>>,
     /// The form of the files for what takes them in: `naga_oil` (WGSL with its import path), `wesl` (WGSL as a module of a
     /// WESL package), `bare` (WGSL or GLSL without comments and guards, for wgslFn and glslFn of three.js); each language's
-    /// own if it is left out.
+    /// own if it is left out, and in languages that do not know it.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::FormName>"))]
     form: Option<Placed<String>>,
     /// The folder to write to, relative to the folder that zonal runs in, which it may not leave; `zonal-out/` and the name
@@ -335,20 +335,19 @@ fn arrays(text: &Located<String>, targets: &[Target]) -> Result<Arrays, Diagnost
     }
 }
 
-/// Returns the form of this name, which every target knows.
+/// Returns the form of this name, which a target knows at least.
 pub(crate) fn form(text: &Located<String>, targets: &[Target]) -> Result<&'static str, Diagnostic> {
     let Located { value, place } = text;
     let names = language::forms();
     let Some(&name) = names.iter().find(|name| *name == value) else {
         return Err(Diagnostic::at(place, format!("`{value}` is no form of a file"), hint(value, &names)));
     };
-    match targets.iter().find(|target| target.form(name).is_none()) {
-        None => Ok(name),
-        Some(target) => {
-            let message = format!("{} has no form `{name}`", target.title);
-            Err(Diagnostic::at(place, message, fewer(|target| target.form(name).is_some())))
-        }
+    if targets.iter().any(|target| target.form(name).is_some()) {
+        return Ok(name);
     }
+    let titles: Vec<&str> = targets.iter().map(|target| target.title).collect();
+    let message = format!("{} has no form `{name}`", titles.join(" or "));
+    Err(Diagnostic::at(place, message, fewer(|target| target.form(name).is_some())))
 }
 
 /// What to do where a target cannot do what others can.

@@ -96,7 +96,7 @@ pub struct Scene {
     pub targets: Vec<Target>,
     /// How kernels take and return arrays, if it is said.
     pub arrays: Option<Arrays>,
-    /// The form of the files, if it is not each language's own; every target knows it.
+    /// The form of the files, if it is not each language's own; a target knows it at least.
     pub form: Option<&'static str>,
     /// The output folder, relative.
     pub output: String,

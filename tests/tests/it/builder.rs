@@ -1,7 +1,7 @@
 //! The builder: the same files as the command line, pure until it writes, errors that say where.
 
 use zonal_codegen::builder::{Builder, Error};
-use zonal_codegen::emit::language::{ALL, RUST, WGSL};
+use zonal_codegen::emit::language::{ALL, GLSL, RUST, WGSL};
 use zonal_codegen::emit::validate::validate;
 use zonal_codegen::files::{Difference, File};
 use zonal_tests::command::Folder;
@@ -47,12 +47,15 @@ fn forms_of_files() {
     let out = folder.path("out");
     assert_eq!(of("bare").write(&out).expect("writable"), 2);
     assert_eq!(of("bare").spec("eval:4").write(&out).expect("writable"), 2);
-    let every = Builder::new("light").spec("eval:3");
+    let every = Builder::new("light").spec("eval:3").form("wesl").generate().expect("WGSL has it");
+    let paths: Vec<&str> = every.iter().map(|file| file.path.as_str()).collect();
+    assert_eq!(paths, ["light.wesl", "light.glsl", "light.rs", "light.md"]);
+    let glsl = Builder::new("light").spec("eval:3").target(&GLSL);
     assert_eq!(
-        message(every.clone().form("naga_oil")),
+        message(glsl.clone().form("naga_oil")),
         "Builder::form:1:1: GLSL has no form `naga_oil`; leave it out, or write `targets = [\"wgsl\"]`"
     );
-    assert!(message(every.form("naga")).contains("`naga` is no form of a file"));
+    assert!(message(glsl.form("naga")).contains("`naga` is no form of a file"));
 }
 
 #[test]

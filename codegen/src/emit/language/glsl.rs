@@ -18,8 +18,8 @@ pub static GLSL: Language = Language {
         extension: "glsl",
         what: form::BARE_WHAT,
         text: |_, text| {
-            // Precision is always said: GLSL from 1.30 on takes it, whether it is ES or not.
-            form::bare(&text, |line| line.starts_with('#')).replace(HIGHP, "highp")
+            // The statements in bodies stay, since GLSL from 1.30 on takes them, ES or not.
+            form::bare(&text, |line| line.starts_with('#')).replace(&format!("{HIGHP} "), "")
         },
     }],
     single: Float { name: "float", literal: shader::literal, tiny: "1e-15" },
