@@ -1,10 +1,10 @@
-// Lights normals by three.js's own shader and by a kernel of zonal, in WebGL2, and prints both as JSON on the standard
-// output; what must hold of them is written in tests/gpu/tests/it/three.rs.
+// Asks the page below `three` what three.js does, and prints its answer as JSON on the standard output; what must hold of
+// it is written in tests/gpu/tests/it/three.rs.
 //
-//     node three.mjs WORK
+//     node three.mjs WORK lit|probed
 //
-// WORK holds `job.json`: `normals`, `probe` (the coefficients of a light probe), `coefficients` and the `kernel` that
-// takes them, in GLSL, with its `name`.
+// WORK holds `job.json`. To have normals lit by three.js's own shader and by a kernel of zonal, in WebGL2: `normals`, `probe` (the coefficients of a light probe), `coefficients` and the `kernel` that
+// takes them, in GLSL, with its `name`. For the light probe of a cubemap: `faces`, the bytes of six images.
 
 import { access, readFile } from "node:fs/promises";
 import { dirname, join } from "node:path";
@@ -21,9 +21,9 @@ const browser = await launch();
 try {
   const { page, errors } = await open(browser, `${server.url}/three/`);
   await page.waitForFunction(() => window.lit);
-  const lit = await page.evaluate((given) => window.lit(given), job);
+  const answer = await page.evaluate(([what, given]) => window[what](given), [process.argv[3], job]);
   if (errors.length) throw new Error(errors.join("\n"));
-  process.stdout.write(JSON.stringify(lit));
+  process.stdout.write(JSON.stringify(answer));
 } finally {
   await browser.close();
   await server.close();

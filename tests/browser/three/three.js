@@ -1,7 +1,9 @@
-// A row of pixels, one a normal: lit by a light probe through three.js's material, and by zonal's kernel through a material
+// `lit`: a row of pixels, one a normal: lit by a light probe through three.js's material, and by zonal's kernel through a material
 // whose shader is the kernel. Both see the world's normals through the same camera.
+// `probed`: what three.js makes of a cubemap.
 
-import * as three from "../node_modules/three/build/three.module.js";
+import * as three from "three";
+import { LightProbeGenerator } from "three/addons/lights/LightProbeGenerator.js";
 
 /** Quads side by side that face the camera, each with one normal at all of its corners. */
 function quads(normals) {
@@ -13,6 +15,13 @@ function quads(normals) {
   geometry.setAttribute("normal", attribute(normals.flatMap((normal) => corners.map(() => normal))));
   return geometry;
 }
+
+/** The coefficients of a light probe of six faces, which are the bytes of images, as three.js's own generator makes it. */
+window.probed = async ({ faces }) => {
+  const urls = faces.map((bytes) => URL.createObjectURL(new Blob([new Uint8Array(bytes)])));
+  const texture = await new three.CubeTextureLoader().loadAsync(urls);
+  return LightProbeGenerator.fromCubeTexture(texture).sh.toArray();
+};
 
 window.lit = ({ normals, probe, coefficients, kernel, name }) => {
   const renderer = new three.WebGLRenderer();

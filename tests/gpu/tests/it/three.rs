@@ -21,10 +21,11 @@ fn coefficients(folder: &Folder, arguments: &[&str]) -> Value {
     printed["coefficients"].clone()
 }
 
-fn lit(work: &Folder, job: &Value) -> Value {
+/// What the page of three.js answers to a job.
+fn asked(work: &Folder, what: &str, job: &Value) -> Value {
     work.put("job.json", job.to_string());
     let mut node = Command::new("node");
-    let output = node.arg(repository("tests/browser/three.mjs")).arg(work.path("")).output();
+    let output = node.arg(repository("tests/browser/three.mjs")).arg(work.path("")).arg(what).output();
     let output = output.unwrap_or_else(|_| panic!("{}", missing("Node", "nodejs npm")));
     assert!(output.status.success(), "the browser's script fails:\n{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).expect("the script prints JSON")
@@ -59,7 +60,7 @@ fn a_light_probe_of_three_js_and_a_kernel_give_one_irradiance() {
             "kernel": shown.out,
             "name": "sh3_eval_rgb",
         });
-        difference(&lit(&work, &job))
+        difference(&asked(&work, "lit", &job))
     };
     let right = with(&["--convention", "three_js"], &["--axes", "three_js"]);
     assert!(right < TOLERANCE, "{right:e}");
@@ -67,6 +68,53 @@ fn a_light_probe_of_three_js_and_a_kernel_give_one_irradiance() {
     let wrong = [with(&["--axes", "three_js"], &["--axes", "three_js"]), with(&["--convention", "three_js"], &[])];
     assert!(wrong.iter().all(|&wrong| wrong > 0.1), "{wrong:?}");
     println!("three.js's light probe and the kernel differ by {right:e}");
+}
+
+/// A face of a cubemap as a PNG: its number in red, its columns in green and its rows in blue.
+fn face(number: u8) -> Vec<u8> {
+    const SIDE: u8 = 32;
+    let texels = (0..SIDE).flat_map(|y| (0..SIDE).flat_map(move |x| [40 * number + 30, 30 + 7 * x, 30 + 5 * y]));
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, SIDE.into(), SIDE.into());
+    encoder.set_color(png::ColorType::Rgb);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&texels.collect::<Vec<u8>>()));
+    written.expect("memory takes any image");
+    bytes
+}
+
+/// three.js sums a texel at its centre, zonal over its area: by the second order in the width of 32 texels, a thousandth.
+#[test]
+fn a_cubemap_is_seen_mirrored_as_three_js_shows_it() {
+    let _turn = crate::turn();
+    let work = Folder::new();
+    let names = ["px", "nx", "py", "ny", "pz", "nz"];
+    let faces: Vec<Vec<u8>> = (0..)
+        .zip(names)
+        .map(|(number, name)| {
+            let bytes = face(number);
+            std::fs::create_dir_all(work.path("faces")).expect("can be made");
+            std::fs::write(work.path(&format!("faces/{name}.png")), &bytes).expect("can be written");
+            bytes
+        })
+        .collect();
+    let own: Vec<f64> = serde_json::from_value(asked(&work, "probed", &json!({ "faces": faces }))).expect("numbers");
+    let zonal = |axes: &str| -> Vec<f64> {
+        let run = work.run(["project", "faces", "--order", "3", "--json", "--convention", "three_js", "--axes", axes]);
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        let printed: Value = serde_json::from_str(&run.out).expect("prints JSON");
+        let rows: Vec<[f64; 3]> = serde_json::from_value(printed["coefficients"].clone()).expect("rows of three");
+        rows.into_iter().flatten().collect()
+    };
+    let difference = |axes: &str| {
+        let zonal = zonal(axes);
+        assert_eq!((own.len(), zonal.len()), (27, 27));
+        let largest = own.iter().map(|value| value.abs()).fold(0.0, f64::max);
+        own.iter().zip(&zonal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
+    };
+    let (right, wrong) = (difference("-x,z,y"), difference("x,z,y"));
+    assert!(right < 1e-3, "{right:e}");
+    assert!(wrong > 0.05, "{wrong:e}");
+    println!("three.js's probe of a cubemap differs by {right:e}");
 }
 
 #[test]
