@@ -76,7 +76,7 @@ enum Command {
         /// Only this family.
         #[arg(long, value_parser = family_names())]
         family: Option<String>,
-        /// Only this order.
+        /// Only this order; the catalogue has 2 to 10, and `show` prints others.
         #[arg(long, value_parser = clap::value_parser!(u64).range(2..=10))]
         order: Option<u64>,
         /// Prints JSON.

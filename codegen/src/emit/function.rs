@@ -3,6 +3,7 @@
 use crate::emit::body::Body;
 use crate::emit::dialect::{Dialect, Laid};
 use crate::emit::docs;
+use crate::emit::language::{self, Target};
 use crate::emit::loop_body;
 use crate::emit::module::{Function, Limit};
 use crate::emit::parts::{self, PartText, Whole};
@@ -61,9 +62,14 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    fn too_long(&self, size: usize, what: &str, limit: usize) -> Limit {
-        let why = format!("{size} {what}, and {limit} is the most that compilers take");
-        self.function.limit(self.dialect.language, why, "take a lower order, or another method".to_owned())
+    /// Refuses a text of so many of `what`, of which a language's compilers take `most`.
+    fn too_long(&self, size: usize, what: &str, most: impl Fn(Target) -> usize) -> Limit {
+        let language = self.dialect.language;
+        let why = format!("{size} {what}, and {} is the most that compilers take", most(language));
+        let able = language::ALL.iter().filter(|language| size <= most(language)).map(|able| format!("`{able}`"));
+        let able = able.collect::<Vec<_>>().join(" or ");
+        let other = if able.is_empty() { String::new() } else { format!(", or the target {able} alone") };
+        self.function.limit(language, why, format!("take a lower order or another method{other}"))
     }
 
     /// The lines of a listing, to its result. `part` is for the names of its parts, if it is cut.
@@ -71,7 +77,7 @@ impl Printer<'_> {
         let (dialect, language) = (self.dialect, self.dialect.language);
         let body = Body::new(listing, dialect);
         if body.lines.len() > language.max_statements {
-            return Err(self.too_long(body.lines.len(), "statements", language.max_statements));
+            return Err(self.too_long(body.lines.len(), "statements", |target| target.max_statements));
         }
         let mut lines: Vec<String> = match (&language.generic, language.chunk) {
             (Some(generic), Some(chunk)) => {
@@ -166,7 +172,7 @@ impl Function {
             }
             Code::Loop(kernel) => {
                 if let Some(table) = loop_body::too_long(kernel, language) {
-                    return Err(printer.too_long(table.values.len(), "values in a table", language.max_table));
+                    return Err(printer.too_long(table.values.len(), "values in a table", |target| target.max_table));
                 }
                 let mut printed = loop_body::print(kernel, dialect, &name.to_uppercase());
                 tables = printed.tables;
