@@ -32,7 +32,7 @@ pub fn generate(path: Option<&Path>, folder: Option<PathBuf>, replace: Replace) 
         text += &format!("  {} ({} bytes)\n", folder.join(&file.path).display(), file.text.len());
     }
     text += &format!(
-        "\n{} files, all validated, {changed} of them changed, in {:.2} s. `{}.md` tells what each kernel costs and why it was chosen.\n",
+        "\n{} files, validated, of which {changed} were new or changed, in {:.2} s. `{}.md` tells what each kernel costs and why it was chosen.\n",
         files.len(),
         start.elapsed().as_secs_f64(),
         plan.scene

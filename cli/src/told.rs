@@ -33,17 +33,18 @@ fn kernel(chosen: &Chosen, light: Option<&EnvironmentPlan>) -> String {
     }
     let channels = if row.channels == 3 { " for R, G and B together" } else { "" };
     text += &format!(
-        "  It takes {} multiplications, additions or multiply-adds{channels}{special}. In f32 it rounds off {} of {} at most.\n",
+        "  It takes {} multiplications, additions or multiply-adds{channels}{special}. In f32 rounding is {} of {} at most, {}.\n",
         row.cost.total,
         short(row.accuracy.rounding_f32),
-        row.accuracy.relative_to
+        row.accuracy.relative_to,
+        if row.accuracy.proven { "which is proven" } else { "three times the worst that was measured" },
     );
     if let (Some(error), Some(angle)) = (chosen.method_error.filter(|error| *error > 1e-12), chosen.max_angle) {
         let of = chosen.norm.map_or("of the worst band's norm", |norm| norm.meaning());
         text += &format!("  It is an approximation: at {angle} degrees it errs by {} {of}", percent(error));
         text += &match (chosen.seen_error, light) {
             (Some(seen), Some(light)) => format!(
-                "; of what is seen that is {}, beside the {} that the order leaves out: {} together.\n",
+                "; of what one sees that is {}. With the {} that the order leaves out it is {}, since their squares add.\n",
                 percent(seen),
                 percent(light.error()),
                 percent(seen.hypot(light.error()))

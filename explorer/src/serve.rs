@@ -41,7 +41,7 @@ pub fn explore(own: &Own, folder: Option<PathBuf>, port: u16, serves: bool, repl
     drop(bar);
     let megabytes = assets.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() as f64 / 1e6;
     out(&format!(
-        "{} files in `{}`, {megabytes:.0} MB, {changed} of them changed, in {:.1} s\n",
+        "{} files in `{}`, {megabytes:.0} MB, of which {changed} were new or changed, in {:.1} s\n",
         assets.len(),
         folder.display(),
         start.elapsed().as_secs_f64()

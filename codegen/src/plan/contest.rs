@@ -213,7 +213,7 @@ impl<'a> Contest<'a> {
             kept => format!("the cheapest of {kept} that keep"),
         };
         let reason = format!(
-            "{which} an error of {}, of {} ways to {} by up to {} degrees{}",
+            "{which} the scene's `max_error` of {}, of {} ways to {} by up to {} degrees{}",
             max_error.value,
             self.entries.len(),
             match self.rotation.kind {

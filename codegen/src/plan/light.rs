@@ -32,8 +32,8 @@ pub fn lamps(lamps: &Lamps) -> Option<String> {
     };
     lamps.are_small().then(|| {
         format!(
-            "{}, {texels}, {hold} {} of the map's energy: no low order shows {} as {}, but a surface that is no mirror \
-             blurs it",
+            "{}, {texels}, {hold} {} of the map's energy, its squared radiance over the sphere: no low order shows {} as {}, \
+             but a surface that is no mirror blurs it",
             capital(what),
             percent(lamps.share),
             if lamps.are_one() { "it" } else { "them" },
@@ -46,11 +46,12 @@ pub fn lamps(lamps: &Lamps) -> Option<String> {
 pub fn negative(what: &str, order: usize, found: &Negative) -> String {
     match found.share > 0.0 {
         true => format!(
-            "{what} of order {order} is negative in {} of all directions, down to {} times its mean",
+            "{what} of order {order} has R, G or B below zero in {} of all directions, down to \
+             {} times its mean",
             percent(found.share),
             two_digits(found.least)
         ),
-        false => format!("{what} of order {order} is negative nowhere"),
+        false => format!("{what} of order {order} is below zero nowhere"),
     }
 }
 
@@ -62,7 +63,10 @@ impl EnvironmentPlan {
             (Light::Radiance, Some(_)) => ("all normals and views", "the light that is reflected"),
             (Light::Radiance, None) => ("all directions", "the light"),
         };
-        format!("An error is a root mean square over {over}, relative to {of} with all of its bands")
+        format!(
+            "Errors here are of what one sees: root mean squares over {over}, R, G and B together, as a share of that of \
+             {of} with all of its bands"
+        )
     }
 
     /// What was decided about the order, in a sentence or two.
@@ -74,7 +78,9 @@ impl EnvironmentPlan {
         match (self.relative_to, self.kept) {
             (RelativeTo::AllBands, true) => {
                 format!(
-                    "order {order}: {seen} errs by {}, within the budget of {budget}; order {} would err by {}",
+                    "order {order}, which is bands 0 to {}: {seen} errs by {}, within the scene's budget of {budget}; order {} \
+                     would err by {}",
+                    order - 1,
                     error(order),
                     order - 1,
                     error(order - 1)
@@ -128,7 +134,7 @@ impl EnvironmentPlan {
             ));
         }
         let what = match self.signal {
-            Light::Radiance => "The light",
+            Light::Radiance => "The light itself",
             Light::Irradiance => "The irradiance",
         };
         reasons.push(negative(what, self.order, &self.negative));
@@ -141,8 +147,8 @@ impl EnvironmentPlan {
         let ([coefficients, all], [operations, whole]) = (self.coefficients, self.operations);
         if coefficients < all {
             reasons.push(format!(
-                "Order {} would store {all} coefficients instead of {coefficients}, and an evaluation in RGB would take \
-                 {whole} operations instead of {operations}",
+                "An evaluation in a direction takes {operations} multiplications, additions or multiply-adds for R, G and B \
+                 together, of {coefficients} RGB coefficients; at the most that the scene affords, order {}, {whole} of {all}",
                 self.max_order
             ));
         }

@@ -158,8 +158,8 @@ impl Plan {
                 norm: None,
                 seen_error: None,
                 reason: match wanted.spec.value.split(':').nth(1) {
-                    Some("environment") => "named by the scene, at the order of its environment".to_owned(),
-                    _ => "named by the scene".to_owned(),
+                    Some("environment") => "asked for by the scene, at the order of its light".to_owned(),
+                    _ => "asked for by the scene".to_owned(),
                 },
                 rivals: vec![],
             };

@@ -57,7 +57,7 @@ fn it_says_which_order_and_why() {
         "256 x 128, radiance",
         "One small light, 2 texels of 32768, holds 99.7 % of the map's energy",
         "Of the light itself (a mirror), order 5 leaves out 99.7 %",
-        "The radiance of order 5 is negative in",
+        "The radiance of order 5 has R, G or B below zero in",
         "| diffuse light ",
         "| what `phong:8` reflects ",
         "The coefficients, in the map's radiance times sr^1/2",
@@ -88,7 +88,7 @@ fn it_says_where_an_order_is_negative() {
     assert_eq!(diffuse["negative"]["share"], 0.0);
     assert!(
         run(&[&path("sunset"), "--order", "3", "--irradiance"])
-            .contains("The irradiance of order 3 is negative nowhere")
+            .contains("The irradiance of order 3 is below zero nowhere")
     );
 }
 

@@ -66,7 +66,7 @@ fn a_file_that_zonal_did_not_write_is_replaced_by_force_alone() {
     assert!(lib.contains(MARK), "{lib}");
     // What zonal wrote may be replaced, changed or not.
     folder.put("src/lib.rs", lib.replace("pub fn", "pub  fn"));
-    assert!(works(&folder, &["generate", "s.toml"]).contains("1 of them changed"));
+    assert!(works(&folder, &["generate", "s.toml"]).contains(" 1 were new or changed"));
     assert_eq!(fs::read_to_string(folder.path("src/lib.rs")).expect("written"), lib);
     // A mark far below the head is no mark.
     folder.put("src/lib.rs", format!("{}{MARK}", "// By hand.\n".repeat(100)));
@@ -128,7 +128,7 @@ fn plots_pages_and_sets_spare_what_is_there() {
     spares(&folder, &["explore", "--no-serve", "--out", "d"], "d/index.html");
     works(&folder, &["explore", "--no-serve", "--out", "d", "--force"]);
     folder.put("d/style.css", "of an older version");
-    assert!(works(&folder, &["explore", "--no-serve", "--out", "d"]).contains(" 1 of them changed"));
+    assert!(works(&folder, &["explore", "--no-serve", "--out", "d"]).contains(" 1 were new or changed"));
 }
 
 #[cfg(unix)]
