@@ -366,6 +366,11 @@ impl Spec {
         Self { order, family, methods, bands, rgb: false, form, half: false, factors: None, chosen: vec![] }
     }
 
+    /// The spec of a family of one order, where that is this one.
+    pub fn only(family: &'static Family, order: usize) -> Option<Self> {
+        family.orders.contains(&order).then(|| Self::new(family, order))
+    }
+
     /// The spec for three channels.
     #[must_use]
     pub fn rgb(mut self) -> Self {

@@ -396,7 +396,10 @@ impl FromStr for Spec {
                 name if choices.concat().contains(&name) => {
                     let list = choices.iter().find(|list| list.contains(&name)).expect("is in one of them");
                     if let Some(other) = list.iter().find(|other| spec.has(other)) {
-                        let message = format!("`{other}` and `{name}` exclude each other");
+                        let message = match *other == name {
+                            true => format!("`{name}` stands twice"),
+                            false => format!("`{other}` and `{name}` exclude each other"),
+                        };
                         return Err(option.error(message, "leave one out"));
                     }
                     spec = spec.choosing(name);
