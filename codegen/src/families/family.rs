@@ -238,6 +238,8 @@ pub struct Family {
     pub acts: Acts,
     /// How its error is proven.
     pub proof: Proof,
+    /// The choices of which nothing is proven.
+    pub unproven: &'static [&'static str],
     /// The largest y angle in radians, if it does not take every angle.
     pub max_angle: fn(&Spec) -> Option<f64>,
     /// What the planner may take it for, at an order and for one channel or three.
@@ -280,6 +282,7 @@ impl Family {
         measure: Measure::Bands,
         acts: Acts::Turns,
         proof: Proof::Auto,
+        unproven: &[],
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],
         direction: None,
@@ -415,32 +418,6 @@ impl Spec {
     pub fn of_factors(self, orders: [usize; 2]) -> Self {
         let factors = (orders != [self.order; 2]).then_some(orders);
         Self { factors, ..self }
-    }
-
-    /// The spec with another choice of the family's.
-    ///
-    /// # Panics
-    ///
-    /// If the family has no such choice.
-    #[must_use]
-    pub fn choosing(mut self, choice: &str) -> Self {
-        let lists = self.family.choices;
-        let list = lists.iter().find(|list| list.contains(&choice)).expect("the family has the choice");
-        self.chosen.retain(|chosen| !list.contains(chosen));
-        self.chosen.extend(list.iter().filter(|name| **name == choice));
-        let place = |name: &&str| lists.iter().position(|list| list.contains(name));
-        self.chosen.sort_by_key(place);
-        self
-    }
-
-    /// Returns whether it chooses this.
-    pub fn has(&self, choice: &str) -> bool {
-        self.chosen.contains(&choice)
-    }
-
-    /// Returns the spec of another family of the same order and choices.
-    pub fn sibling(&self, family: &'static Family) -> Self {
-        Self { chosen: self.chosen.clone(), ..Self::new(family, self.order) }
     }
 
     /// Returns the orders of the two factors of a product.

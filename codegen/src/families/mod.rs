@@ -7,6 +7,7 @@ pub mod align;
 pub mod all;
 pub mod axis;
 pub mod basis;
+pub mod choices;
 pub mod convolution;
 pub mod factors;
 pub mod family;

@@ -19,6 +19,9 @@ use crate::math::tables;
 /// The largest order at which the powers of two coordinates replace those of x + iy.
 pub const MAX_FLOOR_ORDER: usize = 8;
 
+/// The largest order at which f32 errs by not more than may be lost to an evaluation: the error doubles with each order.
+pub const MAX_EXACT_ORDER: usize = 6;
+
 /// The axes that may be the linear one in the place of z, as a spec chooses them.
 pub const AXES: &[&str] = &["x", "y"];
 
@@ -34,7 +37,8 @@ pub static EVAL_MONOMIAL: Family = Family {
         let order = spec.order;
         let growth = match order <= MAX_FLOOR_ORDER {
             true => format!(
-                " For directions of unit length alone. The error in f32 doubles with each order: from order 7 on `eval:{order}` is the more exact."
+                " For directions of unit length alone. The error in f32 doubles with each order: from order {} on `eval` is the more exact.",
+                MAX_EXACT_ORDER + 1
             ),
             false => String::new(),
         };

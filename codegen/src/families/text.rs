@@ -1,11 +1,11 @@
 //! Specs as text, `rotate:5:zxzxz:rgb`: read, written, and refused with what to do.
 
 use crate::families::all::ALL;
-use crate::families::factors;
 use crate::families::family::{
     ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
 };
 use crate::families::parts::small_angle::SmallAngle;
+use crate::families::{choices, factors};
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
@@ -220,15 +220,10 @@ pub(crate) fn hint(got: &str, known: &[&str]) -> String {
     }
 }
 
-/// The lists that specs of a name choose from.
-fn choices_of(name: &str) -> &'static [&'static [&'static str]] {
-    ALL.iter().find(|family| family.name == name).map_or(&[], |family| family.choices)
-}
-
 /// The options that some family of a name takes.
 fn option_names(name: &str) -> Vec<&'static str> {
     let any = |takes: fn(&Family) -> bool| ALL.iter().any(|family| family.name == name && takes(family));
-    let mut options: Vec<&str> = choices_of(name).concat();
+    let mut options: Vec<&str> = choices::of_name(name).concat();
     if any(|family| family.has_signal()) {
         options.push("rgb");
     }
@@ -382,7 +377,6 @@ impl FromStr for Spec {
         let (family, methods, options) = parse_head(head.text, order_piece, order, options)?;
         let mut spec = Self { methods, factors, ..Self::new(family, order) };
         let known = method_names(head.text);
-        let choices = choices_of(head.text);
         let mut is_open = !known.is_empty();
         for option in options {
             match option.text {
@@ -393,16 +387,8 @@ impl FromStr for Spec {
                 _ if option.text.starts_with("bands=") => {
                     spec.bands = parse_bands(option, &option.text["bands=".len()..], order)?;
                 }
-                name if choices.concat().contains(&name) => {
-                    let list = choices.iter().find(|list| list.contains(&name)).expect("is in one of them");
-                    if let Some(other) = list.iter().find(|other| spec.has(other)) {
-                        let message = match *other == name {
-                            true => format!("`{name}` stands twice"),
-                            false => format!("`{other}` and `{name}` exclude each other"),
-                        };
-                        return Err(option.error(message, "leave one out"));
-                    }
-                    spec = spec.choosing(name);
+                name if choices::of_name(head.text).concat().contains(&name) => {
+                    spec = spec.also(name).map_err(|[message, help]| option.error(message, help))?;
                 }
                 name if is_open => {
                     if !known.contains(&first_of(option)) {

@@ -60,7 +60,7 @@ fn signals() -> Vec<Vec<f64>> {
                 let other: [f64; 3] = random.unit();
                 let mut across =
                     [y * other[2] - z * other[1], z * other[0] - x * other[2], x * other[1] - y * other[0]];
-                let lean = if i % 8 == 5 { 0.0 } else { 10f64.powi(-(i / 8 % 12)) };
+                let lean = if i % 8 == 5 { 0.0 } else { 0.1f64.powi((i / 8 % 12) as i32) };
                 across.iter_mut().zip(axis).for_each(|(b, a)| *b += lean * a);
                 let size = random.signed();
                 let y = basis.run(&[axis.to_vec()]);
@@ -87,8 +87,8 @@ fn the_bound_is_below_every_value_and_the_direction_holds_the_least() {
     for c in signals() {
         let sampled = table.iter().map(|y| y.iter().zip(&c).map(|(y, c)| y * c).sum()).fold(f64::INFINITY, f64::min);
         let size = norm(&c);
-        // A root that is nearly double is met to 3e-9 in six steps; f32 rounds some twenty times.
-        for (got, close, rounding) in [(in_f64.run(&[c.clone()]), 1e-8, 1e-14), (in_f32.run(&[c.clone()]), 1e-5, 2e-6)]
+        // A root that is nearly double is met to 3e-7 in eight steps; f32 rounds some twenty times.
+        for (got, close, rounding) in [(in_f64.run(&[c.clone()]), 3e-7, 1e-14), (in_f32.run(&[c.clone()]), 1e-5, 2e-6)]
         {
             let dir = &got[1..4];
             assert!(got.iter().all(|x| x.is_finite()) && (norm(dir) - 1.0).abs() < rounding, "{c:?}: {got:?}");
@@ -208,8 +208,8 @@ fn reconstructions_hold_at_their_ends() {
 #[test]
 fn operations_are_those_of_the_derivation() {
     for (text, most, special) in [
-        ("minimum:3", 560, 71),
-        ("lerp_to_dc:3", 530, 72),
+        ("minimum:3", 505, 82),
+        ("lerp_to_dc:3", 460, 82),
         ("window:3", 11, 1),
         ("window:6", 44, 1),
         ("eval_geomerics", 22, 5),

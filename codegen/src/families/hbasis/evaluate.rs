@@ -14,7 +14,7 @@ use crate::math::exact::Exact;
 const H4: Family = Family { orders: 2..=2, ..AT_A_NORMAL };
 /// What the records of six functions have in common.
 const H6: Family = Family { orders: 3..=3, ..AT_A_NORMAL };
-const AT_A_NORMAL: Family = Family { choices: &[NORMALISED], fault: no_half, ..OF_ONE_ORDER };
+const AT_A_NORMAL: Family = Family { choices: &[NORMALISED], unproven: NORMALISED, fault: no_half, ..OF_ONE_ORDER };
 
 /// `h4_basis`.
 pub static H4_BASIS: Family = Family {

@@ -13,7 +13,7 @@ use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::{Builder, Shape};
 
 const LINEAR: Family = Family { orders: 2..=2, ..OF_ONE_ORDER };
-const AT_A_NORMAL: Family = Family { choices: &[NORMALISED], fault: no_half, ..LINEAR };
+const AT_A_NORMAL: Family = Family { choices: &[NORMALISED], unproven: NORMALISED, fault: no_half, ..LINEAR };
 
 /// What three coefficients are.
 const COEFFICIENTS: &str = "the three coefficients of the Half-Life 2 basis";

@@ -24,7 +24,7 @@ pub static EVAL_GEOMERICS: Family = Family {
     name: "eval_geomerics",
     stem: "eval_geomerics",
     what: |_| {
-        "Irradiance by the normal from the four coefficients of irradiance of one channel, as if of a light and an ambient (Geomerics 2015): never negative where band 0 is positive, and not linear in the coefficients. H4 from radiance of order 3 errs as little with as many numbers, by three operations.".to_owned()
+        "Irradiance by the normal from the four coefficients of irradiance of one channel, as if of a light and an ambient (the reconstruction of Geomerics): never negative where band 0 is positive, and not linear in the coefficients. H4 from radiance of order 3 errs as little with as many numbers, by three operations.".to_owned()
     },
     kernel: |_| {
         let mut builder = Builder::new();

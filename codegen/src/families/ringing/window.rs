@@ -1,6 +1,6 @@
 //! Windows of bands that fall with l(l + 1), by a width that is given (docs/MATH.md#ringing).
 
-use crate::families::family::{Acts, Family, Group, Spec};
+use crate::families::family::{Acts, Family, Group, Proof, Spec};
 use crate::families::parts::params::signal;
 use crate::families::parts::zonal::log2_e;
 use crate::ir::graph::{Graph, Id};
@@ -20,6 +20,7 @@ pub static WINDOW: Family = Family {
     group: Group::Irradiance,
     half: false,
     acts: Acts::Bands,
+    proof: Proof::Nothing,
     choices: &[LAPLACIAN],
     what: |spec| {
         let order = spec.order;
