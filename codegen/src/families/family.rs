@@ -41,6 +41,8 @@ pub enum Measure {
     Added,
     /// The value's error against the norm of all coefficients.
     Whole,
+    /// The whole result's error against the norm of the signal: neither need be bands.
+    Norm,
     /// The whole result's error against the product of the norms of its factors, of which there are two or one twice.
     Product,
     /// The error itself: there is no signal.
@@ -216,6 +218,12 @@ pub struct Family {
     pub some_bands: bool,
     /// Whether its two factors may be of other orders than the result.
     pub factors: bool,
+    /// Whether its specs leave the order out and its functions are not called after it, since there is one alone.
+    pub one_order: bool,
+    /// What a spec may choose besides, after its method: of each list one at most.
+    pub choices: &'static [&'static [&'static str]],
+    /// What is wrong with a spec besides, and what to do.
+    pub fault: fn(&Spec) -> Option<[String; 2]>,
     /// Its loop form.
     pub looped: Option<Looped>,
     /// What it says where each band has a method of its own.
@@ -230,10 +238,15 @@ pub struct Family {
     pub acts: Acts,
     /// How its error is proven.
     pub proof: Proof,
+    /// The choices of which nothing is proven.
+    pub unproven: &'static [&'static str],
     /// The largest y angle in radians, if it does not take every angle.
     pub max_angle: fn(&Spec) -> Option<f64>,
     /// What the planner may take it for, at an order and for one channel or three.
     pub does: fn(usize, bool) -> Vec<Does>,
+    /// Where among its results a direction begins that turns with the coefficients that it is found of; none where all that
+    /// is found does.
+    pub direction: Option<usize>,
     /// The function that its results are the zonal coefficients of, where they are those of one.
     pub zonal: Option<ZonalFunction>,
     /// The non-zero entries of its sparse matrix in the bands from 2 on, where that is what its papers count.
@@ -259,6 +272,9 @@ impl Family {
         half: true,
         some_bands: false,
         factors: false,
+        one_order: false,
+        choices: &[],
+        fault: |_| None,
         looped: None,
         by_band: None,
         kernel: |spec| unreachable!("`{}` has no kernel", spec.family.name),
@@ -266,8 +282,10 @@ impl Family {
         measure: Measure::Bands,
         acts: Acts::Turns,
         proof: Proof::Auto,
+        unproven: &[],
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],
+        direction: None,
         zonal: None,
         nonzeros: None,
         shown: |_| vec![],
@@ -275,7 +293,7 @@ impl Family {
 
     /// Whether it has a signal, which may be RGB.
     pub fn has_signal(&self) -> bool {
-        matches!(self.measure, Measure::Bands | Measure::Added | Measure::Whole | Measure::Product)
+        matches!(self.measure, Measure::Bands | Measure::Added | Measure::Whole | Measure::Norm | Measure::Product)
     }
 
     fn key(&self) -> (&str, &str) {
@@ -343,6 +361,8 @@ pub struct Spec {
     pub half: bool,
     /// The orders of the two factors of a product, where they are not the result's.
     pub factors: Option<[usize; 2]>,
+    /// What it chooses of the family's lists, in their order.
+    pub chosen: Vec<&'static str>,
 }
 
 impl Spec {
@@ -350,7 +370,12 @@ impl Spec {
     pub fn new(family: &'static Family, order: usize) -> Self {
         let methods = family.by_band.map_or_else(Vec::new, |by_band| by_band.alone(SmallAngle::Lf3, order));
         let (bands, form) = ((0..order).collect(), Form::Unrolled);
-        Self { order, family, methods, bands, rgb: false, form, half: false, factors: None }
+        Self { order, family, methods, bands, rgb: false, form, half: false, factors: None, chosen: vec![] }
+    }
+
+    /// The spec of a family of one order, where that is this one.
+    pub fn only(family: &'static Family, order: usize) -> Option<Self> {
+        family.orders.contains(&order).then(|| Self::new(family, order))
     }
 
     /// The spec for three channels.
@@ -407,7 +432,11 @@ impl Spec {
 
     /// Whether a kernel in f16 exists.
     pub fn takes_half(&self) -> bool {
-        self.family.half && self.form == Form::Unrolled && self.order <= MAX_HALF_ORDER
+        let half = Self { half: true, ..self.clone() };
+        self.family.half
+            && self.form == Form::Unrolled
+            && self.order <= MAX_HALF_ORDER
+            && (self.family.fault)(&half).is_none()
     }
 
     /// Whether all bands exist.

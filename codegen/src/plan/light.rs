@@ -152,6 +152,7 @@ impl EnvironmentPlan {
                 self.max_order
             ));
         }
+        reasons.extend(self.in_monomials());
         reasons
     }
 

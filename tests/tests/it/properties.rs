@@ -418,9 +418,11 @@ fn f16_errs_by_its_roundoff(spec: &Spec) -> Tried {
     Ok(true)
 }
 
-/// The scalar kernels of a family that the catalogue shows at the orders that are tried.
+/// The kernels of a family that the catalogue shows at the orders that are tried, for one channel.
 pub(crate) fn specs(family: &Family) -> Vec<Spec> {
-    ORDERS.flat_map(family.shown).filter(|spec| !spec.rgb).collect()
+    let mut specs: Vec<Spec> = ORDERS.flat_map(family.shown).map(|spec| spec.base()).collect();
+    specs.dedup();
+    specs
 }
 
 /// The properties of a family's kernels; each contradiction with its kernel and its property.
