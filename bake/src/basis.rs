@@ -1,0 +1,151 @@
+//! What the light of a point is stored as: the names of the bases, the harmonics that are gathered for one, and the kernel
+//! that makes its coefficients of them. The constants are the kernels'.
+
+use std::str::FromStr;
+use zonal_codegen::environment::harmonics::{basis, cosine_lobe};
+use zonal_codegen::families::Spec;
+use zonal_codegen::fault::Fault;
+use zonal_codegen::ir::eval::{Contraction, Program};
+use zonal_codegen::ir::listing::Listing;
+
+/// The kind of a basis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Radiance in spherical harmonics.
+    Radiance,
+    /// Irradiance by the normal, in spherical harmonics.
+    Irradiance,
+    /// Radiance over the normal's hemisphere, in hemispherical harmonics.
+    Hemisphere,
+    /// Irradiance over the normal's hemisphere, in the H-basis or the Half-Life 2 basis.
+    Normals,
+}
+
+/// A basis that irradiance over the hemisphere is stored in.
+struct Named {
+    name: &'static str,
+    coefficients: usize,
+    /// How many bands of radiance it is made of.
+    order: usize,
+    /// The kernel that makes it of them.
+    spec: &'static str,
+}
+
+/// The bases over the hemisphere, whose names stand for themselves.
+const NAMED: [Named; 3] = [
+    Named { name: "h4", coefficients: 4, order: 5, spec: "sh5_to_h4" },
+    Named { name: "h6", coefficients: 6, order: 5, spec: "sh5_to_h6" },
+    Named { name: "hl2", coefficients: 3, order: 3, spec: "sh3_to_hl2" },
+];
+/// The orders of the others.
+pub const ORDERS: std::ops::RangeInclusive<usize> = 2..=10;
+
+/// A basis.
+#[derive(Clone, Debug)]
+pub struct Basis {
+    /// The name, as [`Basis::from_str`] takes it.
+    pub name: String,
+    /// The kind.
+    pub kind: Kind,
+    /// How many bands of radiance are gathered for it.
+    pub order: usize,
+    /// How many coefficients it has.
+    pub coefficients: usize,
+    /// What makes them of the radiance; none if that is scaled by band alone.
+    conversion: Option<Program<f64>>,
+}
+
+impl FromStr for Basis {
+    type Err = Fault;
+
+    /// Reads a name: sh3, irradiance3, hsh3 and so on, h4, h6, hl2.
+    fn from_str(name: &str) -> Result<Self, Fault> {
+        let unknown = || {
+            let (first, last) = (ORDERS.start(), ORDERS.end());
+            let named: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
+            let help = format!(
+                "name sh, irradiance or hsh with an order from {first} to {last}, as in irradiance3, or one of {}",
+                named.join(", ")
+            );
+            Fault::new(format!("there is no basis `{name}`"), help)
+        };
+        if let Some(Named { coefficients, order, spec, .. }) = NAMED.iter().find(|named| named.name == name) {
+            let spec: Spec = spec.parse().map_err(|_| unknown())?;
+            let conversion = Some(Program::new(&Listing::new(&spec.kernel())));
+            let (kind, coefficients, order) = (Kind::Normals, *coefficients, *order);
+            return Ok(Self { name: name.to_owned(), kind, order, coefficients, conversion });
+        }
+        let digits = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
+        let kind = match name.strip_suffix(digits) {
+            Some("sh") => Kind::Radiance,
+            Some("irradiance") => Kind::Irradiance,
+            Some("hsh") => Kind::Hemisphere,
+            _ => return Err(unknown()),
+        };
+        let order: usize = digits.parse().ok().filter(|order| ORDERS.contains(order)).ok_or_else(unknown)?;
+        if digits != order.to_string() {
+            return Err(unknown());
+        }
+        Ok(Self { name: name.to_owned(), kind, order, coefficients: order * order, conversion: None })
+    }
+}
+
+impl Basis {
+    /// Whether its coefficients are of irradiance, which may be divided by π.
+    pub fn is_irradiance(&self) -> bool {
+        matches!(self.kind, Kind::Irradiance | Kind::Normals)
+    }
+
+    /// Writes what is gathered of a direction of the frame, above its horizon: the harmonics of the sphere, or those of the
+    /// hemisphere. `values` has the square of the order.
+    pub fn values(&self, direction: [f64; 3], values: &mut [f64]) {
+        match self.kind {
+            Kind::Hemisphere => {
+                let [x, y, z] = direction;
+                // The harmonics of the hemisphere are those of the sphere at the direction whose height is spread over it.
+                let k = 2.0 * (z / (1.0 + z)).sqrt();
+                basis(self.order, [k * x, k * y, 2.0 * z - 1.0], values);
+                values.iter_mut().for_each(|value| *value *= std::f64::consts::SQRT_2);
+            }
+            _ => basis(self.order, direction, values),
+        }
+    }
+
+    /// Returns the coefficients of what was gathered, a sum a channel for each value.
+    pub fn coefficients(&self, sums: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        match (&self.conversion, self.kind) {
+            (Some(program), _) => {
+                let channel = |k: usize| {
+                    let one: Vec<f64> = sums.iter().map(|sum| sum[k]).collect();
+                    program.run(&[&one], Contraction::Separate)
+                };
+                let [r, g, b] = [0, 1, 2].map(channel);
+                (0..self.coefficients).map(|i| [r[i], g[i], b[i]]).collect()
+            }
+            (None, Kind::Irradiance) => {
+                sums.iter().enumerate().map(|(i, sum)| sum.map(|v| v * cosine_lobe(i.isqrt()))).collect()
+            }
+            _ => sums.to_vec(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_and_others_refused_with_the_list() {
+        for (name, kind, coefficients) in
+            [("sh3", Kind::Radiance, 9), ("irradiance2", Kind::Irradiance, 4), ("hsh10", Kind::Hemisphere, 100)]
+        {
+            let basis: Basis = name.parse().expect("a basis");
+            assert_eq!((basis.kind, basis.coefficients, basis.name.as_str()), (kind, coefficients, name));
+        }
+        for name in ["", "sh", "sh1", "sh11", "sh03", "h5", "H6", "h6 ", "3", "sh3x", "irradiance99999999999999999999"]
+        {
+            let error = name.parse::<Basis>().expect_err("no basis").to_string();
+            assert!(error.contains(&format!("no basis `{name}`")) && error.contains("h4, h6, hl2"), "{error}");
+        }
+    }
+}
