@@ -9,6 +9,8 @@ use zonal_picture::mesh::Model;
 pub const LARGEST: usize = 8192;
 /// How far texture coordinates may lie outside of the lightmap by rounding.
 const SLACK: f32 = 1e-5;
+/// How far beside a triangle a centre may lie by the rounding of its coordinates, as a share of the triangle.
+const BESIDE: f64 = 1e-5;
 
 /// The points of a lightmap's texels.
 #[derive(Clone, Debug)]
@@ -51,7 +53,7 @@ impl Chart {
             });
             for_each_centre(places, size, |place, weights| {
                 // On the edge between two triangles a centre belongs to both.
-                let is_inside = weights.iter().all(|&weight| weight > 1e-6);
+                let is_inside = weights.iter().all(|&weight| weight > BESIDE);
                 chart.overlaps += usize::from(is_inside && inside[place]);
                 inside[place] |= is_inside;
                 if chart.points[place].is_none() {
@@ -94,12 +96,30 @@ impl Chart {
     }
 
     /// The up to eight texels around one.
-    fn around(&self, place: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn around(&self, place: usize) -> impl Iterator<Item = usize> {
         let size = self.size;
         let near = move |i: usize| i.saturating_sub(1)..=(i + 1).min(size - 1);
         let (x, y) = (place % size, place / size);
         near(y).flat_map(move |row| near(x).map(move |column| row * size + column)).filter(move |&i| i != place)
     }
+}
+
+/// Returns what a lightmap holds at a place, between the centres of texels: the mean of the four around it by how near they
+/// are, as a GPU filters.
+pub fn filtered(size: usize, values: &[Vec<[f64; 3]>], [u, v]: [f64; 2]) -> Vec<[f64; 3]> {
+    let last = (size - 1) as f64;
+    let [x, y] = [u, 1.0 - v].map(|x| (x * size as f64 - 0.5).clamp(0.0, last));
+    let (left, top) = (x as usize, y as usize);
+    let (right, bottom) = ((left + 1).min(size - 1), (top + 1).min(size - 1));
+    let (across, down) = (x - left as f64, y - top as f64);
+    let four = [
+        (top * size + left, (1.0 - across) * (1.0 - down)),
+        (top * size + right, across * (1.0 - down)),
+        (bottom * size + left, (1.0 - across) * down),
+        (bottom * size + right, across * down),
+    ];
+    let layer = |i: usize| std::array::from_fn(|k| four.iter().map(|(at, weight)| values[*at][i][k] * weight).sum());
+    (0..values[four[0].0].len()).map(layer).collect()
 }
 
 /// Calls for each texel whose centre lies in a triangle, with what the corners weigh there.
@@ -120,7 +140,7 @@ fn for_each_centre(p: [[f64; 2]; 3], size: usize, mut call: impl FnMut(usize, [f
     for (y, x) in (top..=bottom as usize).flat_map(|y| (left..=right as usize).map(move |x| (y, x))) {
         let at = [x as f64, y as f64];
         let weights = [(p[1], p[2]), (p[2], p[0]), (p[0], p[1])].map(|(a, b)| twice(a, b, at) / area);
-        if weights.iter().all(|&weight| weight >= -1e-9) {
+        if weights.iter().all(|&weight| weight >= -BESIDE) {
             call(y * size + x, weights);
         }
     }

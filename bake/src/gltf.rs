@@ -74,6 +74,10 @@ fn buffer(name: &str, source: Source<'_>, blob: Option<&[u8]>, folder: &Path) ->
 
 fn decode(name: &str, bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
     let gltf = gltf::Gltf::from_slice(bytes).map_err(|error| damaged(name, &error.to_string()))?;
+    let version = &gltf.as_json().asset.version;
+    if !version.starts_with("2.") {
+        return Err(damaged(name, &format!("it is of version {version}")));
+    }
     let mut buffers = Vec::new();
     for source in gltf.buffers() {
         buffers.push(buffer(name, source.source(), gltf.blob.as_deref(), folder)?);

@@ -16,4 +16,5 @@ pub mod model;
 pub mod occluders;
 pub mod output;
 pub mod point;
+pub mod quads;
 pub mod sky;

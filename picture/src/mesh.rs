@@ -384,9 +384,12 @@ impl Faces {
     }
 
     /// The tangents of corners with texture coordinates: the direction in which u grows, summed over the triangles that
-    /// share position, coordinates and the side to which v grows, and that side.
+    /// share position, coordinates, normal and the side to which v grows, and that side.
     fn tangents(&self, normals: &[[f64; 3]]) -> Vec<[[f64; 4]; 3]> {
-        let key = |corner: &Corner, sign: f64| (corner.position, corner.uv.map(|uv| uv.map(f64::to_bits)), sign < 0.0);
+        let key = |corner: &Corner, sign: f64| {
+            let normal = corner.normal.map(|normal| normal.map(f64::to_bits));
+            (corner.position, corner.uv.map(|uv| uv.map(f64::to_bits)), normal, sign < 0.0)
+        };
         let grown: Vec<([f64; 3], f64)> = self
             .corners
             .iter()
