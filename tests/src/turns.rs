@@ -124,7 +124,7 @@ pub fn inverse((domain, list): &Origin) -> Option<Origin> {
         Domain::Angle(_) => vec![-list[0]],
         Domain::HalfSine(_) | Domain::Grey => list.clone(),
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => return None,
-        Domain::Signal | Domain::Direction | Domain::Normal | Domain::Made(_) => return None,
+        Domain::Signal | Domain::Direction | Domain::Normal | Domain::MeanNormal(_) | Domain::Made(_) => return None,
     };
     Some((*domain, inverse))
 }
@@ -150,7 +150,7 @@ pub fn identity((domain, list): &Origin) -> Origin {
         Domain::Phases => [1.0, 0.0].repeat(list.len() / 2),
         Domain::Angle(_) => vec![0.0],
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.clone(),
-        Domain::Signal | Domain::Grey | Domain::HalfSine(_) | Domain::Made(_) => list.clone(),
+        Domain::Signal | Domain::Grey | Domain::HalfSine(_) | Domain::MeanNormal(_) | Domain::Made(_) => list.clone(),
     };
     (*domain, none)
 }
@@ -172,7 +172,8 @@ fn precise(domain: Domain, list: &[f64]) -> Vec<f64> {
             [x, cross(z, x), z].concat()
         }
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.to_vec(),
-        Domain::Signal | Domain::Grey | Domain::Angle(_) | Domain::HalfSine(_) | Domain::Made(_) => list.to_vec(),
+        Domain::Signal | Domain::Grey | Domain::Angle(_) | Domain::HalfSine(_) => list.to_vec(),
+        Domain::MeanNormal(_) | Domain::Made(_) => list.to_vec(),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, lifted, lights, monomial, product, small_turn, tensor, tilt, zhf,
-    zonal, zonal_functions, zxzxz, zyz,
+    about_y, align, axis, basis, convolution, fitted, hbasis, lifted, lights, monomial, product, small_turn, tensor,
+    tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
@@ -71,6 +71,27 @@ pub static ALL: &[&Family] = &[
     &product::zonal::HEMISPHERE_ABOUT,
     &product::zonal::HEMISPHERE_ANGLES,
     &product::zonal::AXIS_ANGLES,
+    &hbasis::evaluate::H4_BASIS,
+    &hbasis::evaluate::H6_BASIS,
+    &hbasis::evaluate::H4_EVAL,
+    &hbasis::evaluate::H4_EVAL_SHARED,
+    &hbasis::evaluate::H6_EVAL,
+    &hbasis::evaluate::H6_EVAL_SHARED,
+    &hbasis::evaluate::H4_TO_MONOMIAL,
+    &hbasis::evaluate::H6_TO_MONOMIAL,
+    &hbasis::evaluate::H4_EVAL_MONOMIAL,
+    &hbasis::evaluate::H6_EVAL_MONOMIAL,
+    &hbasis::evaluate::H6_EVAL_MONOMIAL_SHARED,
+    &hbasis::convert::SH3_TO_H4,
+    &hbasis::convert::SH3_TO_H6,
+    &hbasis::convert::SH5_TO_H4,
+    &hbasis::convert::SH5_TO_H6,
+    &hbasis::half_life::HL2_BASIS,
+    &hbasis::half_life::HL2_EVAL,
+    &hbasis::half_life::SH3_TO_HL2,
+    &hbasis::half_life::HL2_TO_H4,
+    &hbasis::half_life::HL2_TO_VECTOR,
+    &hbasis::half_life::HL2_EVAL_VECTOR,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

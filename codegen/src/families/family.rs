@@ -41,6 +41,8 @@ pub enum Measure {
     Added,
     /// The value's error against the norm of all coefficients.
     Whole,
+    /// The whole result's error against the norm of the signal: neither need be bands.
+    Norm,
     /// The whole result's error against the product of the norms of its factors, of which there are two or one twice.
     Product,
     /// The error itself: there is no signal.
@@ -216,6 +218,12 @@ pub struct Family {
     pub some_bands: bool,
     /// Whether its two factors may be of other orders than the result.
     pub factors: bool,
+    /// Whether its specs leave the order out and its functions are not called after it, since there is one alone.
+    pub one_order: bool,
+    /// What a spec may choose besides, after its method: of each list one at most.
+    pub choices: &'static [&'static [&'static str]],
+    /// What is wrong with a spec besides, and what to do.
+    pub fault: fn(&Spec) -> Option<[String; 2]>,
     /// Its loop form.
     pub looped: Option<Looped>,
     /// What it says where each band has a method of its own.
@@ -259,6 +267,9 @@ impl Family {
         half: true,
         some_bands: false,
         factors: false,
+        one_order: false,
+        choices: &[],
+        fault: |_| None,
         looped: None,
         by_band: None,
         kernel: |spec| unreachable!("`{}` has no kernel", spec.family.name),
@@ -275,7 +286,7 @@ impl Family {
 
     /// Whether it has a signal, which may be RGB.
     pub fn has_signal(&self) -> bool {
-        matches!(self.measure, Measure::Bands | Measure::Added | Measure::Whole | Measure::Product)
+        matches!(self.measure, Measure::Bands | Measure::Added | Measure::Whole | Measure::Norm | Measure::Product)
     }
 
     fn key(&self) -> (&str, &str) {
@@ -343,6 +354,8 @@ pub struct Spec {
     pub half: bool,
     /// The orders of the two factors of a product, where they are not the result's.
     pub factors: Option<[usize; 2]>,
+    /// What it chooses of the family's lists, in their order.
+    pub chosen: Vec<&'static str>,
 }
 
 impl Spec {
@@ -350,7 +363,12 @@ impl Spec {
     pub fn new(family: &'static Family, order: usize) -> Self {
         let methods = family.by_band.map_or_else(Vec::new, |by_band| by_band.alone(SmallAngle::Lf3, order));
         let (bands, form) = ((0..order).collect(), Form::Unrolled);
-        Self { order, family, methods, bands, rgb: false, form, half: false, factors: None }
+        Self { order, family, methods, bands, rgb: false, form, half: false, factors: None, chosen: vec![] }
+    }
+
+    /// The spec of a family of one order, where that is this one.
+    pub fn only(family: &'static Family, order: usize) -> Option<Self> {
+        family.orders.contains(&order).then(|| Self::new(family, order))
     }
 
     /// The spec for three channels.
@@ -395,6 +413,32 @@ impl Spec {
         Self { factors, ..self }
     }
 
+    /// The spec with another choice of the family's.
+    ///
+    /// # Panics
+    ///
+    /// If the family has no such choice.
+    #[must_use]
+    pub fn choosing(mut self, choice: &str) -> Self {
+        let lists = self.family.choices;
+        let list = lists.iter().find(|list| list.contains(&choice)).expect("the family has the choice");
+        self.chosen.retain(|chosen| !list.contains(chosen));
+        self.chosen.extend(list.iter().filter(|name| **name == choice));
+        let place = |name: &&str| lists.iter().position(|list| list.contains(name));
+        self.chosen.sort_by_key(place);
+        self
+    }
+
+    /// Returns whether it chooses this.
+    pub fn has(&self, choice: &str) -> bool {
+        self.chosen.contains(&choice)
+    }
+
+    /// Returns the spec of another family of the same order and choices.
+    pub fn sibling(&self, family: &'static Family) -> Self {
+        Self { chosen: self.chosen.clone(), ..Self::new(family, self.order) }
+    }
+
     /// Returns the orders of the two factors of a product.
     pub fn factor_orders(&self) -> [usize; 2] {
         self.factors.unwrap_or([self.order; 2])
@@ -407,7 +451,11 @@ impl Spec {
 
     /// Whether a kernel in f16 exists.
     pub fn takes_half(&self) -> bool {
-        self.family.half && self.form == Form::Unrolled && self.order <= MAX_HALF_ORDER
+        let half = Self { half: true, ..self.clone() };
+        self.family.half
+            && self.form == Form::Unrolled
+            && self.order <= MAX_HALF_ORDER
+            && (self.family.fault)(&half).is_none()
     }
 
     /// Whether all bands exist.

@@ -1,29 +1,51 @@
-//! Evaluation in monomials: Σ over m of Re or Im (x + iy)^m times a polynomial in z, by Horner's rule. A coefficient costs
-//! one operation a channel, which is the floor for n² free coefficients, and only the powers of x + iy are shared besides
-//! (docs/MATH.md#monomials). The coefficients are turned once, when they are stored, by `to_monomial`.
+//! Evaluation in monomials. To order 8 it is A(x, y) + z B(x, y), any axis in the place of z, by Horner's rule in both: n² − 1
+//! multiply-adds a channel and nothing shared, the floor for n² free coefficients
+//! (docs/MATH.md#evaluation-at-the-floor). Beyond, where the elimination of z² would cost digits, it is Σ over m of Re or
+//! Im (x + iy)^m times a polynomial in z (docs/MATH.md#monomials). The coefficients are turned once, when they are stored,
+//! by `to_monomial`.
 
 use crate::families::family::{Acts, Family, Group, Measure, Spec};
+use crate::families::parts::bivariate;
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::phases::{Phase, turn};
+use crate::families::parts::polynomial::Polynomial;
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
-use crate::math::index::index;
+use crate::math::index::{coefficients, index};
 use crate::math::tables;
+
+/// The largest order at which the powers of two coordinates replace those of x + iy.
+pub const MAX_FLOOR_ORDER: usize = 8;
+
+/// The axes that may be the linear one in the place of z, as a spec chooses them.
+pub const AXES: &[&str] = &["x", "y"];
 
 /// `eval_monomial`.
 pub static EVAL_MONOMIAL: Family = Family {
     name: "eval_monomial",
     stem: "eval_monomial",
     group: Group::Evaluate,
+    choices: &[AXES],
+    fault: axis_fault,
     what: |spec| {
+        let of = spec.sibling(&TO_MONOMIAL);
         let order = spec.order;
+        let growth = match order <= MAX_FLOOR_ORDER {
+            true => format!(
+                " For directions of unit length alone. The error in f32 doubles with each order: from order 7 on `eval:{order}` is the more exact."
+            ),
+            false => String::new(),
+        };
         format!(
-            "The sum of c_i y_i(dir) over the harmonics of order {order}, from the coefficients that `to_monomial:{order}` makes."
+            "The sum of c_i y_i(dir) over the harmonics of order {order}, from the coefficients that `{of}` makes.{growth}"
         )
     },
-    kernel: |spec| eval(spec.order),
+    kernel: |spec| match spec.order <= MAX_FLOOR_ORDER {
+        true => floor(spec),
+        false => columns(spec.order),
+    },
     measure: Measure::Whole,
     shown: |order| Spec::new(&EVAL_MONOMIAL, order).both(),
     ..Family::PLAIN
@@ -34,25 +56,85 @@ pub static TO_MONOMIAL: Family = Family {
     name: "to_monomial",
     stem: "to_monomial",
     group: Group::Evaluate,
+    choices: &[AXES],
+    fault: axis_fault,
     what: |spec| {
+        let of = spec.sibling(&EVAL_MONOMIAL);
         let order = spec.order;
         format!(
-            "From the coefficients of the harmonics of order {order} to those of the monomials that `eval_monomial:{order}` takes; done once, when they are stored."
+            "From the coefficients of the harmonics of order {order} to those of the monomials that `{of}` takes; done once, when they are stored."
         )
     },
-    kernel: |spec| from_harmonics(spec.order),
+    kernel: |spec| match spec.order <= MAX_FLOOR_ORDER {
+        true => to_floor(spec, |_| Exact::one()),
+        false => to_columns(spec.order),
+    },
     acts: Acts::Mixes,
     shown: |order| Spec::new(&TO_MONOMIAL, order).both(),
     ..Family::PLAIN
 };
 
-const LAYOUT: &str = "of z^(l−|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m";
+/// Which axes x, y, z are the two free coordinates and the linear one.
+fn axes(spec: &Spec) -> [usize; 3] {
+    match (spec.has("x"), spec.has("y")) {
+        (true, _) => [1, 2, 0],
+        (_, true) => [0, 2, 1],
+        _ => [0, 1, 2],
+    }
+}
 
-/// The kernel `eval_monomial`: what `eval` returns, from the coefficients of monomials.
-fn eval(order: usize) -> Kernel {
+fn axis_fault(spec: &Spec) -> Option<[String; 2]> {
+    let chosen = AXES.iter().find(|axis| spec.has(axis))?;
+    (spec.order > MAX_FLOOR_ORDER).then(|| {
+        let help = format!("leave `{chosen}` out, or take an order to {MAX_FLOOR_ORDER}");
+        [format!("at order {} monomials are powers of x + iy and z", spec.order), help]
+    })
+}
+
+/// What the coefficients of a spec's monomials are.
+pub fn layout(spec: &Spec) -> String {
+    let [a, b, linear] = axes(spec).map(|axis| ["x", "y", "z"][axis]);
+    format!(
+        "of the monomials by degree d from index d^2 on: {b}^d, {a} {b}^(d-1), ..., {a}^d, then {linear} times those of degree d-1"
+    )
+}
+
+/// The kernel of a sum of all monomials of an order, from their coefficients.
+pub fn floor(spec: &Spec) -> Kernel {
     let mut builder = Builder::new();
     let dir = direction(&mut builder);
-    let c = builder.param("c", Shape::Array(order * order), Domain::Signal, format!("the coefficients {LAYOUT}"));
+    let doc = format!("the coefficients {}", layout(spec));
+    let c = builder.param("c", Shape::Array(spec.order * spec.order), Domain::Signal, doc);
+    let at = axes(spec).map(|axis| dir[axis]);
+    let sum = bivariate::sum(&mut builder.graph, at, &bivariate::monomials(spec.order), &c);
+    builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
+}
+
+/// The kernel that makes the coefficients of [`floor`] of those of harmonics, each band scaled.
+pub fn to_floor(spec: &Spec, scale: impl Fn(usize) -> Exact) -> Kernel {
+    let mut builder = Builder::new();
+    let c = signal(&mut builder, spec.order);
+    let mut place = [0; 3];
+    axes(spec).iter().enumerate().for_each(|(at, &axis)| place[axis] = at);
+    let square = bivariate::on_the_sphere();
+    let functions: Vec<(Id, Polynomial)> = coefficients(spec.order)
+        .zip(&c)
+        .map(|((l, m), &c)| {
+            let harmonic = Polynomial::harmonic(l, m, &Exact::one(), [Exact::zero(), Exact::one()]);
+            (c, bivariate::reduced(&harmonic.scaled(&scale(l)).renamed(place), &square))
+        })
+        .collect();
+    let out = bivariate::converted(&mut builder.graph, &functions, &bivariate::monomials(spec.order));
+    builder.finish(out, Shape::Array(spec.order * spec.order), format!("the coefficients {}", layout(spec)))
+}
+
+const COLUMNS: &str = "of z^(l−|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m";
+
+/// The kernel `eval_monomial` in powers of x + iy.
+fn columns(order: usize) -> Kernel {
+    let mut builder = Builder::new();
+    let dir = direction(&mut builder);
+    let c = builder.param("c", Shape::Array(order * order), Domain::Signal, format!("the coefficients {COLUMNS}"));
     let g = &mut builder.graph;
     let [x, y, z] = [dir[0], dir[1], dir[2]];
     let horner = |g: &mut Graph, m: isize| -> Id {
@@ -73,8 +155,8 @@ fn eval(order: usize) -> Kernel {
     builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
 }
 
-/// The kernel `to_monomial`: coefficients of harmonics to those that `eval_monomial` takes, a triangular map in each m.
-fn from_harmonics(order: usize) -> Kernel {
+/// The kernel `to_monomial` in powers of x + iy, a triangular map in each m.
+fn to_columns(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let c = signal(&mut builder, order);
     let g = &mut builder.graph;
@@ -91,5 +173,5 @@ fn from_harmonics(order: usize) -> Kernel {
             }
         }
     }
-    builder.finish(out, Shape::Array(order * order), format!("the coefficients {LAYOUT}"))
+    builder.finish(out, Shape::Array(order * order), format!("the coefficients {COLUMNS}"))
 }

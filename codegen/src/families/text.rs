@@ -109,8 +109,8 @@ impl Spec {
         (self.family.usual)(self.order, self.rgb)
     }
 
-    /// What the function is called after its prefix `sh<order>_`; unique among specs of one order. It never ends in a
-    /// digit and never holds `__`, since naga renames such names.
+    /// What the function is called after its prefix `sh<order>_`, where it has one; unique among specs of one order. It
+    /// never ends in a digit and never holds `__`, since naga renames such names.
     pub fn stem(&self) -> String {
         let mut name = String::new();
         if !self.is_whole() {
@@ -124,6 +124,9 @@ impl Spec {
             name += &format!("of_sh{a}_and_sh{b}_");
         }
         name += if !self.family.method.is_empty() && self.is_usual() { self.family.name } else { self.family.stem };
+        for choice in &self.chosen {
+            name += &format!("_{choice}");
+        }
         if self.rgb {
             name += "_rgb";
         }
@@ -138,7 +141,7 @@ impl Spec {
 
     /// The function's name in shaders.
     pub fn name(&self) -> String {
-        format!("sh{}_{}", self.order, self.stem())
+        if self.family.one_order { self.stem() } else { format!("sh{}_{}", self.order, self.stem()) }
     }
 }
 
@@ -152,9 +155,19 @@ impl fmt::Display for Spec {
             match (list, family.by_band.map(|by_band| by_band.spelled)) {
                 (Some(list), Some(Spelled::AsFamily)) if !list.contains('+') => write!(f, "{list}:{order}")?,
                 (Some(list), _) => write!(f, "{}:{order}:{list}", family.name)?,
-                (None, _) if family.method.is_empty() || self.is_usual() => write!(f, "{}:{order}", family.name)?,
-                (None, _) => write!(f, "{}:{order}:{}", family.name, family.method)?,
+                (None, _) => {
+                    f.write_str(family.name)?;
+                    if !family.one_order {
+                        write!(f, ":{order}")?;
+                    }
+                    if !family.method.is_empty() && !self.is_usual() {
+                        write!(f, ":{}", family.method)?;
+                    }
+                }
             }
+        }
+        for choice in &self.chosen {
+            write!(f, ":{choice}")?;
         }
         if !self.is_whole() {
             let bands: Vec<String> = self.bands.iter().map(usize::to_string).collect();
@@ -207,10 +220,15 @@ pub(crate) fn hint(got: &str, known: &[&str]) -> String {
     }
 }
 
+/// The lists that specs of a name choose from.
+fn choices_of(name: &str) -> &'static [&'static [&'static str]] {
+    ALL.iter().find(|family| family.name == name).map_or(&[], |family| family.choices)
+}
+
 /// The options that some family of a name takes.
 fn option_names(name: &str) -> Vec<&'static str> {
     let any = |takes: fn(&Family) -> bool| ALL.iter().any(|family| family.name == name && takes(family));
-    let mut options = Vec::new();
+    let mut options: Vec<&str> = choices_of(name).concat();
     if any(|family| family.has_signal()) {
         options.push("rgb");
     }
@@ -352,14 +370,19 @@ impl FromStr for Spec {
             }
             _ => (None, rest),
         };
-        let Some((order_piece, options)) = rest.split_first() else {
-            let help = format!("write it as in `{}:5`", head.text);
-            return Err(head.error(format!("`{text}` names no order"), help));
+        let alone = ALL.iter().find(|family| family.name == head.text && family.one_order);
+        let (order_piece, order, options) = match (alone, rest.split_first()) {
+            (Some(family), _) => (head, *family.orders.start(), rest),
+            (None, Some((piece, options))) => (piece, parse_order(piece)?, options),
+            (None, None) => {
+                let help = format!("write it as in `{}:5`", head.text);
+                return Err(head.error(format!("`{text}` names no order"), help));
+            }
         };
-        let order = parse_order(order_piece)?;
         let (family, methods, options) = parse_head(head.text, order_piece, order, options)?;
         let mut spec = Self { methods, factors, ..Self::new(family, order) };
         let known = method_names(head.text);
+        let choices = choices_of(head.text);
         let mut is_open = !known.is_empty();
         for option in options {
             match option.text {
@@ -369,6 +392,17 @@ impl FromStr for Spec {
                 "f16" => spec.half = true,
                 _ if option.text.starts_with("bands=") => {
                     spec.bands = parse_bands(option, &option.text["bands=".len()..], order)?;
+                }
+                name if choices.concat().contains(&name) => {
+                    let list = choices.iter().find(|list| list.contains(&name)).expect("is in one of them");
+                    if let Some(other) = list.iter().find(|other| spec.has(other)) {
+                        let message = match *other == name {
+                            true => format!("`{name}` stands twice"),
+                            false => format!("`{other}` and `{name}` exclude each other"),
+                        };
+                        return Err(option.error(message, "leave one out"));
+                    }
+                    spec = spec.choosing(name);
                 }
                 name if is_open => {
                     if !known.contains(&first_of(option)) {
@@ -433,7 +467,7 @@ impl Spec {
             let [message, help] = (family.outside)(order);
             return Err(whole.error(message, help));
         }
-        if let Some([message, help]) = factors::fault(self) {
+        if let Some([message, help]) = factors::fault(self).or_else(|| (family.fault)(self)) {
             return Err(whole.error(message, help));
         }
         if let Some(by_band) = &family.by_band

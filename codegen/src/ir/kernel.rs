@@ -152,6 +152,8 @@ pub enum Domain {
     Direction,
     /// A normal, of unit length, on either side of the horizon.
     Normal,
+    /// A mean of normals of unit length, as mip maps have: its length is from this to one.
+    MeanNormal(f64),
     /// A normal of unit length whose z is not negative.
     Hemisphere,
     /// A normal of unit length at most this angle in radians from z.
@@ -290,6 +292,8 @@ impl Domain {
             Self::Signal | Self::Grey => return None,
             Self::Direction => format!("for {name} of unit length"),
             Self::Normal => format!("for every {name} of unit length"),
+            Self::MeanNormal(0.0) => format!("for every {name} of at most unit length"),
+            Self::MeanNormal(least) => format!("for every {name} of a length from {least} to 1"),
             Self::Hemisphere => format!("for every {name} of unit length with {name}.z >= 0"),
             Self::Quaternion => format!("for every unit {name}"),
             Self::Rotation => "for every rotation matrix".to_owned(),

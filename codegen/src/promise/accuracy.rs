@@ -67,13 +67,14 @@ impl Measure {
             Self::Bands | Self::Through(_) => "the norm of a band",
             Self::Added => "the norm of a band, which is one, as is the size of what is added",
             Self::Whole => "the norm of the coefficients, each band of norm one",
+            Self::Norm => "the norm of the coefficients",
             Self::Product => "the product of both factors' norms",
             Self::Absolute => "one",
         }
     }
 
     /// Returns the largest error of `got` in this measure, for inputs whose bands have the norm one or, of a product, for
-    /// signals of which the norms multiply to one; NaN if there is one.
+    /// signals of which the norms multiply to one; before it is divided by [`Measure::size`]. NaN if there is one.
     pub fn error(self, got: &[f64], want: &[f64], order: usize) -> f64 {
         let difference = |range: std::ops::Range<usize>| {
             got[range.clone()].iter().zip(&want[range]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
@@ -82,14 +83,29 @@ impl Measure {
             Self::Bands | Self::Added | Self::Through(_) => {
                 (0..order).map(|l| difference(l * l..(l + 1) * (l + 1))).fold(0.0, larger)
             }
-            Self::Product => difference(0..got.len()),
+            Self::Product | Self::Norm => difference(0..got.len()),
             _ => (0..got.len()).map(|i| difference(i..i + 1)).fold(0.0, larger),
         }
     }
 }
 
-/// Returns what the error of a product is divided by: the norms of its factors, one squared where both are the same.
-pub fn norms(code: &Code, input: &[Vec<f64>]) -> f64 {
+impl Measure {
+    /// Returns what an error in it is divided by, for inputs: the norms of the factors of a product, one squared where both
+    /// are the same; the norm of the signal where it is no bands of norm one; else one.
+    pub fn size(self, code: &Code, input: &[Vec<f64>]) -> f64 {
+        match self {
+            Self::Product => norms(code, input),
+            Self::Norm => {
+                let signals = code.params().iter().zip(input).filter(|(param, _)| param.domain.is_signal());
+                signals.flat_map(|(_, list)| list).map(|x| x * x).sum::<f64>().sqrt()
+            }
+            _ => 1.0,
+        }
+    }
+}
+
+/// The norms of a product's factors, one squared where both are the same.
+fn norms(code: &Code, input: &[Vec<f64>]) -> f64 {
     let factors = code.params().iter().zip(input).filter(|(param, _)| param.domain.is_coefficients());
     let norms: Vec<f64> = factors.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     if let [norm] = norms[..] { norm * norm } else { norms.iter().product() }
@@ -114,7 +130,7 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
             let want = wide.run(&wide_input, contraction);
             let error = measure.error(&meaning.apply(got), &meaning.apply(want), spec.order);
-            if matches!(measure, Measure::Product) { error / norms(code, input) } else { error }
+            error / measure.size(code, input)
         })
         .fold(0.0, larger)
 }

@@ -165,6 +165,14 @@ fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
     match domain {
         Domain::Signal | Domain::Grey => signal(random, len),
         Domain::Direction | Domain::Normal => direction(random, i).to_vec(),
+        Domain::MeanNormal(least) => {
+            let length = match i % 4 {
+                0 | 1 => 1.0,
+                2 => least,
+                _ => least + (1.0 - least) * random.signed().abs(),
+            };
+            direction(random, i).map(|x| x * length).to_vec()
+        }
         Domain::Hemisphere => {
             let [x, y, z] = direction(random, i);
             vec![x, y, z.abs()]

@@ -13,7 +13,7 @@ use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::exact::Exact;
-use zonal_codegen::promise::accuracy::{MARGIN, norms};
+use zonal_codegen::promise::accuracy::MARGIN;
 use zonal_codegen::promise::samples;
 
 /// How many inputs a kernel is run on, at least and at most; both are multiples of [`wrap::GROUP`].
@@ -147,7 +147,7 @@ pub struct Cases {
     result: usize,
     channels: usize,
     by_band: bool,
-    /// What the error of a product of signals is relative to: their norms, where none is scaled.
+    /// What the error of a result that is measured as one is relative to: the norms of the signals, where none is scaled.
     norms: Option<f64>,
     /// How far the result of a subnormal signal may be off: the item itself and each operation may be flushed.
     flushed: f64,
@@ -220,7 +220,8 @@ impl Cases {
             }
         }
         let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
-        let norms = matches!(family.measure, Measure::Product).then(|| norms(&built.code, &samples[0]));
+        let is_one = matches!(family.measure, Measure::Product | Measure::Norm);
+        let norms = is_one.then(|| family.measure.size(&built.code, &samples[0]));
         Self { count, inputs, wanted, result: shape.len(), channels, by_band, norms, flushed }
     }
 

@@ -17,6 +17,7 @@ mod fixture;
 mod found;
 mod goldens;
 mod half;
+mod hbasis;
 mod house;
 mod laws;
 mod lights;

@@ -106,6 +106,7 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
         (Proof::Lobes, _) => Bound::of(&prover.turned_lobes()?, true),
         (Proof::Auto, Measure::Absolute) => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
         (Proof::Auto, Measure::Whole) => prover.sum(&spec.bands).and_then(|both| Bound::of(&[both], false)),
+        (Proof::Auto, Measure::Norm) => prover.vector().and_then(|both| Bound::of(&[both], false)),
         (Proof::Auto, Measure::Through(rotation)) => {
             let rotation = Listing::new(&rotation(spec.order));
             Bound::of(&prover.rotating(&rotation)?.bands()?, true)

@@ -278,6 +278,7 @@ impl<'a> Prover<'a> {
     fn parameter(&self, param: usize) -> Option<Region> {
         let region = match self.listing.params[param].domain.within(self.within) {
             Domain::Direction | Domain::Normal => Region::Sphere,
+            Domain::MeanNormal(0.0) => Region::Ball,
             Domain::Hemisphere => Region::Cap(std::f64::consts::FRAC_PI_2),
             Domain::Tilt(most) => Region::Cap(most * (1.0 + INPUT)),
             Domain::Quaternion => Region::Quaternion,

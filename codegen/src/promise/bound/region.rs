@@ -24,6 +24,8 @@ pub enum Region {
     Small(f64),
     /// Unit vectors (x, y, z).
     Sphere,
+    /// Vectors (x, y, z) of at most unit length.
+    Ball,
     /// Unit vectors at most this angle from z.
     Cap(f64),
     /// Unit quaternions (x, y, z, w).
@@ -136,6 +138,8 @@ impl Region {
             (Self::Small(_), _) => [1, 0, 0],
             (Self::Sphere, Root::Component(2)) => [0, 1, 0],
             (Self::Sphere, _) => [1, 1, 0],
+            (Self::Ball, Root::Component(2)) => [0, 1, 1],
+            (Self::Ball, _) => [1, 1, 1],
             (Self::Cap(_), Root::Component(2)) => [0, 0, 0],
             (Self::Cap(_), _) => [1, 0, 0],
             (Self::Quaternion, Root::Component(i)) => [usize::from(i < 2), 1, usize::from(i >= 2)],
@@ -219,6 +223,20 @@ impl Region {
                     for j in 0..n0 {
                         let [x, y] = turn(j, n0);
                         push(&component(vec![times(sin, x), times(sin, y), z]));
+                    }
+                }
+            }
+            // The length is the cosine of a third angle, of which every sign is met.
+            Self::Ball => {
+                for i in 0..=n1 / 2 {
+                    let [z, sin] = turn(i, n1);
+                    for j in 0..n0 {
+                        let [x, y] = turn(j, n0);
+                        for k in 0..=n2 / 2 {
+                            let [length, _] = turn(k, n2);
+                            let [x, y] = [x, y].map(|x| times(times(sin, x), length));
+                            push(&component(vec![x, y, times(z, length)]));
+                        }
                     }
                 }
             }

@@ -37,6 +37,18 @@ impl Prover<'_> {
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
 
+    /// The whole result as a vector, for a signal of norm one.
+    pub(super) fn vector(&self) -> Option<Both> {
+        let inputs = self.coefficients();
+        let outputs: Vec<Operand> =
+            self.listing.outputs.iter().copied().filter(|&output| self.is_signal(output)).collect();
+        let (_, scalars) = self.cone(&inputs, &outputs)?;
+        let (domain, _) = self.domain(scalars)?;
+        let section = Section::new(self.listing, domain, &inputs, &outputs, |operand| self.start(operand))?;
+        let measure = |run: &Run, mode: usize, enough: f64| section.weights(run, mode).weight_norm(enough);
+        Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
+    }
+
     /// The errors of bands to each of which something is added, for bands of norm one and for numbers of size one that
     /// what is added is linear in: the signals that are single numbers.
     pub(super) fn added(&self) -> Option<Vec<Both>> {
