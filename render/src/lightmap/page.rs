@@ -4,7 +4,7 @@ use crate::canvas::{BRIGHT, Canvas, GROUND, MUTED, Text, difference};
 use crate::figures::{Errors, percent, pixel_errors};
 use crate::frame::Frame;
 use crate::lightmap::room::{RAYS, Room, SIZE};
-use crate::lightmap::seen::{Level, Pixel, Relief, Setup, levels, picture};
+use crate::lightmap::seen::{Lean, Level, Pixel, Relief, Setup, leans, levels, picture};
 use crate::lightmap::ways::Way;
 use crate::tone;
 use indicatif::ProgressBar;
@@ -19,11 +19,11 @@ use zonal_picture::mesh::Mesh;
 /// How the room is looked at.
 pub const CAMERA: Camera = Camera { azimuth: -52.0, elevation: 28.0, distance: 2.6, field: 32.0 };
 /// The size of a picture of the strip.
-pub const TILE: [usize; 2] = [300, 250];
+pub const TILE: [usize; 2] = [200, 168];
 /// Where the boxes stand.
 const SEED: u64 = 5;
 /// How many lights brute force takes for the map.
-const LIGHTS: usize = 4096;
+const LIGHTS: usize = 2048;
 /// At how many places the levels of the normal map are measured.
 const PLACES: usize = 250;
 
@@ -37,6 +37,8 @@ pub struct Report {
     pub baked: Vec<Errors>,
     /// By each way from what reaches the pixel.
     pub own: Vec<Errors>,
+    /// By how far normals lean.
+    pub leans: Vec<Lean>,
     /// By level of the normal map.
     pub levels: Vec<Level>,
     pixels: Vec<Option<Pixel>>,
@@ -83,6 +85,7 @@ impl Report {
             map: name.to_owned(),
             baked: errors(&|pixel, way| pixel.baked[way]),
             own: errors(&|pixel, way| pixel.own[way]),
+            leans: leans(&setup, PLACES),
             levels: levels(&setup, PLACES),
             ways,
             pixels,
@@ -132,26 +135,46 @@ impl Report {
              covers, of the sum over {LIGHTS} lights, into which the map's texels are gathered, of those that nothing hides. \
              Errors are shares of the mean, as in [PICTURES.md](PICTURES.md).\n\n\
              *flat* has no normal map. *hl2*, *h4* and *h6* are irradiance over the hemisphere in the Half-Life 2 basis and the \
-             H-basis, made of radiance in three and in five bands. *sh3* is transferred radiance: the cosine's lobe is turned to \
-             the normal, pixel by pixel. Operations are those of R, G and B.\n\n\
-             | way | coefficients | kernel | operations | from the lightmap: mean | rms | worst | the basis alone: mean | rms |\n\
-             |---|---|---|---|---|---|---|---|---|\n",
+             H-basis, made of radiance in three and in five bands; *ready* are the operations where coefficients were made ready \
+             for the kernel. *sh3* is transferred radiance: the cosine's lobe is turned to the normal, pixel by pixel. \
+             Operations are those of R, G and B.\n\n\
+             | way | coefficients | kernel | operations | ready | from the lightmap: mean | rms | worst | the basis alone: mean | rms |\n\
+             |---|---|---|---|---|---|---|---|---|---|\n",
             self.map
         );
         for (i, way) in self.ways.iter().enumerate() {
             let (baked, own) = (&self.baked[i], &self.own[i]);
             let special = if way.special > 0 { format!(" and {} special", way.special) } else { String::new() };
             let kernel = if way.operations == 0 { "none".to_owned() } else { format!("`{}`", way.spec) };
+            let ready = way.prepared.map_or_else(|| "–".to_owned(), |(spec, total)| format!("{total} (`{spec}`)"));
             let [mean, rms, worst] = [baked.mean, baked.rms, baked.worst].map(percent);
             let (own_mean, own_rms) = (percent(own.mean), percent(own.rms));
             let _ = writeln!(
                 text,
-                "| {} | {} | {kernel} | {}{special} | {mean} | {rms} | {worst} | {own_mean} | {own_rms} |",
+                "| {} | {} | {kernel} | {}{special} | {ready} | {mean} | {rms} | {worst} | {own_mean} | {own_rms} |",
                 way.name, way.coefficients, way.operations
             );
         }
+        self.write_leans(&mut text);
         self.write_levels(&mut text);
         text
+    }
+
+    fn write_leans(&self, text: &mut String) {
+        text.push_str(
+            "\n## What normals lean by\n\n\
+             The root mean square error of each basis alone at normals that are spread evenly around the surface's, within an \
+             angle of it. What `h6` has beyond `h4` grows with the square of the sine of that angle: for a shallow relief the \
+             two are one.\n\n| within |",
+        );
+        self.ways.iter().for_each(|way| {
+            let _ = write!(text, " {} |", way.name);
+        });
+        let _ = write!(text, "\n|---|{}\n", "---|".repeat(self.ways.len()));
+        for lean in &self.leans {
+            let errors: Vec<String> = lean.errors.iter().map(|error| percent(*error)).collect();
+            let _ = writeln!(text, "| {:.0} degrees | {} |", lean.degrees, errors.join(" | "));
+        }
     }
 
     fn write_levels(&self, text: &mut String) {
@@ -161,20 +184,20 @@ impl Report {
              At a distance a pixel covers many normals of the map, and a level of its texture holds their mean, which is \
              shorter than one. Irradiance in `hl2` and `h4` is linear in the normal, so that the mean gives the mean of the \
              irradiance; `h6` has squares besides. The root mean square error against the mean of brute force over all normals \
-             of a texel, with the mean as it is and brought to length one, and by how much the second is larger: its square \
-             against the square of the first. The basis errs on each normal too, which is in both.\n\n\
+             of a texel, with the mean as it is and brought to length one, and how many times larger the second is. What the \
+             basis errs by on each normal is in both.\n\n\
              | level | normals | mean length |",
         );
         for way in &names {
-            let _ = write!(text, " {0}, as it is | {0}, at length one | worse by |", way.name);
+            let _ = write!(text, " {0}, as it is | {0}, at length one | times |", way.name);
         }
         let _ = write!(text, "\n|---|---|---|{}\n", "---|".repeat(3 * names.len()));
         for level in &self.levels {
             let _ = write!(text, "| {} | {} | {:.3} |", level.level, 1u64 << (2 * level.level), level.length);
             for (i, _) in self.ways.iter().enumerate().filter(|(_, way)| way.takes_means) {
                 let (as_it_is, normalised) = (level.as_it_is[i], level.normalised[i]);
-                let worse = percent((normalised / as_it_is).powi(2) - 1.0);
-                let _ = write!(text, " {} | {} | {worse} |", percent(as_it_is), percent(normalised));
+                let times = normalised / as_it_is;
+                let _ = write!(text, " {} | {} | {times:.1} |", percent(as_it_is), percent(normalised));
             }
             text.push('\n');
         }

@@ -15,11 +15,11 @@ use zonal_codegen::promise::samples::Random;
 use zonal_picture::mesh::{self, Mesh, Model};
 
 /// How many texels the lightmap has along a side.
-pub const SIZE: usize = 256;
+pub const SIZE: usize = 128;
 /// How many rays a texel and a vertex casts.
-pub const RAYS: usize = 4096;
-/// How many repetitions of the normal map lie on a unit length of the room.
-const REPEATS: f64 = 1.0;
+pub const RAYS: usize = 2048;
+/// How many repetitions of the normal map lie on a unit length.
+pub const REPEATS: f64 = 0.25;
 /// How large the teapot is, as the radius of the sphere around it.
 const TEAPOT: f64 = 0.3;
 /// Where the floor is.
@@ -88,7 +88,8 @@ impl Room {
         mesh.positions.extend(object.positions.iter().map(placed));
         mesh.normals.extend(&object.normals);
         mesh.tangents.extend(&object.tangents);
-        mesh.uvs.extend(&object.uvs);
+        let repeats = (REPEATS * TEAPOT / mesh::REPEATS) as f32;
+        mesh.uvs.extend(object.uvs.iter().map(|uv| uv.map(|x| x * repeats)));
         mesh.indices.extend(object.indices.iter().map(|i| vertices + i));
         Ok(Self { occluders: Occluders::new(&mesh), mesh, lightmap, chart })
     }
@@ -109,8 +110,6 @@ pub struct Place {
     pub point: Point,
     /// Where it is in the normal map, in repetitions.
     pub uv: [f64; 2],
-    /// How many repetitions of it lie on a unit length there.
-    pub repeats: f64,
     /// What is baked there.
     pub baked: Vec<[f64; 3]>,
 }
@@ -149,8 +148,7 @@ impl Room {
             }
         };
         let uv = mixed(&|i| self.mesh.uvs[i].map(f64::from));
-        let repeats = if corners[0] < self.lightmap.len() { REPEATS } else { mesh::REPEATS / TEAPOT };
-        Some(Place { point: Point::inside(&self.mesh, triangle, weights), uv, repeats, baked: found })
+        Some(Place { point: Point::inside(&self.mesh, triangle, weights), uv, baked: found })
     }
 
     /// Returns what is seen of many pixels, row by row, if anything: those whose surface looks to the camera.

@@ -1,11 +1,12 @@
 //! What pixels show: by brute force over lights that nothing hides, and by each way, from the lightmap and from what is known
 //! at the pixel itself.
 
-use crate::lightmap::room::{Baked, Place, Room};
+use crate::lightmap::room::{Baked, Place, REPEATS, Room};
 use crate::lightmap::ways::Way;
 use rayon::prelude::*;
 use zonal_bake::point::Point;
 use zonal_codegen::environment::harmonics::basis;
+use zonal_codegen::promise::samples::Random;
 use zonal_codegen::scene::picture::Camera;
 use zonal_picture::camera::View;
 use zonal_picture::lights::{Light, Lights};
@@ -16,6 +17,10 @@ use zonal_picture::vector::{add, dot, length, unit};
 const ORDER: usize = 5;
 /// The coarsest level of the normal map that a pixel takes.
 const MAX_LEVEL: u32 = 5;
+/// The least z of the normals of a range.
+const LEAST_Z: [f64; 4] = [0.0, 0.5, 0.8, 0.95];
+/// How many normals a place is looked at with.
+const NORMALS: usize = 16;
 
 /// The relief of the room.
 pub struct Relief {
@@ -111,7 +116,7 @@ pub fn directions(camera: &Camera, [width, height]: [usize; 2]) -> Vec<[f64; 3]>
 fn level(camera: &Camera, size: [usize; 2], place: &Place, relief: &Relief) -> u32 {
     let distance = length(add(place.point.position, -1.0, camera.eye()));
     let pixel = 2.0 * distance * (0.5 * camera.field.to_radians()).tan() / size[1] as f64;
-    let texels = pixel * place.repeats * relief.normals.width as f64;
+    let texels = pixel * REPEATS * relief.normals.width as f64;
     (texels.max(1.0).log2().round() as u32).min(MAX_LEVEL)
 }
 
@@ -148,6 +153,19 @@ pub fn picture(setup: &Setup, size: [usize; 2], tick: impl Fn() + Sync) -> Vec<O
     places.par_iter().map(pixel).collect()
 }
 
+/// Places that are seen, spread over a picture.
+fn some_places(setup: &Setup, count: usize) -> Vec<Place> {
+    let Setup { room, baked, camera, .. } = *setup;
+    let all = room.places(baked, camera.eye(), &directions(camera, [120, 100]));
+    let all: Vec<Place> = all.into_iter().flatten().collect();
+    let step = (all.len() / count).max(1);
+    all.into_iter().step_by(step).take(count).collect()
+}
+
+fn square(v: [f64; 3]) -> f64 {
+    dot(v, v)
+}
+
 /// How far each way is from the mean of brute force over the normals of a texel, level by level.
 #[derive(Clone, Debug)]
 pub struct Level {
@@ -164,15 +182,11 @@ pub struct Level {
 /// Returns the errors of the levels 0 to 5 at places of a picture, so many of them. Light is what reaches the place, in five
 /// bands, so that what a lightmap errs by is in no figure.
 pub fn levels(setup: &Setup, count: usize) -> Vec<Level> {
-    let Setup { room, baked, lights, relief, ways, camera } = *setup;
-    let size = [120, 100];
-    let all: Vec<Place> = room.places(baked, camera.eye(), &directions(camera, size)).into_iter().flatten().collect();
-    let step = (all.len() / count).max(1);
-    let few: Vec<&Place> = all.iter().step_by(step).take(count).collect();
-    let square = |v: [f64; 3]| dot(v, v);
+    let Setup { room, lights, relief, ways, .. } = *setup;
+    let few = some_places(setup, count);
     // Of each place and level: the square of the truth, the length, and each way's two squared errors.
     type Found = (f64, f64, Vec<[f64; 2]>);
-    let of_place = |place: &&Place| -> Vec<Found> {
+    let of_place = |place: &Place| -> Vec<Found> {
         let seen = lit(room, lights, &place.point);
         let own = projected(&seen);
         let of_level = |level: u32| {
@@ -197,4 +211,49 @@ pub fn levels(setup: &Setup, count: usize) -> Vec<Level> {
         }
     };
     (0..=MAX_LEVEL as usize).map(level).collect()
+}
+
+/// How far each way is from brute force at normals that lean no further than some angle.
+#[derive(Clone, Debug)]
+pub struct Lean {
+    /// The angle from the surface's normal, in degrees.
+    pub degrees: f64,
+    /// The relative rms error of each way.
+    pub errors: Vec<f64>,
+}
+
+/// Returns the errors at normals that are spread evenly over 90, 60, 37 and 18 degrees around the surface's, at places of a
+/// picture, so many of them; light as in [`levels`].
+pub fn leans(setup: &Setup, count: usize) -> Vec<Lean> {
+    let ways = setup.ways;
+    let found: Vec<Vec<Vec<f64>>> = some_places(setup, count)
+        .par_iter()
+        .enumerate()
+        .map(|(number, place)| {
+            let seen = lit(setup.room, setup.lights, &place.point);
+            let own = projected(&seen);
+            let mut random = Random::new(number as u64);
+            // The sums of the squares: of each way's errors, then of the truth.
+            let of_range = |least: &f64| {
+                let mut sums = vec![0.0; ways.len() + 1];
+                for _ in 0..NORMALS {
+                    let z = least + (1.0 - least) * 0.5 * (random.signed() + 1.0);
+                    let [x, y] = random.unit::<2>().map(|x| x * (1.0 - z * z).sqrt());
+                    let truth = irradiance(&seen, [x, y, z]);
+                    for (sum, way) in sums.iter_mut().zip(ways) {
+                        *sum += square(add(way.irradiance(&own, [x, y, z], false), -1.0, truth));
+                    }
+                    sums[ways.len()] += square(truth);
+                }
+                sums
+            };
+            LEAST_Z.iter().map(of_range).collect()
+        })
+        .collect();
+    let of_range = |range: usize| {
+        let sum = |i: usize| found.iter().map(|place| place[range][i]).sum::<f64>();
+        let errors = (0..ways.len()).map(|way| (sum(way) / sum(ways.len())).sqrt()).collect();
+        Lean { degrees: LEAST_Z[range].acos().to_degrees(), errors }
+    };
+    (0..LEAST_Z.len()).map(of_range).collect()
 }

@@ -19,6 +19,8 @@ pub struct Way {
     pub spec: &'static str,
     /// How many operations it takes in R, G and B, with what follows it.
     pub operations: usize,
+    /// The kernel that takes coefficients that were made ready for it, with its operations, if there is one.
+    pub prepared: Option<(&'static str, usize)>,
     /// How many roots and reciprocals.
     pub special: usize,
     /// Whether a normal may be a mean that is shorter than one.
@@ -35,8 +37,8 @@ enum Made {
     Lobe(Vec<f64>),
 }
 
-/// What a table calls the ways, with the basis that they store and the kernel that they run: without the normal map, in three
-/// bases over the hemisphere, and by transferred radiance.
+/// What a table calls the ways, with the basis that they store, the kernel that they run and the one for coefficients that were
+/// made ready: without the normal map, and in three bases over the hemisphere.
 const WAYS: [(&str, &str, &str); 4] =
     [("flat", "h4", "h4_eval"), ("hl2", "hl2", "hl2_eval"), ("h4", "h4", "h4_eval"), ("h6", "h6", "h6_eval")];
 
@@ -55,7 +57,8 @@ impl Way {
             Ok((Program::new(&Listing::new(&spec.kernel())), spec))
         };
         let mut ways = Vec::new();
-        for (name, basis, spec) in WAYS {
+        for (name, basis, spec, ready) in WAYS {
+            let prepared = if ready.is_empty() { None } else { Some((ready, program(ready)?.1.code().cost(3).total)) };
             let (kernel, known) = program(spec)?;
             let basis: Basis = basis.parse()?;
             let (cost, is_flat) = (known.code().cost(3), name == "flat");
@@ -63,7 +66,7 @@ impl Way {
             let (coefficients, operations) = if is_flat { (1, 0) } else { (basis.coefficients, cost.total) };
             let (special, takes_means) = (cost.special, !is_flat);
             let made = Made::Basis { basis, is_flat };
-            ways.push(Self { name, coefficients, spec, operations, special, takes_means, kernel, made });
+            ways.push(Self { name, coefficients, spec, operations, prepared, special, takes_means, kernel, made });
         }
         let (kernel, known) = program("tilt:3")?;
         let cost = known.code().cost(1);
@@ -77,6 +80,7 @@ impl Way {
             spec: "tilt:3",
             // The lobe is turned once for all channels, and multiplied with each.
             operations: cost.total + 3 * ORDER * ORDER,
+            prepared: None,
             special: cost.special,
             takes_means: false,
             kernel,
