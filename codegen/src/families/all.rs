@@ -2,14 +2,15 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, hbasis, lifted, lights, monomial, product, small_turn, tensor,
-    tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
+    about_y, align, axis, basis, convolution, fitted, hbasis, irradiance, lifted, lights, monomial, product, ringing,
+    small_turn, tensor, tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
 pub static ALL: &[&Family] = &[
     &basis::BASIS,
     &basis::EVAL,
+    &basis::EVAL_ONCE,
     &monomial::EVAL_MONOMIAL,
     &monomial::TO_MONOMIAL,
     &zyz::ZYZ,
@@ -46,7 +47,8 @@ pub static ALL: &[&Family] = &[
     &zonal_functions::HENYEY_GREENSTEIN,
     &convolution::CONVOLVE,
     &convolution::CONVOLVE_COSINE,
-    &convolution::IRRADIANCE,
+    &irradiance::IRRADIANCE,
+    &irradiance::IRRADIANCE_ONCE,
     &lights::LIGHT_DIRECTIONAL,
     &lights::LIGHT_SPHERE,
     &lights::LIGHT_CONE,
@@ -71,6 +73,8 @@ pub static ALL: &[&Family] = &[
     &product::zonal::HEMISPHERE_ABOUT,
     &product::zonal::HEMISPHERE_ANGLES,
     &product::zonal::AXIS_ANGLES,
+    &irradiance::TO_IRRADIANCE,
+    &irradiance::IRRADIANCE_PREPARED,
     &hbasis::evaluate::H4_BASIS,
     &hbasis::evaluate::H6_BASIS,
     &hbasis::evaluate::H4_EVAL,
@@ -92,6 +96,11 @@ pub static ALL: &[&Family] = &[
     &hbasis::half_life::HL2_TO_H4,
     &hbasis::half_life::HL2_TO_VECTOR,
     &hbasis::half_life::HL2_EVAL_VECTOR,
+    &ringing::minimum::MINIMUM,
+    &ringing::minimum::LERP_TO_DC,
+    &ringing::window::WINDOW,
+    &ringing::probes::EVAL_GEOMERICS,
+    &ringing::probes::EVAL_ZH3,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

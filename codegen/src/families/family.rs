@@ -242,6 +242,9 @@ pub struct Family {
     pub max_angle: fn(&Spec) -> Option<f64>,
     /// What the planner may take it for, at an order and for one channel or three.
     pub does: fn(usize, bool) -> Vec<Does>,
+    /// Where among its results a direction begins that turns with the coefficients that it is found of; none where all that
+    /// is found does.
+    pub direction: Option<usize>,
     /// The function that its results are the zonal coefficients of, where they are those of one.
     pub zonal: Option<ZonalFunction>,
     /// The non-zero entries of its sparse matrix in the bands from 2 on, where that is what its papers count.
@@ -279,6 +282,7 @@ impl Family {
         proof: Proof::Auto,
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],
+        direction: None,
         zonal: None,
         nonzeros: None,
         shown: |_| vec![],

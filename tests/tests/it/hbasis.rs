@@ -2,7 +2,11 @@
 //! are no units or that lie below the horizon get (docs/MATH.md#the-h-basis).
 
 use serde_json::Value;
-use zonal_tests::{Runner, golden, norm, numbers, spec};
+use std::f64::consts::PI;
+use zonal_codegen::math::quadrature::gauss_legendre;
+use zonal_codegen::promise::samples::Random;
+use zonal_picture::normal_map::NormalMap;
+use zonal_tests::{Runner, golden, norm, numbers, repository, spec};
 
 fn run(text: &str, inputs: &[Vec<f64>]) -> Vec<f64> {
     Runner::<f64>::new(&spec(text)).run(inputs)
@@ -183,5 +187,119 @@ fn specs_without_an_order_read_back_and_name_functions_without_one() {
     ] {
         let error = text.parse::<zonal_codegen::families::Spec>().expect_err(text);
         assert!(error.message.contains(message) && error.help.contains(help), "{text}: {error}");
+    }
+}
+
+/// Gauss and Legendre's nodes in z and equal steps around: exact for products of these functions.
+fn over_hemisphere(f: &dyn Fn([f64; 3]) -> Vec<f64>) -> Vec<f64> {
+    let mut sums: Vec<f64> = Vec::new();
+    for (z, weight) in gauss_legendre(8, 0.0, 1.0) {
+        for step in 0..8 {
+            let (sin, cos) = (PI / 4.0 * (f64::from(step) + 0.3)).sin_cos();
+            let s = (1.0 - z * z).sqrt();
+            let values = f([s * cos, s * sin, z]);
+            sums.resize(values.len(), 0.0);
+            sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * PI / 4.0 * value);
+        }
+    }
+    sums
+}
+
+#[test]
+fn both_bases_are_orthonormal_over_the_hemisphere() {
+    for (text, count) in [("h4_basis", 4), ("h6_basis", 6), ("hl2_basis", 3)] {
+        let basis = Runner::<f64>::new(&spec(text));
+        let gram = over_hemisphere(&|dir| {
+            let values = basis.run(&[dir.to_vec()]);
+            values.iter().flat_map(|a| values.iter().map(move |b| a * b)).collect()
+        });
+        for (i, entry) in gram.into_iter().enumerate() {
+            let want = f64::from(u8::from(i / count == i % count));
+            assert!((entry - want).abs() < 1e-13, "{text}: entry {i} is {entry}");
+        }
+    }
+}
+
+/// The mean of H4 over a footprint is H4 at the mean normal; a unit in its place is off. Of H6, whose two quadratic functions
+/// shrink with the square of the length, both are off, the mean by less (docs/MATH.md#the-h-basis).
+#[test]
+fn means_of_normals_are_not_to_be_normalised() {
+    let bytes = zonal_scenes::embedded("normals/0015.webp").expect("embedded");
+    let map = NormalMap::from_bytes("0015.webp", bytes).expect("a normal map");
+    let mut random = Random::new(19);
+    let (mut lengths, mut squares) = (Vec::new(), [[0.0; 2]; 2]);
+    for footprint in 0..64 {
+        let (left, top) = (footprint % 8 * 64, footprint / 8 * 64);
+        let normals: Vec<Vec<f64>> =
+            (0..256).map(|i| map.normals[(top + i / 16) * map.width + left + i % 16].map(f64::from).to_vec()).collect();
+        let mean: Vec<f64> = (0..3).map(|i| normals.iter().map(|n| n[i]).sum::<f64>() / 256.0).collect();
+        lengths.push(norm(&mean));
+        let c: Vec<f64> = (0..6).map(|_| random.signed()).collect();
+        for (which, count) in [4, 6].into_iter().enumerate() {
+            let text = format!("h{count}_eval");
+            let (kernel, unit) =
+                (Runner::<f64>::new(&spec(&text)), Runner::<f64>::new(&spec(&format!("{text}:normalised"))));
+            let c = &c[..count];
+            let at = |runner: &Runner<f64>, n: &[f64]| runner.run(&[n.to_vec(), c.to_vec()])[0];
+            let want = normals.iter().map(|n| at(&kernel, n)).sum::<f64>() / 256.0;
+            let errors = [at(&kernel, &mean) - want, at(&unit, &mean) - want];
+            // Sums of 256 numbers below 4.
+            assert!(which == 1 || errors[0].abs() < 1e-13, "H4 at the mean errs by {:e}", errors[0]);
+            squares[which].iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
+        }
+    }
+    let least = lengths.iter().copied().fold(1.0, f64::min);
+    assert!(least < 0.9, "the map is rough: {least}");
+    let [four, six] = squares.map(|both| both.map(|sum| (sum / 64.0).sqrt()));
+    println!("rms errors as it is and normalised: H4 {four:?}, H6 {six:?}; lengths from {least}");
+    assert!(four[1] > 0.01 && six[0] < 0.5 * six[1], "H4 {four:?}, H6 {six:?}");
+}
+
+/// Whatever is in a normal map, below the horizon and of other lengths, the sums are those of the polynomials.
+#[test]
+fn normals_of_a_map_are_taken_as_they_are() {
+    let bytes = std::fs::read(repository("scenes/normals/0015.webp")).expect("a normal map");
+    let image = image::load_from_memory(&bytes).expect("decodes").into_rgb32f();
+    let all: Vec<[f64; 3]> = image.pixels().map(|pixel| pixel.0.map(|x| f64::from(2.0 * x - 1.0))).collect();
+    let below: Vec<[f64; 3]> = all.iter().copied().filter(|n| n[2] < 0.0).collect();
+    assert_eq!(below.len(), 3, "the map tilts below the horizon");
+    let c = [0.4, -0.7, 0.9, 0.3, -0.5, 0.8];
+    let kernels = ["h6_eval", "h6_eval:shared"].map(|text| Runner::<f64>::new(&spec(text)));
+    let monomial = run("h6_to_monomial", &[c.to_vec()]);
+    for [x, y, z] in below.into_iter().chain(all.into_iter().step_by(997)).chain([[0.0; 3], [0.6, 0.0, -0.8]]) {
+        let (slope, bend) = ((1.5 / PI).sqrt(), (7.5 / PI).sqrt());
+        let h = [
+            (0.5 / PI).sqrt(),
+            -slope * y,
+            slope * (2.0 * z - 1.0),
+            -slope * x,
+            bend * x * y,
+            0.5 * bend * (x * x - y * y),
+        ];
+        let want: f64 = h.iter().zip(c).map(|(h, c)| h * c).sum();
+        for kernel in &kernels {
+            close(&kernel.run(&[vec![x, y, z], c.to_vec()]), &[want], 4e-15, "h6_eval");
+        }
+        close(&run("h6_eval_monomial", &[vec![x, y, z], monomial.clone()]), &[want], 4e-15, "h6_eval_monomial");
+    }
+    // A zero normal stays zero where it is to be a unit.
+    let nothing = vec![0.0; 3];
+    assert_eq!(run("h6_eval:normalised", &[nothing.clone(), c.to_vec()]), run("h6_eval", &[nothing, c.to_vec()]));
+}
+
+/// H4 is the least-squares linear function: no other one is nearer to the irradiance over the hemisphere.
+#[test]
+fn the_coefficients_are_those_of_the_nearest_function() {
+    let mut random = Random::new(7);
+    let radiance: Vec<f64> = (0..9).map(|_| random.signed()).collect();
+    let irradiance = Runner::<f64>::new(&spec("irradiance:3"));
+    for (basis, convert) in [("h4_basis", "sh3_to_h4"), ("h6_basis", "sh3_to_h6"), ("hl2_basis", "sh3_to_hl2")] {
+        let values = Runner::<f64>::new(&spec(basis));
+        let want = over_hemisphere(&|dir| {
+            let e = irradiance.run(&[dir.to_vec(), radiance.clone()])[0];
+            values.run(&[dir.to_vec()]).into_iter().map(|b| b * e).collect()
+        });
+        // A sum of 64 numbers below 30.
+        close(&run(convert, &[radiance.clone()]), &want, 1e-13, convert);
     }
 }
