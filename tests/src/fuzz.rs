@@ -2,6 +2,7 @@
 //! it returns a value or an error.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use zonal_codegen::catalog;
 use zonal_codegen::environment::Map;
@@ -22,6 +23,16 @@ const SCENES: [&str; 4] = [
 /// A mesh with a face of each kind.
 const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
                     f 1 2 3\nf 1/1 2/2 3/3\nf 1//1 2//1 3//1 4//1\nf -1/-1/-1 -2/-2/-1 -3/-3/-1\n";
+/// A scene of one triangle in glTF.
+const GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\
+                    \"nodes\":[{\"mesh\":0,\"scale\":[-2,1,1]}],\
+                    \"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":0},\"indices\":1}]}],\
+                    \"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\
+                    \"min\":[0,0,0],\"max\":[1,1,0]},\
+                    {\"bufferView\":1,\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\"}],\
+                    \"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":3}],\
+                    \"buffers\":[{\"byteLength\":39,\"uri\":\"data:;base64,\
+                    AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC\"}]}";
 /// Plans of products: one by pairs, one with rings.
 const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\ntries = 1\n\
                      pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
@@ -82,6 +93,11 @@ fn kinds() -> Vec<Kind> {
         Kind { name: "png", seeds: vec![png()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "exr", seeds: vec![exr.to_vec()], read: |bytes| drop(Map::from_bytes("fuzz", bytes)) },
         Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| drop(Mesh::from_obj("fuzz", bytes)) },
+        Kind {
+            name: "gltf",
+            seeds: texts(&[GLTF]),
+            read: |bytes| drop(zonal_bake::gltf::read("fuzz", bytes, Path::new("nowhere"))),
+        },
         Kind {
             name: "plans",
             seeds: texts(&[PLANS]),

@@ -39,8 +39,12 @@ enum Made {
 
 /// What a table calls the ways, with the basis that they store, the kernel that they run and the one for coefficients that were
 /// made ready: without the normal map, and in three bases over the hemisphere.
-const WAYS: [(&str, &str, &str); 4] =
-    [("flat", "h4", "h4_eval"), ("hl2", "hl2", "hl2_eval"), ("h4", "h4", "h4_eval"), ("h6", "h6", "h6_eval")];
+const WAYS: [(&str, &str, &str, &str); 4] = [
+    ("flat", "h4", "h4_eval", ""),
+    ("hl2", "hl2", "hl2_eval", "hl2_eval_vector"),
+    ("h4", "h4", "h4_eval", "h4_eval_monomial"),
+    ("h6", "h6", "h6_eval", "h6_eval_monomial"),
+];
 
 /// The order of the transferred radiance.
 const ORDER: usize = 3;
