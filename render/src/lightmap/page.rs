@@ -17,7 +17,7 @@ use zonal_picture::lights::Lights;
 use zonal_picture::mesh::Mesh;
 
 /// How the room is looked at.
-pub const CAMERA: Camera = Camera { azimuth: -52.0, elevation: 28.0, distance: 2.6, field: 32.0 };
+pub const CAMERA: Camera = Camera { azimuth: -48.0, elevation: 26.0, distance: 2.6, field: 29.0 };
 /// The size of a picture of the strip.
 pub const TILE: [usize; 2] = [200, 168];
 /// Where the boxes stand.

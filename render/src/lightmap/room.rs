@@ -43,7 +43,7 @@ pub struct Room {
 fn quads(seed: u64) -> Vec<Quad> {
     let quad = |corner, along, up| Quad { corner, along, up, is_mirrored: false };
     let wall = |from: f64, to: f64, low: f64, high: f64| {
-        quad([from, REACH, FLOOR + low], [0.0, 0.0, high - low], [to - from, 0.0, 0.0])
+        quad([from, REACH, FLOOR + low], [to - from, 0.0, 0.0], [0.0, 0.0, high - low])
     };
     let (window, sill, lintel) = (0.22, 0.25, 0.6);
     let mut all = vec![

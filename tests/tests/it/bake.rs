@@ -6,7 +6,8 @@ use std::f64::consts::PI;
 use zonal_tests::command::{Folder, Run};
 
 /// Two triangles in the plane y = 0, with texture coordinates.
-const PLANE: &str = "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+const PLANE: &str =
+    "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
 /// A folder with a mesh and a uniform map of radiance 1.
 fn folder() -> Folder {
@@ -46,7 +47,10 @@ fn a_lightmap_is_layers_of_an_image_and_says_what_they_are() {
         let about: toml::Table =
             std::fs::read_to_string(folder.path("a.toml")).expect("written").parse().expect("TOML");
         let text = |key: &str| about[key].as_str().expect("text").to_owned();
-        assert_eq!((text("basis"), text("space"), text("convention")), (basis.into(), "tangent".into(), "zonal".into()));
+        assert_eq!(
+            (text("basis"), text("space"), text("convention")),
+            (basis.into(), "tangent".into(), "zonal".into())
+        );
         assert_eq!((about["over_pi"].as_bool(), about["scale"].as_float()), (Some(false), Some(1.0)));
         assert_eq!(text("of"), if basis == "sh3" { "radiance" } else { "irradiance" });
         assert_eq!(about["layers"].as_array().map(Vec::len), Some(layers));
@@ -179,6 +183,7 @@ fn files_of_others_are_spared_and_odd_meshes_taken_with_a_word() {
     assert!(told.contains("note: bare.obj has no texture coordinates, so that the tangents are zonal's own"), "{told}");
     // Two islands on one place.
     folder.put("twice.obj", PLANE.replace("f 1/1 3/3 4/4", "f 1/1 3/2 4/3"));
-    let arguments = ["plane.obj", "--map", "one.hdr", "--lightmap", "8", "--lightmap-uv", "twice.obj", "--basis", "sh2"];
+    let arguments =
+        ["plane.obj", "--map", "one.hdr", "--lightmap", "8", "--lightmap-uv", "twice.obj", "--basis", "sh2"];
     assert!(works(&folder, &arguments).contains("texels lie on two triangles"));
 }
