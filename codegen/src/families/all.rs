@@ -2,7 +2,7 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, lifted, lights, monomial, product, small_turn, tensor, tilt, zhf,
+    about_y, align, axis, basis, convolution, fitted, hemisphere, lifted, lights, monomial, product, small_turn, tensor, tilt, zhf,
     zonal, zonal_functions, zxzxz, zyz,
 };
 
@@ -71,6 +71,20 @@ pub static ALL: &[&Family] = &[
     &product::zonal::HEMISPHERE_ABOUT,
     &product::zonal::HEMISPHERE_ANGLES,
     &product::zonal::AXIS_ANGLES,
+    &hemisphere::evaluate::HSH_BASIS,
+    &hemisphere::evaluate::HSH_EVAL,
+    &hemisphere::evaluate::HSH_EVAL_MONOMIAL,
+    &hemisphere::evaluate::HSH_TO_MONOMIAL,
+    &hemisphere::convert::SH_TO_HSH,
+    &hemisphere::convert::HSH_TO_SH,
+    &hemisphere::convert::HSH_EXTEND,
+    &hemisphere::rotate::Y_LOBE,
+    &hemisphere::rotate::Y_RECORD,
+    &hemisphere::rotate::TILT_LOBE,
+    &hemisphere::rotate::TILT_RECORD,
+    &hemisphere::rotate::ROTATE_LOBE,
+    &hemisphere::rotate::ROTATE_RECORD,
+    &hemisphere::table::ROTATE_TABLE,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -19,11 +19,13 @@ pub enum Group {
     Light,
     /// Products of functions.
     Multiply,
+    /// Hemispherical harmonics.
+    Hemisphere,
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Evaluate,
         Self::Rotate,
         Self::Tilt,
@@ -32,6 +34,7 @@ impl Group {
         Self::Piece,
         Self::Light,
         Self::Multiply,
+        Self::Hemisphere,
     ];
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
@@ -45,6 +48,7 @@ impl Group {
             Self::Piece => "pieces",
             Self::Light => "lighting",
             Self::Multiply => "products",
+            Self::Hemisphere => "hemispheres",
         }
     }
 
@@ -59,6 +63,7 @@ impl Group {
             Self::Piece => "what rotations are made of, about one axis",
             Self::Light => "zonal functions, convolution with them, lights",
             Self::Multiply => "products of functions on the sphere",
+            Self::Hemisphere => "hemispherical harmonics: the basis, sums over it, conversions, rotations",
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod factors;
 pub mod family;
 pub mod fitted;
 pub mod group;
+pub mod hemisphere;
 pub mod lifted;
 pub mod lights;
 pub mod loops;
