@@ -317,14 +317,19 @@ fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>
     Ok(bands)
 }
 
+fn orders() -> String {
+    format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}")
+}
+
 fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
-    let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
-    let order: usize =
-        piece.text.parse().map_err(|_| piece.error(format!("`{}` is no order", piece.text), range.clone()))?;
-    if !(MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
-        return Err(piece.error(format!("order {order} is out of range"), range));
+    in_range(piece, piece.text.parse().map_err(|_| piece.error(format!("`{}` is no order", piece.text), orders()))?)
+}
+
+fn in_range(piece: &Piece<'_>, order: usize) -> Result<usize, SpecError> {
+    match (MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
+        true => Ok(order),
+        false => Err(piece.error(format!("order {order} is out of range"), orders())),
     }
-    Ok(order)
 }
 
 /// The first name of a list of methods.
@@ -386,7 +391,7 @@ impl FromStr for Spec {
         let (order_piece, order, options) = match (alone, rest.split_first()) {
             (Some(family), _) => (head, *family.orders.start(), rest),
             (None, Some((piece, options))) => match factors.filter(|_| converts) {
-                Some([_, order]) => (piece, order, options),
+                Some([_, order]) => (piece, in_range(piece, order)?, options),
                 None => (piece, parse_order(piece)?, options),
             },
             (None, None) => {

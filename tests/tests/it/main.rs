@@ -17,6 +17,8 @@ mod fixture;
 mod found;
 mod goldens;
 mod half;
+mod hemisphere;
+mod hemisphere_rotation;
 mod house;
 mod laws;
 mod lights;

@@ -1,4 +1,4 @@
-//! Hemispherical harmonics at a direction, and sums of them. z is taken as at least 1e-30, which is the only place where pole,
+//! Hemispherical harmonics at a direction, and sums of them. z is taken as at least 1e-36, which is the only place where pole,
 //! horizon and what lies below it are thought of: one inverse square root maps the hemisphere to the sphere, and all else is
 //! the sphere's (docs/MATH.md#hemispherical-harmonics).
 
@@ -83,12 +83,12 @@ pub static HSH_TO_MONOMIAL: Family = Family {
 
 /// Declares the direction.
 fn direction(builder: &mut Builder) -> Vec<Id> {
-    builder.param("dir", Shape::Vec3, Domain::Direction, "the direction, of unit length; its z is taken as at least 1e-30")
+    builder.param("dir", Shape::Vec3, Domain::Direction, "the direction, of unit length; its z is taken as at least 1e-36")
 }
 
-/// z, at least 1e-30, and 1 / √(z² + z). Zero would give zero times infinity.
+/// z, at least 1e-36, and 1 / √(z² + z). Zero would give zero times infinity.
 fn height(g: &mut Graph, z: Id) -> [Id; 2] {
-    let least = g.constant(Exact::ratio(1, BigInt::from(10).pow(30)));
+    let least = g.constant(Exact::ratio(1, BigInt::from(10).pow(36)));
     let z = g.max(z, least);
     let square = g.mul_add(z, z, z);
     [z, g.rsqrt(square)]
