@@ -42,8 +42,8 @@ enum Made {
 const WAYS: [(&str, &str, &str, &str); 4] = [
     ("flat", "h4", "h4_eval", ""),
     ("hl2", "hl2", "hl2_eval", "hl2_eval_vector"),
-    ("h4", "h4", "h4_eval", "h4_eval_monomial"),
-    ("h6", "h6", "h6_eval", "h6_eval_monomial"),
+    ("h4", "h4", "h4_eval:shared", "h4_eval_monomial"),
+    ("h6", "h6", "h6_eval:shared", "h6_eval_monomial:shared"),
 ];
 
 /// The order of the transferred radiance.

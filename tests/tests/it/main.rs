@@ -19,6 +19,8 @@ mod found;
 mod goldens;
 mod half;
 mod hbasis;
+mod hemisphere;
+mod hemisphere_rotation;
 mod house;
 mod irradiance;
 mod laws;
