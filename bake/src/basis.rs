@@ -202,13 +202,14 @@ mod tests {
                 (error, whole) = (error + weight * (value - truth).powi(2), whole + weight * truth * truth);
             }
             let error = f64::sqrt(error / whole);
-            // Hemispherical harmonics hold a constant, bases that are linear in the normal hold this irradiance but for what the
-            // bands of radiance lack; a vector through the origin and harmonics of the sphere at an edge do not.
+            // Hemispherical harmonics hold a constant, and what is linear in the normal holds this irradiance but for the bands
+            // of radiance that are not gathered. Harmonics of the sphere overshoot at its edge, and the best that has no constant
+            // errs by the root of 3/28, which is 0.327.
             let most = match name {
                 "hsh6" => 1e-12,
                 "irradiance3" | "h4" | "h6" => 0.03,
                 "irradiance7" => 0.005,
-                "hl2" => 0.3,
+                "hl2" => 0.33,
                 _ => 0.2,
             };
             assert!(error < most, "{name}: {error}");

@@ -60,7 +60,7 @@ fn signals() -> Vec<Vec<f64>> {
                 let other: [f64; 3] = random.unit();
                 let mut across =
                     [y * other[2] - z * other[1], z * other[0] - x * other[2], x * other[1] - y * other[0]];
-                let lean = if i % 8 == 5 { 0.0 } else { 10f64.powi(-(i / 8 % 12)) };
+                let lean = if i % 8 == 5 { 0.0 } else { 0.1f64.powi((i / 8 % 12) as i32) };
                 across.iter_mut().zip(axis).for_each(|(b, a)| *b += lean * a);
                 let size = random.signed();
                 let y = basis.run(&[axis.to_vec()]);
