@@ -1,4 +1,5 @@
-//! What draws is other programs, so that this one needs no graphics, plots or pages: it finds them and hands over.
+//! What draws and what bakes is other programs, so that this one needs no graphics, plots, pages or rays: it finds them and
+//! hands over.
 
 use std::env::consts::EXE_SUFFIX;
 use std::ffi::OsString;
@@ -17,6 +18,7 @@ struct Helper {
     folder: &'static str,
 }
 
+const BAKER: Helper = Helper { name: "zonal-bake", folder: "bake" };
 const EXPLORER: Helper = Helper { name: "zonal-explorer", folder: "explorer" };
 const RENDERER: Helper = Helper { name: "zonal-render", folder: "render" };
 
@@ -83,6 +85,10 @@ fn replace(command: &mut Command) -> std::io::Result<Result<(), Failure>> {
 
 pub fn render(arguments: Vec<OsString>) -> Result<(), Failure> {
     RENDERER.run(arguments)
+}
+
+pub fn bake(arguments: Vec<OsString>) -> Result<(), Failure> {
+    BAKER.run(arguments)
 }
 
 pub fn explore(arguments: Vec<OsString>) -> Result<(), Failure> {

@@ -1,5 +1,5 @@
-//! The command `zonal`: reads arguments, calls the library, prints. It decides nothing about kernels; what draws is other
-//! programs, to which it hands over.
+//! The command `zonal`: reads arguments, calls the library, prints. It decides nothing about kernels; what draws and what
+//! bakes is other programs, to which it hands over.
 
 mod commands;
 mod hand_over;
@@ -125,6 +125,13 @@ enum Command {
         #[arg(long, default_value_t = 1)]
         seed: u64,
     },
+    /// Bakes the light of a map into the vertices or the lightmap of a mesh: `zonal bake --help`.
+    #[command(disable_help_flag = true)]
+    Bake {
+        /// What `zonal-bake` takes.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
     /// Writes a page that shows the kernels at work, and serves it to this machine: `zonal explore --help`.
     #[command(disable_help_flag = true)]
     Explore {
@@ -177,6 +184,7 @@ fn main() -> ExitCode {
         Command::Project { asked, plot: None, .. } => commands::project(&asked),
         Command::Project { plot: Some(_), .. } => hand_over::same(),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
+        Command::Bake { arguments } => hand_over::bake(arguments),
         Command::Explore { arguments } => hand_over::explore(arguments),
         Command::Render { arguments } => hand_over::render(arguments),
         Command::Catalog { check, dir, force } => commands::catalog(&dir, check, Replace::forced(force)),

@@ -1,7 +1,7 @@
 //! How a command talks to the person who started it: what it prints, what turns meanwhile, how it ends.
 
 use crate::drawn::show;
-use indicatif::{ProgressBar, ProgressFinish};
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -53,6 +53,15 @@ failure_from!(Fault => Diagnostic, GenerateError => Error, FileError => Error);
 /// Something that turns while a command works, on terminals only; it vanishes when it is dropped.
 pub fn progress(message: &str) -> ProgressBar {
     let bar = ProgressBar::new_spinner().with_message(message.to_owned()).with_finish(ProgressFinish::AndClear);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+/// A bar that grows while a command works, on terminals only; it vanishes when it is dropped.
+pub fn bar(message: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} {elapsed}");
+    let bar = ProgressBar::new(1).with_message(message.to_owned()).with_finish(ProgressFinish::AndClear);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
     bar.enable_steady_tick(Duration::from_millis(100));
     bar
 }

@@ -2,9 +2,14 @@
 //! plane, and Wavefront OBJ files, whose missing normals and coordinates are made up. It knows nothing of shading.
 //!
 //! A mesh lies in the unit sphere around the origin, z up. Texture coordinates grow with the tangent (u) and with the
-//! bitangent w · n × t (v); a step of one is one repetition of the map.
+//! bitangent w · n × t (v); a step of one is one repetition of the map. A [`Model`] is a mesh whose vertices are those of its
+//! file, for what is computed for them and handed back.
+
+mod patch;
 
 use super::vector::{across, add, cross, dot, length, unit};
+pub use patch::REPEATS;
+use patch::{Chart, Patch, Vertex};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::io::Cursor;
@@ -12,18 +17,14 @@ use tobj::LoadOptions;
 use zonal_codegen::fault::Fault;
 use zonal_codegen::math::convention::Axes;
 
-/// How many repetitions of a normal map lie on a unit length, where a file has no texture coordinates.
-pub const REPEATS: f64 = 0.5;
 /// Edges where faces meet at a larger angle stay sharp, where a file has no normals.
 const CREASE_DEGREES: f64 = 60.0;
 /// Each triangle of a file without normals is cut into the square of this, and rounded.
 const PARTS: usize = 3;
-/// How much of the way to the curved surface is gone (Boubekeur and Alexa 2008 recommend three quarters).
-const ROUNDING: f64 = 0.75;
 /// The largest file that is read, in bytes: some 250 for each of the triangles that it may hold.
 pub const MAX_BYTES: usize = 1 << 28;
 /// The most triangles of a file.
-const MAX_TRIANGLES: usize = 1 << 20;
+pub const MAX_TRIANGLES: usize = 1 << 20;
 
 /// How many numbers [`Mesh::interleaved`] has of a vertex.
 pub const STRIDE: usize = 12;
@@ -43,13 +44,18 @@ pub struct Mesh {
     pub indices: Vec<u32>,
 }
 
-/// A vertex before it gets a number.
-#[derive(Clone, Copy, Debug)]
-struct Vertex {
-    position: [f64; 3],
-    normal: [f64; 3],
-    tangent: [f64; 4],
-    uv: [f64; 2],
+/// A mesh as its file has it: nothing is rounded off or cut, and what belongs to a vertex can be handed back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// The triangles, moved and scaled into the unit sphere.
+    pub mesh: Mesh,
+    /// Where the vertices are in the file, in its axes and its unit of length.
+    pub places: Vec<[f32; 3]>,
+    /// The second set of texture coordinates, in which every point has a place of its own: v upwards, from 0 to 1. Empty if
+    /// there is none.
+    pub lightmap: Vec<[f32; 2]>,
+    /// Whether the file says how the tangents lie, by texture coordinates or by themselves.
+    pub has_frames: bool,
 }
 
 impl Mesh {
@@ -68,6 +74,7 @@ impl Mesh {
                 normal,
                 tangent: [-y, x, 0.0, 1.0],
                 uv: [repeats * column / COLUMNS as f64, repeats / 2.0 * (1.0 - row / ROWS as f64)],
+                lightmap: [0.0; 2],
             }
         };
         // A triangle at a pole has a pole of its own, whose tangent is that of the middle of its far edge.
@@ -94,8 +101,8 @@ impl Mesh {
         let mut numbers = HashMap::new();
         for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
             let position = [(2.0 * u - 1.0) * half, (2.0 * v - 1.0) * half, 0.0];
-            let vertex = Vertex { position, normal: [0.0, 0.0, 1.0], tangent: [1.0, 0.0, 0.0, 1.0], uv: [u, v] };
-            mesh.push(vertex, &mut numbers);
+            let (normal, tangent) = ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]);
+            mesh.push(Vertex { position, normal, tangent, uv: [u, v], lightmap: [0.0; 2] }, &mut numbers);
         }
         mesh
     }
@@ -120,28 +127,9 @@ impl Mesh {
     ///
     /// As [`Mesh::from_obj`].
     pub fn in_axes(name: &str, text: &[u8], axes: Option<Axes>) -> Result<Self, Fault> {
-        let fault = |message: String, help: &str| Err(Fault::new(format!("{name}: {message}"), help));
-        let options = LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
-        let none = |_: &std::path::Path| Ok(Default::default());
-        let models = match tobj::load_obj_buf(&mut Cursor::new(text), &options, none) {
-            Ok((models, _)) => models,
-            Err(error) => return fault(format!("is no Wavefront OBJ file ({error})"), "save the mesh as .obj again"),
-        };
-        let mut faces = Faces { axes, ..Faces::default() };
-        for model in &models {
-            faces.add(&model.mesh);
-        }
-        if faces.corners.len() > MAX_TRIANGLES {
-            let message = format!("has {} triangles, and {MAX_TRIANGLES} is the most", faces.corners.len());
-            return fault(message, "reduce it");
-        }
-        if faces.positions.iter().flatten().any(|x| !x.is_finite()) {
-            return fault("holds a coordinate that is not finite".to_owned(), "save the mesh again");
-        }
-        if !faces.normalise() {
-            return fault("holds no triangle of any size".to_owned(), "export the mesh with its faces");
-        }
-        Ok(faces.mesh())
+        let mut faces = Faces::read(name, text, axes)?;
+        faces.normalise(name)?;
+        Ok(faces.mesh(PARTS).0)
     }
 
     /// Every vertex as [`STRIDE`] numbers: position, normal, tangent, texture coordinates.
@@ -153,13 +141,13 @@ impl Mesh {
     }
 
     /// The number of a vertex, which is the same for vertices that are equal once rounded.
-    fn push(&mut self, vertex: Vertex, numbers: &mut HashMap<[u32; 11], u32>) {
+    fn push(&mut self, vertex: Vertex, numbers: &mut HashMap<[u32; KEY], u32>) {
         let [x, y, z, w] = vertex.tangent;
         let [x, y, z] = across([x, y, z], vertex.normal);
         let (position, normal) = (vertex.position.map(|x| x as f32), vertex.normal.map(|x| x as f32));
         let (tangent, uv) = ([x, y, z, w].map(|x| x as f32), vertex.uv.map(|x| x as f32));
-        let all = [&position[..], &normal, &tangent[..3], &uv].concat();
-        let key: [u32; 11] = std::array::from_fn(|i| (all[i] + 0.0).to_bits());
+        let all = [&position[..], &normal, &tangent, &uv, &vertex.lightmap.map(|x| x as f32)].concat();
+        let key: [u32; KEY] = std::array::from_fn(|i| (all[i] + 0.0).to_bits());
         let next = self.positions.len() as u32;
         let number = *numbers.entry(key).or_insert(next);
         if number == next {
@@ -172,12 +160,58 @@ impl Mesh {
     }
 }
 
+/// How many numbers tell vertices apart.
+const KEY: usize = 14;
+
+impl Model {
+    /// A mesh from the text of a Wavefront OBJ file, y up, each of its vertices as it is. `name` is what errors call it.
+    /// Normals and texture coordinates that the file lacks are those of [`Mesh::from_obj`].
+    ///
+    /// `lightmap` is the text of a second file, with what errors call it, that holds the same triangles in the same order:
+    /// its texture coordinates are the second set.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mesh::from_obj`], or if the second file has other triangles or no texture coordinates.
+    pub fn from_obj(name: &str, text: &[u8], lightmap: Option<(&str, &[u8])>) -> Result<Self, Fault> {
+        let mut faces = Faces::read(name, text, None)?;
+        if let Some((other, text)) = lightmap {
+            faces.add_lightmap(name, other, &Faces::read(other, text, None)?)?;
+        }
+        let has_frames = faces.corners.iter().flatten().all(|corner| corner.uv.is_some());
+        let given = faces.positions.clone();
+        faces.normalise(name)?;
+        let (mesh, corners) = faces.mesh(1);
+        let mut places = vec![[0.0; 3]; mesh.positions.len()];
+        let mut charts = vec![[0.0; 2]; mesh.positions.len()];
+        for (corner, &number) in corners.iter().flat_map(|&face| &faces.corners[face]).zip(&mesh.indices) {
+            // The inverse of `upright`.
+            let [x, y, z] = given[corner.position];
+            places[number as usize] = [x, z, -y].map(|x| x as f32);
+            charts[number as usize] = corner.lightmap.map(|x| x as f32);
+        }
+        let lightmap = if lightmap.is_some() { charts } else { Vec::new() };
+        Ok(Self { mesh, places, lightmap, has_frames })
+    }
+}
+
+/// Returns the direction in which the first texture coordinate grows over a triangle, across its normal, and 1 if the second
+/// grows to the left of it, −1 if to the right, 0 if the triangle has no area in the texture.
+pub fn growth(p: [[f64; 3]; 3], uv: [[f64; 2]; 3], normal: [f64; 3]) -> ([f64; 3], f64) {
+    let [e, f] = [1, 2].map(|i| (add(p[i], -1.0, p[0]), [uv[i][0] - uv[0][0], uv[i][1] - uv[0][1]]));
+    let turn = e.1[0] * f.1[1] - f.1[0] * e.1[1];
+    let sign = if turn == 0.0 { 0.0 } else { turn.signum() };
+    let grow = add(e.0.map(|x| x * f.1[1]), -e.1[1], f.0).map(|x| x * turn.signum());
+    (across(unit(grow).unwrap_or([0.0; 3]), normal), sign)
+}
+
 /// A corner of a triangle in a file.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     position: usize,
     normal: Option<[f64; 3]>,
     uv: Option<[f64; 2]>,
+    lightmap: [f64; 2],
 }
 
 /// What a file holds: positions, each once, and triangles.
@@ -196,6 +230,49 @@ fn upright([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 impl Faces {
+    fn read(name: &str, text: &[u8], axes: Option<Axes>) -> Result<Self, Fault> {
+        let fault = |message: String, help: &str| Err(Fault::new(format!("{name}: {message}"), help));
+        let options = LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+        let none = |_: &std::path::Path| Ok(Default::default());
+        let models = match tobj::load_obj_buf(&mut Cursor::new(text), &options, none) {
+            Ok((models, _)) => models,
+            Err(error) => return fault(format!("is no Wavefront OBJ file ({error})"), "save the mesh as .obj again"),
+        };
+        let mut faces = Self { axes, ..Self::default() };
+        for model in &models {
+            faces.add(&model.mesh);
+        }
+        if faces.corners.len() > MAX_TRIANGLES {
+            let message = format!("has {} triangles, and {MAX_TRIANGLES} is the most", faces.corners.len());
+            return fault(message, "reduce it");
+        }
+        let uvs = faces.corners.iter().flatten().flat_map(|corner| corner.uv.unwrap_or_default());
+        if faces.positions.iter().flatten().copied().chain(uvs).any(|x| !x.is_finite()) {
+            return fault("holds a coordinate that is not finite".to_owned(), "save the mesh again");
+        }
+        Ok(faces)
+    }
+
+    /// Takes the texture coordinates of other faces as the second set of these.
+    fn add_lightmap(&mut self, name: &str, other: &str, faces: &Self) -> Result<(), Fault> {
+        let fault = |message: String, help: &str| Err(Fault::new(format!("{other}: {message}"), help));
+        let help = "save the same mesh twice, once with each set of texture coordinates";
+        if faces.corners.len() != self.corners.len() {
+            let (found, wanted) = (faces.corners.len(), self.corners.len());
+            return fault(format!("has {found} triangles, and {name} has {wanted}"), help);
+        }
+        for (own, lightmap) in self.corners.iter_mut().flatten().zip(faces.corners.iter().flatten()) {
+            match lightmap.uv {
+                Some(uv) => own.lightmap = uv,
+                None => return fault("has faces without texture coordinates (`vt`)".to_owned(), help),
+            }
+            if self.positions[own.position] != faces.positions[lightmap.position] {
+                return fault(format!("has its corners elsewhere or in another order than {name}"), help);
+            }
+        }
+        Ok(())
+    }
+
     /// Adds an object of a file; positions that are written twice become one.
     fn add(&mut self, mesh: &tobj::Mesh) {
         let axes = self.axes;
@@ -219,6 +296,7 @@ impl Faces {
                     position: number,
                     normal: normals.then(|| unit(vector(&mesh.normals, mesh.normal_indices[i]))).flatten(),
                     uv: uvs.then(|| uv(mesh.texcoord_indices[i])),
+                    lightmap: [0.0; 2],
                 }
             })
             .collect();
@@ -240,8 +318,10 @@ impl Faces {
     }
 
     /// Moves and scales everything into the unit sphere, drops triangles without an area, turns the others outwards if
-    /// no normal says where that is, and says whether any is left.
-    fn normalise(&mut self) -> bool {
+    /// no normal says where that is. Fails if none is left.
+    fn normalise(&mut self, name: &str) -> Result<(), Fault> {
+        let nothing =
+            || Err(Fault::new(format!("{name}: holds no triangle of any size"), "export the mesh with its faces"));
         let used: Vec<[f64; 3]> = self.corners.iter().flat_map(|face| self.positions_of(face)).collect();
         let bound = |pick: fn(f64, f64) -> f64| -> [f64; 3] {
             std::array::from_fn(|i| used.iter().map(|p| p[i]).reduce(pick).unwrap_or(0.0))
@@ -250,7 +330,7 @@ impl Faces {
         let centre: [f64; 3] = std::array::from_fn(|i| 0.5 * (low[i] + high[i]));
         let radius = used.iter().map(|&p| length(add(p, -1.0, centre))).fold(0.0, f64::max);
         if radius == 0.0 {
-            return false;
+            return nothing();
         }
         self.positions.iter_mut().for_each(|p| *p = add(*p, -1.0, centre).map(|x| x / radius));
         let areas: Vec<[f64; 3]> = self.corners.iter().map(|face| self.area(face)).collect();
@@ -260,10 +340,12 @@ impl Faces {
         if volume < 0.0 && self.corners.iter().flatten().all(|corner| corner.normal.is_none()) {
             self.corners.iter_mut().for_each(|face| face.swap(1, 2));
         }
-        !self.corners.is_empty()
+        if self.corners.is_empty() { nothing() } else { Ok(()) }
     }
 
-    fn mesh(&self) -> Mesh {
+    /// The mesh with each triangle that has no normals cut into the square of so many, and of each triangle the face that it
+    /// is of.
+    fn mesh(&self, parts: usize) -> (Mesh, Vec<usize>) {
         // What each position's triangles add to its normal: their own normal, weighted by their angle there.
         let mut around: Vec<Vec<([f64; 3], f64)>> = vec![vec![]; self.positions.len()];
         let normals: Vec<[f64; 3]> =
@@ -283,7 +365,8 @@ impl Faces {
         let tangents = self.tangents(&normals);
         let mut mesh = Mesh::default();
         let mut numbers = HashMap::new();
-        for ((face, &normal), sums) in self.corners.iter().zip(&normals).zip(&tangents) {
+        let mut faces = Vec::new();
+        for (i, ((face, &normal), sums)) in self.corners.iter().zip(&normals).zip(&tangents).enumerate() {
             let patch = Patch {
                 corners: self.positions_of(face),
                 // Where surfaces meet at a crease they are rounded alike, so that no gap opens.
@@ -291,116 +374,38 @@ impl Faces {
                 normals: face.map(|corner| corner.normal.unwrap_or_else(|| average(corner.position, normal, limit))),
                 chart: Chart::of(normal),
                 given: face[0].uv.is_some().then(|| std::array::from_fn(|i| (face[i].uv.unwrap_or_default(), sums[i]))),
-                parts: if face[0].normal.is_some() { 1 } else { PARTS },
+                lightmap: face.map(|corner| corner.lightmap),
+                parts: if face[0].normal.is_some() { 1 } else { parts },
             };
             patch.cut(|vertex| mesh.push(vertex, &mut numbers));
+            faces.resize(mesh.indices.len() / 3, i);
         }
-        mesh
+        (mesh, faces)
     }
 
     /// The tangents of corners with texture coordinates: the direction in which u grows, summed over the triangles that
-    /// share position and coordinates, and whether v grows to its left.
+    /// share position, coordinates, normal and the side to which v grows, and that side.
     fn tangents(&self, normals: &[[f64; 3]]) -> Vec<[[f64; 4]; 3]> {
-        let key = |corner: &Corner| (corner.position, corner.uv.map(|uv| uv.map(f64::to_bits)));
-        let mut sums: HashMap<_, [f64; 4]> = HashMap::new();
-        for (face, &normal) in self.corners.iter().zip(normals) {
-            let [p, uv] = [self.positions_of(face), face.map(|c| c.uv.map_or([0.0; 3], |[u, v]| [u, v, 0.0]))];
-            let [e, f] = [1, 2].map(|i| (add(p[i], -1.0, p[0]), add(uv[i], -1.0, uv[0])));
-            let turn = e.1[0] * f.1[1] - f.1[0] * e.1[1];
-            let grow = add(e.0.map(|x| x * f.1[1]), -e.1[1], f.0).map(|x| x * turn.signum());
-            let across = across(unit(grow).unwrap_or([0.0; 3]), normal);
-            for corner in face {
-                let sum = sums.entry(key(corner)).or_default();
-                (0..3).for_each(|i| sum[i] += across[i]);
-                sum[3] += turn.signum();
-            }
-        }
-        self.corners
-            .iter()
-            .map(|face| face.map(|corner| sums.get(&key(&corner)).copied().unwrap_or([1.0, 0.0, 0.0, 1.0])))
-            .collect()
-    }
-}
-
-/// The face of a cube: how texture coordinates lie on a surface that looks in its direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Chart {
-    u: [f64; 3],
-    v: [f64; 3],
-}
-
-impl Chart {
-    /// The chart of the axis that a normal is closest to. Around the sides v is up, so that the tangents agree there.
-    fn of(normal: [f64; 3]) -> Self {
-        let size = normal.map(f64::abs);
-        let sign = |i: usize| normal[i].signum();
-        if size[2] > size[0] && size[2] > size[1] {
-            Self { u: [sign(2), 0.0, 0.0], v: [0.0, 1.0, 0.0] }
-        } else if size[0] > size[1] {
-            Self { u: [0.0, sign(0), 0.0], v: [0.0, 0.0, 1.0] }
-        } else {
-            Self { u: [-sign(1), 0.0, 0.0], v: [0.0, 0.0, 1.0] }
-        }
-    }
-}
-
-/// A triangle that is to be cut.
-struct Patch {
-    corners: [[f64; 3]; 3],
-    /// The normals of the curved surface.
-    round: [[f64; 3]; 3],
-    /// The normals to shade with.
-    normals: [[f64; 3]; 3],
-    chart: Chart,
-    /// Texture coordinates and tangents, if the file has them.
-    given: Option<[([f64; 2], [f64; 4]); 3]>,
-    parts: usize,
-}
-
-impl Patch {
-    /// Hands out the vertices of the parts, three a triangle.
-    fn cut(&self, mut push: impl FnMut(Vertex)) {
-        let n = self.parts;
-        for i in 0..n {
-            for j in 0..n - i {
-                [[i, j], [i + 1, j], [i, j + 1]].into_iter().for_each(|at| push(self.vertex(at)));
-                if i + j + 1 < n {
-                    [[i + 1, j], [i + 1, j + 1], [i, j + 1]].into_iter().for_each(|at| push(self.vertex(at)));
-                }
-            }
-        }
-    }
-
-    /// The vertex so many parts along the first two sides, on the surface of Phong tessellation (Boubekeur and Alexa
-    /// 2008): the flat point, drawn towards its projections on the tangent planes of the corners.
-    fn vertex(&self, [i, j]: [usize; 2]) -> Vertex {
-        let n = self.parts as f64;
-        let weights = [(self.parts - i - j) as f64 / n, i as f64 / n, j as f64 / n];
-        let mix = |of: [[f64; 3]; 3]| (0..3).fold([0.0; 3], |sum, k| add(sum, weights[k], of[k]));
-        let flat = mix(self.corners);
-        let projected = [0, 1, 2].map(|k| {
-            let height = dot(add(flat, -1.0, self.corners[k]), self.round[k]);
-            add(flat, -height, self.round[k])
-        });
-        let position = add(flat.map(|x| x * (1.0 - ROUNDING)), ROUNDING, mix(projected));
-        let normal = unit(mix(self.normals)).unwrap_or(self.normals[0]);
-        let (uv, tangent) = match &self.given {
-            Some(given) => {
-                let blend = |of: fn(&([f64; 2], [f64; 4])) -> f64| (0..3).map(|k| weights[k] * of(&given[k])).sum();
-                let uv = [blend(|g| g.0[0]), blend(|g| g.0[1])];
-                let handed = if blend(|g| g.1[3]) < 0.0 { -1.0 } else { 1.0 };
-                let [x, y, z] = [blend(|g| g.1[0]), blend(|g| g.1[1]), blend(|g| g.1[2])];
-                (uv, [x, y, z, handed])
-            }
-            None => {
-                let along = |axis: [f64; 3]| REPEATS * dot(axis, position);
-                // Along the tangent v does not change.
-                let [x, y, z] = cross(self.chart.v, normal);
-                ([along(self.chart.u), along(self.chart.v)], [x, y, z, 1.0])
-            }
+        let key = |corner: &Corner, sign: f64| {
+            let normal = corner.normal.map(|normal| normal.map(f64::to_bits));
+            (corner.position, corner.uv.map(|uv| uv.map(f64::to_bits)), normal, sign < 0.0)
         };
-        let [x, y, z] = across(unit([tangent[0], tangent[1], tangent[2]]).unwrap_or([0.0; 3]), normal);
-        Vertex { position, normal, tangent: [x, y, z, tangent[3]], uv }
+        let grown: Vec<([f64; 3], f64)> = self
+            .corners
+            .iter()
+            .zip(normals)
+            .map(|(face, &normal)| growth(self.positions_of(face), face.map(|c| c.uv.unwrap_or_default()), normal))
+            .collect();
+        let mut sums: HashMap<_, [f64; 4]> = HashMap::new();
+        for (face, &(across, sign)) in self.corners.iter().zip(&grown) {
+            for corner in face {
+                let sum = sums.entry(key(corner, sign)).or_default();
+                (0..3).for_each(|i| sum[i] += across[i]);
+                sum[3] += sign;
+            }
+        }
+        let found = |corner: &Corner, sign: f64| sums.get(&key(corner, sign)).copied().unwrap_or([1.0, 0.0, 0.0, 1.0]);
+        self.corners.iter().zip(&grown).map(|(face, &(_, sign))| face.each_ref().map(|c| found(c, sign))).collect()
     }
 }
 

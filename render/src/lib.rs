@@ -10,6 +10,7 @@ pub mod canvas;
 pub mod figures;
 pub mod frame;
 pub mod gpu;
+pub mod lightmap;
 pub mod reference;
 pub mod report;
 pub mod strip;

@@ -2,13 +2,13 @@
 //! either.
 
 use clap::Parser;
-use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use indicatif::ProgressBar;
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
-use zonal_cli::terminal::{Failure, ended, out};
+use std::time::Instant;
+use zonal_cli::terminal::{Failure, bar, ended, out};
 use zonal_codegen::fault::Fault;
 use zonal_codegen::files::{self, MARK, Replace};
 use zonal_codegen::scene::Scene;
@@ -67,18 +67,9 @@ struct Beside<'a> {
     reference: Vec<Row>,
 }
 
-/// A bar, on terminals only; it vanishes when it is dropped.
-fn progress(message: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} {elapsed}");
-    let bar = ProgressBar::new(1).with_message(message.to_owned()).with_finish(ProgressFinish::AndClear);
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
-}
-
 fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     let start = Instant::now();
-    let bar = progress("reading");
+    let bar = bar("reading");
     let method = arguments.method.as_deref().map(str::parse).transpose();
     let method: Option<Method> = method.map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let instead = Instead { order: arguments.order.map(|order| order as usize), method };

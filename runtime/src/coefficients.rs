@@ -150,6 +150,8 @@ pub trait Coefficients:
     #[doc(hidden)]
     fn basis(dir: [Self::Scalar; 3]) -> Self::Basis;
     #[doc(hidden)]
+    fn hemisphere_basis(dir: [Self::Scalar; 3]) -> Self::Basis;
+    #[doc(hidden)]
     fn eval(dir: [Self::Scalar; 3], c: &Self) -> Self::Element;
     #[doc(hidden)]
     fn rotate(q: [Self::Scalar; 4], c: &Self) -> Self;
@@ -207,6 +209,10 @@ macro_rules! orders {
             #[inline]
             fn basis(dir: [E::Scalar; 3]) -> Self::Basis {
                 zonal_kernels::$module::basis(dir)
+            }
+            #[inline]
+            fn hemisphere_basis(dir: [E::Scalar; 3]) -> Self::Basis {
+                zonal_kernels::$module::hsh_basis(dir)
             }
             #[inline]
             fn eval(dir: [E::Scalar; 3], c: &Self) -> E {

@@ -49,6 +49,13 @@ pub enum Error {
         /// The columns, and the rows.
         size: usize,
     },
+    /// There are more or fewer results than frames of which they are made.
+    Frames {
+        /// How many frames there are.
+        frames: usize,
+        /// How many results there is room for.
+        results: usize,
+    },
     /// A convention has no place for bands as high.
     Bands {
         /// The name of the convention.
@@ -97,6 +104,7 @@ impl fmt::Display for Error {
                 let texels = size.saturating_mul(size);
                 write!(f, "{found} texels in face {face}, but a cubemap of size {size} has {texels} in each")
             }
+            Self::Frames { frames, results } => write!(f, "{frames} frames, but room for {results} results"),
             Self::Bands { convention, most, order } => {
                 write!(f, "`{convention}` takes {most} bands, not {order}; `zonal::resize` leaves the others out")
             }

@@ -53,6 +53,10 @@
 //! [`negative_share`] say how much rings. [`add`], [`scale`], [`lerp`], [`dot`], [`weigh`], [`resize`] and [`scale_bands`] are
 //! for any signal; [`Coefficients`] shows how to be generic over the order.
 //!
+//! For lightmaps, [`project::in_frame`] and [`project::in_frames`] project samples in the [`Frame`] of a surface, as harmonics
+//! of radiance, of which [`h4`], [`h6`], `hl2` and [`irradiance`] are made, and [`project::on_hemisphere`] on hemispherical
+//! harmonics. `h4_at`, `h6_at` and `hl2_at` are what a shader does.
+//!
 //! # What it costs, and how exact it is
 //!
 //! [`costs`] lists every kernel's operations and its bound on rounding in `f32`; each generated function repeats its
@@ -127,6 +131,7 @@ mod rotation;
 mod scalar;
 #[cfg(feature = "serde")]
 pub mod serde;
+mod surface;
 
 pub use arithmetic::{add, dot, lerp, resize, scale, scale_bands, weigh};
 pub use coefficients::{Angles, Coefficients, Zonal};
@@ -135,6 +140,11 @@ pub use error::Error;
 pub use light::{convolve, cosine_factor, hann, irradiance, irradiance_at, lanczos, least, negative_share};
 pub use rotation::Rotation;
 pub use scalar::{Element, Scalar};
+pub use surface::{Frame, Lightmap, h4, h6};
+#[cfg(feature = "order2")]
+pub use surface::{h4_at, hl2_at};
+#[cfg(feature = "order3")]
+pub use surface::{h6_at, hl2};
 pub use zonal_kernels::*;
 
 /// Modules of this crate, so that rustc knows of those that are left out, and by which feature.

@@ -1,9 +1,10 @@
 //! Signals from what they are of: samples, a function of directions, an image by latitude and longitude, a cubemap.
 //!
-//! Coefficients are c_{l,m} = ∫ f y_l^m over the sphere, in the frame of the directions. Sums are of f in the precision of
+//! Coefficients are c_{l,m} = ∫ f y_l^m over the sphere, in the frame of the directions, or for [`in_frame`] and what is named
+//! after it in that of a surface. Sums are of f in the precision of
 //! the coefficients, by runs and with what each addition loses, so that a million texels round as few do. The
-//! module `parallel`, with the feature `rayon`, has the last three over threads, with the same results to the last
-//! bit.
+//! module `parallel`, with the feature `rayon`, has all but single sums of samples over threads, with the same results to the
+//! last bit.
 
 use zonal_kernels::real::{Real, Signal};
 
@@ -11,6 +12,7 @@ use crate::coefficients::Coefficients;
 use crate::error::Error;
 use crate::grid;
 use crate::scalar::Element;
+use crate::surface::Frame;
 
 /// How many terms are summed before they are added to the others.
 const RUN: usize = 64;
@@ -32,7 +34,13 @@ impl<C: Coefficients> Sum<C> {
     /// Adds a value in a direction, times a weight.
     #[inline]
     fn sample(&mut self, dir: [C::Scalar; 3], value: C::Element, weight: C::Scalar) {
-        let (basis, value) = (C::basis(dir), value.signal() * weight);
+        self.sample_of(&C::basis(dir), value, weight);
+    }
+
+    /// Adds a value where functions have these values, times a weight.
+    #[inline]
+    fn sample_of(&mut self, basis: &C::Basis, value: C::Element, weight: C::Scalar) {
+        let value = value.signal() * weight;
         for (sum, y) in self.run.as_mut().iter_mut().zip(basis.as_ref()) {
             *sum = C::Element::element(value.fma(*y, sum.signal()));
         }
@@ -101,6 +109,99 @@ where
     let mut sum = Sum::new();
     samples.into_iter().for_each(|(dir, value, weight)| sum.sample(dir.into(), value, weight));
     sum.end()
+}
+
+/// Projects samples as [`samples`] does, in the frame of a surface: directions are those of the world, coefficients those of
+/// the frame, which [`h4`](crate::h4), [`h6`](crate::h6) and [`irradiance`](crate::irradiance) take for its normal map.
+///
+/// What lies below the horizon of the surface is hidden by it: whoever bakes leaves it out.
+///
+/// ```
+/// use core::f32::consts::PI;
+///
+/// // A wall that looks along x and is lit from there: a light in its frame's z.
+/// let frame = zonal::Frame::<f32>::new([1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 1.0]);
+/// let c: [f32; 9] = zonal::project::in_frame(&frame, [([1.0, 0.0, 0.0], 2.0, 0.5)]);
+/// let up: [f32; 9] = zonal::evaluate_basis([0.0, 0.0, 1.0]);
+/// assert_eq!(c, up);
+/// // Its irradiance is the radiance times the solid angle, but for the bands that order 3 lacks.
+/// assert!((zonal::irradiance_at([0.0, 0.0, 1.0], &c) - 1.0).abs() < 0.07);
+/// ```
+pub fn in_frame<C, D>(frame: &Frame<C::Scalar>, samples: impl IntoIterator<Item = (D, C::Element, C::Scalar)>) -> C
+where
+    C: Coefficients,
+    D: Into<[C::Scalar; 3]>,
+{
+    let mut sum = Sum::new();
+    samples.into_iter().for_each(|(dir, value, weight)| sum.sample(frame.to_local(dir), value, weight));
+    sum.end()
+}
+
+/// Projects samples on the hemispherical harmonics of a surface's frame (Gautron et al. 2004): index l(l+1)+m,
+/// orthonormal over the directions above its horizon (docs/MATH.md#hemispherical-harmonics). Samples below it count as none.
+///
+/// ```
+/// // Radiance 1 above the horizon is the constant alone.
+/// let frame = zonal::Frame::<f64>::new([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]);
+/// let weight = core::f64::consts::PI / 4.0;
+/// let four = [[0.6, 0.0, 0.8], [-0.6, 0.0, 0.8], [0.0, 0.6, 0.8], [0.0, -0.6, 0.8]].map(|dir| (dir, 1.0, weight));
+/// let below = [([0.0, 0.0, -1.0], 9.0, 1.0)];
+/// let c: [f64; 4] = zonal::project::on_hemisphere(&frame, four.into_iter().chain(below));
+/// assert!((c[0] - (0.5 * core::f64::consts::PI).sqrt()).abs() < 1e-12 && c[1].abs() < 1e-12);
+/// ```
+pub fn on_hemisphere<C, D>(frame: &Frame<C::Scalar>, samples: impl IntoIterator<Item = (D, C::Element, C::Scalar)>) -> C
+where
+    C: Coefficients,
+    D: Into<[C::Scalar; 3]>,
+{
+    let mut sum = Sum::new();
+    for (dir, value, weight) in samples {
+        let dir = frame.to_local(dir);
+        if dir[2] > C::Scalar::zero() {
+            sum.sample_of(&C::hemisphere_basis(dir), value, weight);
+        }
+    }
+    sum.end()
+}
+
+/// Refuses slices of different lengths.
+fn check_frames(frames: usize, results: usize) -> Result<(), Error> {
+    if frames == results { Ok(()) } else { Err(Error::Frames { frames, results }) }
+}
+
+/// Projects the samples of many points of surfaces into `results`, each in its frame: `samples(i)` are those of frame i, and
+/// `one` is [`in_frame`] or [`on_hemisphere`], or one of them with what makes its results out of coefficients.
+///
+/// # Errors
+///
+/// If there are not as many results as frames.
+///
+/// ```
+/// use zonal::{Frame, project};
+///
+/// let frames = [Frame::<f32>::new([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]); 2];
+/// let light = |i: usize| [([0.0_f32, 0.0, 1.0], 1.0 + i as f32, 0.1)];
+/// // Six coefficients a texel of a lightmap.
+/// let texel = |frame: &Frame<f32>, light| {
+///     let radiance: [f32; 25] = project::in_frame(frame, light);
+///     zonal::h6(&radiance)
+/// };
+/// let mut texels = [[0.0; 6]; 2];
+/// project::in_frames(&frames, light, texel, &mut texels)?;
+/// assert_eq!(texels[1], texels[0].map(|c| 2.0 * c));
+/// # Ok::<(), zonal::Error>(())
+/// ```
+pub fn in_frames<T, S, R>(
+    frames: &[Frame<T>],
+    mut samples: impl FnMut(usize) -> S,
+    mut one: impl FnMut(&Frame<T>, S) -> R,
+    results: &mut [R],
+) -> Result<(), Error> {
+    check_frames(frames.len(), results.len())?;
+    for (i, (frame, result)) in frames.iter().zip(results).enumerate() {
+        *result = one(frame, samples(i));
+    }
+    Ok(())
 }
 
 fn function_row<C: Coefficients>(rows: usize, at: usize, f: &mut impl FnMut([C::Scalar; 3]) -> C::Element) -> C {
@@ -209,16 +310,37 @@ pub fn cubemap<C: Coefficients>(faces: [&[C::Element]; 6], size: usize) -> Resul
 /// The same over the threads of rayon, with the same results to the last bit.
 #[cfg(feature = "rayon")]
 pub mod parallel {
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
+    use rayon::iter::{
+        IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator,
+        ParallelIterator,
+    };
 
-    use super::{check_cubemap, check_image, cubemap_row, function_row, lat_long_row};
+    use super::{check_cubemap, check_frames, check_image, cubemap_row, function_row, lat_long_row};
     use crate::coefficients::Coefficients;
     use crate::error::Error;
+    use crate::surface::Frame;
 
     /// Rows are summed in their order, whichever thread was first.
     fn total<C: Coefficients>(rows: usize, row: impl Fn(usize) -> C + Sync) -> C {
         let parts: Vec<C> = (0..rows).into_par_iter().map(&row).collect();
         super::total(parts.into_iter())
+    }
+
+    /// Projects the samples of many points of surfaces, as [`project::in_frames`](super::in_frames) does.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn in_frames<T: Sync, S, R: Send>(
+        frames: &[Frame<T>],
+        samples: impl Fn(usize) -> S + Sync,
+        one: impl Fn(&Frame<T>, S) -> R + Sync,
+        results: &mut [R],
+    ) -> Result<(), Error> {
+        check_frames(frames.len(), results.len())?;
+        let all = frames.par_iter().zip(results.par_iter_mut()).enumerate();
+        all.for_each(|(i, (frame, result))| *result = one(frame, samples(i)));
+        Ok(())
     }
 
     /// Projects a function of unit directions, as [`project::function`](super::function) does.

@@ -15,10 +15,11 @@ use crate::repository;
 /// If it does not compile.
 pub fn zonal() -> &'static Path {
     static PATH: OnceLock<PathBuf> = OnceLock::new();
-    PATH.get_or_init(|| built("zonal", &["--bin", "zonal", "--bin", "zonal-explorer", "--bin", "zonal-render"]))
+    let programs = ["zonal", "zonal-bake", "zonal-explorer", "zonal-render"].map(|program| ["--bin", program]);
+    PATH.get_or_init(|| built("zonal", programs.as_flattened()))
 }
 
-/// The command, ready to run. It finds the programs that draw beside itself: under cargo it would have cargo compile them
+/// The command, ready to run. It finds the programs that draw and bake beside itself: under cargo it would have cargo compile them
 /// with features of their own, and the generator once more for each.
 pub fn command() -> Command {
     let mut command = Command::new(zonal());

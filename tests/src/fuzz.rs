@@ -4,6 +4,7 @@
 use exr::compression::Compression;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 use zonal_cli::inputs;
@@ -27,6 +28,16 @@ const SCENES: [&str; 4] = [
 /// A mesh with a face of each kind.
 const MESH: &str = "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
                     f 1 2 3\nf 1/1 2/2 3/3\nf 1//1 2//1 3//1 4//1\nf -1/-1/-1 -2/-2/-1 -3/-3/-1\n";
+/// A scene of one triangle in glTF.
+const GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\
+                    \"nodes\":[{\"mesh\":0,\"scale\":[-2,1,1]}],\
+                    \"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":0},\"indices\":1}]}],\
+                    \"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\
+                    \"min\":[0,0,0],\"max\":[1,1,0]},\
+                    {\"bufferView\":1,\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\"}],\
+                    \"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":3}],\
+                    \"buffers\":[{\"byteLength\":39,\"uri\":\"data:;base64,\
+                    AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC\"}]}";
 /// Plans of products: one by pairs, one with rings.
 const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\ntries = 1\n\
                      pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
@@ -93,6 +104,11 @@ fn kinds() -> Vec<Kind> {
         Kind { name: "exr", seeds: exr.into_iter().collect(), read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
         Kind { name: "dwa", seeds: vec![dwa], read: |bytes| Map::from_bytes("fuzz", bytes).is_ok() },
         Kind { name: "obj", seeds: texts(&[MESH]), read: |bytes| Mesh::from_obj("fuzz", bytes).is_ok() },
+        Kind {
+            name: "gltf",
+            seeds: texts(&[GLTF]),
+            read: |bytes| zonal_bake::gltf::read("fuzz", bytes, Path::new("nowhere")).is_ok(),
+        },
         Kind {
             name: "plans",
             seeds: texts(&[PLANS]),

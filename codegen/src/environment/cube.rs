@@ -34,9 +34,23 @@ fn place(i: usize, side: usize) -> f64 {
 
 /// The unit direction of the centre of a texel of a face.
 pub(super) fn direction(side: usize, face: usize, x: usize, y: usize) -> [f64; 3] {
-    let ([forward, right, down], u, v) = (AXES[face], place(x, side), place(y, side));
+    towards(face, place(x, side), place(y, side)).0
+}
+
+/// The unit direction of a place of a face, and how far it is: right and down from −1 to 1.
+fn towards(face: usize, u: f64, v: f64) -> ([f64; 3], f64) {
+    let [forward, right, down] = AXES[face];
     let length = (1.0 + u * u + v * v).sqrt();
-    std::array::from_fn(|i| (forward[i] + u * right[i] + v * down[i]) / length)
+    (std::array::from_fn(|i| (forward[i] + u * right[i] + v * down[i]) / length), length)
+}
+
+/// The unit direction of a place of a face, in texels from its left and its upper edge, and the solid angle that a texel
+/// would have if it were as far and leaned as there.
+pub(super) fn inside(side: usize, face: usize, place: [f64; 2]) -> ([f64; 3], f64) {
+    let step = 2.0 / side as f64;
+    let [u, v] = place.map(|texels| step * texels - 1.0);
+    let (direction, length) = towards(face, u, v);
+    (direction, step * step / length.powi(3))
 }
 
 /// The face, the column and the row of the texel in which a direction lies.

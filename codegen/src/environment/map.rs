@@ -78,6 +78,20 @@ impl Map {
         [sin * azimuth.cos(), sin * azimuth.sin(), cos]
     }
 
+    /// Returns the unit direction of a place in the texel in column `x` of row `y`, from 0 to 1 across it from the left and
+    /// from the top, and the solid angle there of a step of one in both: the texel's own, the same at every place, in a
+    /// latitude-longitude map. Places that are spread evenly, each weighed by its solid angle, integrate over the texel.
+    pub fn inside(&self, x: usize, y: usize, [right, down]: [f64; 2]) -> ([f64; 3], f64) {
+        if self.is_cube() {
+            return cube::inside(self.width, y / self.width, [x as f64 + right, (y % self.width) as f64 + down]);
+        }
+        let cosine = |row: usize| (PI * row as f64 / self.height as f64).cos();
+        let z = cosine(y) + down * (cosine(y + 1) - cosine(y));
+        let (sin, cos) = (PI - 2.0 * PI * (x as f64 + right) / self.width as f64).sin_cos();
+        let radius = (1.0 - z * z).max(0.0).sqrt();
+        ([radius * cos, radius * sin, z], self.solid_angle(x, y))
+    }
+
     /// The solid angle in steradians of the texel in column `x` (from 0 at the left) of row `y` (from 0 at the top). All
     /// texels together have 4π.
     pub fn solid_angle(&self, x: usize, y: usize) -> f64 {

@@ -2,8 +2,8 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, hbasis, irradiance, lifted, lights, monomial, product, ringing,
-    small_turn, tensor, tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
+    about_y, align, axis, basis, convolution, fitted, hbasis, hemisphere, irradiance, lifted, lights, monomial,
+    product, ringing, small_turn, tensor, tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.
@@ -101,6 +101,20 @@ pub static ALL: &[&Family] = &[
     &ringing::window::WINDOW,
     &ringing::probes::EVAL_GEOMERICS,
     &ringing::probes::EVAL_ZH3,
+    &hemisphere::evaluate::HSH_BASIS,
+    &hemisphere::evaluate::HSH_EVAL,
+    &hemisphere::evaluate::HSH_EVAL_MONOMIAL,
+    &hemisphere::evaluate::HSH_TO_MONOMIAL,
+    &hemisphere::convert::SH_TO_HSH,
+    &hemisphere::convert::HSH_TO_SH,
+    &hemisphere::convert::HSH_EXTEND,
+    &hemisphere::rotate::Y_LOBE,
+    &hemisphere::rotate::Y_RECORD,
+    &hemisphere::rotate::TILT_LOBE,
+    &hemisphere::rotate::TILT_RECORD,
+    &hemisphere::rotate::ROTATE_LOBE,
+    &hemisphere::rotate::ROTATE_RECORD,
+    &hemisphere::table::ROTATE_TABLE,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -2,7 +2,7 @@
 
 use crate::families::family::{Family, Group, Looped, Measure, Spec};
 use crate::families::loops;
-use crate::families::parts::columns::{self, BandScale, Columns, Sectoral};
+use crate::families::parts::columns::{self, BandScale, Columns, Scaled, Sectoral};
 use crate::families::parts::once::once;
 use crate::families::parts::params::{direction, signal};
 use crate::ir::graph::{Graph, Id};
@@ -131,6 +131,15 @@ fn eval(order: usize, bands: &[usize]) -> Kernel {
 ///
 /// If no harmonic has a place.
 pub fn sum(g: &mut Graph, dir: &[Id], c: &[Id], places: &[Option<usize>], scale: BandScale) -> Id {
+    sum_at(g, &Scaled::plain(dir), c, places, scale)
+}
+
+/// [`sum`] at a direction in other coordinates.
+///
+/// # Panics
+///
+/// If no harmonic has a place.
+pub fn sum_at(g: &mut Graph, dir: &Scaled, c: &[Id], places: &[Option<usize>], scale: BandScale) -> Id {
     let order = places.len().isqrt();
     let basis = Columns::new(g, dir, order, scale, Sectoral::UnitLength);
     let mut sum: Option<Id> = None;
@@ -164,7 +173,7 @@ pub fn sum(g: &mut Graph, dir: &[Id], c: &[Id], places: &[Option<usize>], scale:
                     let step = if m == 0 {
                         let y00 = &columns::sectoral_factor(0) * &scale(0);
                         let y10 = &basis.ratio(tables::legendre_recurrence(1, 0).0, 1, 0) * &y00;
-                        g.scale(&y10, basis.z)
+                        basis.along(g, &y10)
                     } else {
                         basis.step(g, m)
                     };

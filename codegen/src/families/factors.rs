@@ -1,19 +1,27 @@
-//! The orders of a product's two factors, where they are not the result's: read from a spec, `2+3`, and what is wrong with
-//! them.
+//! The orders of a product's two factors, or of what is converted and of the result, where they are not all the result's:
+//! read from a spec, `2+3`, and what is wrong with them.
 
-use crate::families::family::Spec;
+use crate::families::family::{MAX_LOOP_ORDER, Spec};
 
-/// Returns the orders of both factors, or what is wrong with the text and what to do.
-pub fn read(text: &str) -> Result<[usize; 2], [String; 2]> {
+/// Returns both orders, or what is wrong with the text and what to do, with an example.
+pub fn read(text: &str, example: &str) -> Result<[usize; 2], [String; 2]> {
     let orders: Option<Vec<usize>> = text.split('+').map(|text| text.parse().ok()).collect();
     match orders.as_deref() {
-        Some(&[a, b]) => Ok([a, b]),
-        _ => Err([format!("`{text}` is no pair of orders"), "write both, as in `product:2+3:4`".to_owned()]),
+        // What is beyond any order is no order.
+        Some(&[a, b]) if a.max(b) <= MAX_LOOP_ORDER => Ok([a, b]),
+        _ => Err([format!("`{text}` is no pair of orders"), format!("write both, as in `{example}`")]),
     }
 }
 
 /// Returns what is wrong with a spec's factors and what to do, if anything.
 pub fn fault(spec: &Spec) -> Option<[String; 2]> {
+    if let Some(orders) = &spec.family.converts {
+        let [from, _] = spec.factor_orders();
+        return (!orders.contains(&from)).then(|| {
+            let help = format!("it converts orders {} to {}", orders.start(), orders.end());
+            [format!("`{}` of order {from}", spec.family.name), help]
+        });
+    }
     let ([a, b], order, name) = (spec.factors?, spec.order, spec.family.name);
     let orders = &spec.family.orders;
     if ![a, b].iter().all(|order| orders.contains(order)) {

@@ -218,6 +218,9 @@ pub struct Family {
     pub some_bands: bool,
     /// Whether its two factors may be of other orders than the result.
     pub factors: bool,
+    /// The orders of what it converts, where that may be another one than the result's: a spec then names both, as in
+    /// `sh_to_hsh:5+3`.
+    pub converts: Option<RangeInclusive<usize>>,
     /// Whether its specs leave the order out and its functions are not called after it, since there is one alone.
     pub one_order: bool,
     /// What a spec may choose besides, after its method: of each list one at most.
@@ -272,6 +275,7 @@ impl Family {
         half: true,
         some_bands: false,
         factors: false,
+        converts: None,
         one_order: false,
         choices: &[],
         fault: |_| None,
@@ -359,7 +363,8 @@ pub struct Spec {
     pub form: Form,
     /// Whether it works in f16 instead of f32: WGSL only, with `enable f16`.
     pub half: bool,
-    /// The orders of the two factors of a product, where they are not the result's.
+    /// The orders of the two factors of a product, or of what is converted and of the result, where they are not all the
+    /// result's.
     pub factors: Option<[usize; 2]>,
     /// What it chooses of the family's lists, in their order.
     pub chosen: Vec<&'static str>,
@@ -413,14 +418,14 @@ impl Spec {
         vec![self.clone(), self.rgb()]
     }
 
-    /// The spec with factors of these orders.
+    /// The spec with factors of these orders; of a conversion those of what is converted and of the result.
     #[must_use]
     pub fn of_factors(self, orders: [usize; 2]) -> Self {
         let factors = (orders != [self.order; 2]).then_some(orders);
         Self { factors, ..self }
     }
 
-    /// Returns the orders of the two factors of a product.
+    /// Returns the orders of the two factors of a product, or of what is converted and of the result.
     pub fn factor_orders(&self) -> [usize; 2] {
         self.factors.unwrap_or([self.order; 2])
     }

@@ -21,11 +21,13 @@ pub enum Group {
     Multiply,
     /// Irradiance over the upper hemisphere, and what keeps it from ringing.
     Irradiance,
+    /// Hemispherical harmonics.
+    Hemisphere,
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Evaluate,
         Self::Rotate,
         Self::Tilt,
@@ -35,6 +37,7 @@ impl Group {
         Self::Light,
         Self::Multiply,
         Self::Irradiance,
+        Self::Hemisphere,
     ];
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
@@ -49,6 +52,7 @@ impl Group {
             Self::Light => "lighting",
             Self::Multiply => "products",
             Self::Irradiance => "irradiances",
+            Self::Hemisphere => "hemispheres",
         }
     }
 
@@ -64,6 +68,7 @@ impl Group {
             Self::Light => "zonal functions, convolution with them, lights",
             Self::Multiply => "products of functions on the sphere",
             Self::Irradiance => "irradiance, its bases on the upper hemisphere, what keeps it from ringing",
+            Self::Hemisphere => "hemispherical harmonics: the basis, sums over it, conversions, rotations",
         }
     }
 }

@@ -14,6 +14,7 @@ pub mod family;
 pub mod fitted;
 pub mod group;
 pub mod hbasis;
+pub mod hemisphere;
 pub mod irradiance;
 pub mod lifted;
 pub mod lights;

@@ -120,12 +120,17 @@ impl Spec {
         if let Some(list) = self.list() {
             name += &format!("{}_", list.replace('+', "_"));
         }
-        if let Some([a, b]) = self.factors {
-            name += &format!("of_sh{a}_and_sh{b}_");
+        match (self.factors, &self.family.converts) {
+            (Some([from, _]), Some(_)) => name += &format!("of_order_{from}_"),
+            (Some([a, b]), None) => name += &format!("of_sh{a}_and_sh{b}_"),
+            (None, _) => {}
         }
         name += if !self.family.method.is_empty() && self.is_usual() { self.family.name } else { self.family.stem };
         for choice in &self.chosen {
-            name += &format!("_{choice}");
+            match choice.split_once('=') {
+                Some((choice, order)) => name += &format!("_order_{order}_{choice}"),
+                None => name += &format!("_{choice}"),
+            }
         }
         if self.rgb {
             name += "_rgb";
@@ -150,7 +155,10 @@ impl fmt::Display for Spec {
         let (order, family) = (self.order, self.family);
         let list = self.list();
         if let Some([a, b]) = self.factors {
-            write!(f, "{}:{a}+{b}:{order}", family.name)?;
+            write!(f, "{}:{a}+{b}", family.name)?;
+            if family.converts.is_none() {
+                write!(f, ":{order}")?;
+            }
         } else {
             match (list, family.by_band.map(|by_band| by_band.spelled)) {
                 (Some(list), Some(Spelled::AsFamily)) if !list.contains('+') => write!(f, "{list}:{order}")?,
@@ -304,14 +312,19 @@ fn parse_bands(piece: &Piece<'_>, list: &str, order: usize) -> Result<Vec<usize>
     Ok(bands)
 }
 
+fn orders() -> String {
+    format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}")
+}
+
 fn parse_order(piece: &Piece<'_>) -> Result<usize, SpecError> {
-    let range = format!("orders are {MIN_ORDER} to {MAX_ORDER}, in loop form to {MAX_LOOP_ORDER}");
-    let order: usize =
-        piece.text.parse().map_err(|_| piece.error(format!("`{}` is no order", piece.text), range.clone()))?;
-    if !(MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
-        return Err(piece.error(format!("order {order} is out of range"), range));
+    in_range(piece, piece.text.parse().map_err(|_| piece.error(format!("`{}` is no order", piece.text), orders()))?)
+}
+
+fn in_range(piece: &Piece<'_>, order: usize) -> Result<usize, SpecError> {
+    match (MIN_ORDER..=MAX_LOOP_ORDER).contains(&order) {
+        true => Ok(order),
+        false => Err(piece.error(format!("order {order} is out of range"), orders())),
     }
-    Ok(order)
 }
 
 /// The first name of a list of methods.
@@ -358,23 +371,31 @@ impl FromStr for Spec {
         if !names.contains(&head.text) {
             return Err(head.error(format!("`{}` is no family of kernels", head.text), hint(head.text, &names)));
         }
-        let takes_factors = |family: &&&Family| family.name == head.text && family.factors;
+        let takes = |of: fn(&Family) -> bool| ALL.iter().any(|family| family.name == head.text && of(family));
+        let converts = takes(|family| family.converts.is_some());
         let (factors, rest) = match rest {
-            [first, rest @ ..] if first.text.contains('+') && ALL.iter().any(|family| takes_factors(&family)) => {
-                (Some(factors::read(first.text).map_err(|[message, help]| first.error(message, help))?), rest)
+            [first, others @ ..] if first.text.contains('+') && (converts || takes(|family| family.factors)) => {
+                let example = if converts { format!("{}:5+3", head.text) } else { "product:2+3:4".to_owned() };
+                let both = factors::read(first.text, &example).map_err(|[message, help]| first.error(message, help))?;
+                // A conversion's second order is the result's, and stands in its place.
+                (Some(both), if converts { rest } else { others })
             }
             _ => (None, rest),
         };
         let alone = ALL.iter().find(|family| family.name == head.text && family.one_order);
         let (order_piece, order, options) = match (alone, rest.split_first()) {
             (Some(family), _) => (head, *family.orders.start(), rest),
-            (None, Some((piece, options))) => (piece, parse_order(piece)?, options),
+            (None, Some((piece, options))) => match factors.filter(|_| converts) {
+                Some([_, order]) => (piece, in_range(piece, order)?, options),
+                None => (piece, parse_order(piece)?, options),
+            },
             (None, None) => {
                 let help = format!("write it as in `{}:5`", head.text);
                 return Err(head.error(format!("`{text}` names no order"), help));
             }
         };
         let (family, methods, options) = parse_head(head.text, order_piece, order, options)?;
+        let factors = factors.filter(|both| !converts || *both != [order; 2]);
         let mut spec = Self { methods, factors, ..Self::new(family, order) };
         let known = method_names(head.text);
         let mut is_open = !known.is_empty();

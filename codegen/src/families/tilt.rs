@@ -320,21 +320,30 @@ fn tilt(order: usize, methods: &[SmallAngle], stored: Stored) -> Kernel {
         }
         Stored::Plainly => signal(&mut builder, order),
     };
-    let g = &mut builder.graph;
-    let one = g.constant(Exact::one());
-    let above = g.add(n[2], one);
-    let n = Normal { x: n[0], y: n[1], z: n[2], u: inner(g, &n[..2], &n[..2]), k: g.recip(above) };
-    let out = each_band(g, &c, order, |g, l, band| match l {
-        0 => band.to_vec(),
-        1 => band_1(g, band, &n),
-        2 => band_2(g, band, &n),
-        _ => shears(g, band, &n, methods[l - 1], stored),
-    });
+    let out = each_tilted(&mut builder.graph, &n, &c, order, methods, stored);
     let doc = match stored {
         Stored::Plainly => "the tilted coefficients",
         Stored::Divided => "the tilted coefficients, scaled alike",
     };
     builder.finish(out, Shape::Array(order * order), doc)
+}
+
+/// Tilts every band.
+fn each_tilted(g: &mut Graph, n: &[Id], c: &[Id], order: usize, methods: &[SmallAngle], stored: Stored) -> Vec<Id> {
+    let one = g.constant(Exact::one());
+    let above = g.add(n[2], one);
+    let n = Normal { x: n[0], y: n[1], z: n[2], u: inner(g, &n[..2], &n[..2]), k: g.recip(above) };
+    each_band(g, c, order, |g, l, band| match l {
+        0 => band.to_vec(),
+        1 => band_1(g, band, &n),
+        2 => band_2(g, band, &n),
+        _ => shears(g, band, &n, methods[l - 1], stored),
+    })
+}
+
+/// Tilts the bands 0 to 2 at most, exactly.
+pub fn exactly(g: &mut Graph, n: &[Id], c: &[Id], order: usize) -> Vec<Id> {
+    each_tilted(g, n, c, order, &[], Stored::Plainly)
 }
 
 /// The kernels `tilt_scale` and `tilt_unscale`: each coefficient times what `factor` makes of its [`scale`].

@@ -5,6 +5,7 @@ pub mod exact;
 pub mod fourier;
 pub mod gaunt;
 pub mod half;
+pub mod hemisphere;
 pub mod index;
 pub mod linear;
 pub mod quadrature;

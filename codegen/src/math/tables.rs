@@ -7,6 +7,7 @@
 
 use num_bigint::BigInt;
 use num_integer::{Integer, binomial};
+use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::exact::Exact;
@@ -32,14 +33,20 @@ pub fn basis_factor(l: usize, m: isize) -> Exact {
 /// The coefficients, lowest first, of the polynomial `P_l^(m)(z)`, the m-th derivative of the Legendre polynomial P_l;
 /// every second one is zero. Rational, with denominators that divide 2^l.
 pub fn legendre_polynomial(l: usize, m: usize) -> Vec<Exact> {
-    let mut coefficients = vec![Exact::zero(); (l + 1).saturating_sub(m)];
+    let exact = |c: BigRational| Exact::ratio(c.numer().clone(), c.denom().clone());
+    legendre_rationals(l, m).into_iter().map(exact).collect()
+}
+
+/// [`legendre_polynomial`] as rational numbers.
+pub fn legendre_rationals(l: usize, m: usize) -> Vec<BigRational> {
+    let mut coefficients = vec![BigRational::zero(); (l + 1).saturating_sub(m)];
     for j in 0..=l / 2 {
         let Some(power) = (l - 2 * j).checked_sub(m) else {
             break;
         };
         let choices = binomial(BigInt::from(l), j.into()) * binomial(BigInt::from(2 * l - 2 * j), l.into());
         let numerator = choices * product(power + 1, l - 2 * j);
-        coefficients[power] = Exact::ratio(if j % 2 == 0 { numerator } else { -numerator }, BigInt::one() << l);
+        coefficients[power] = BigRational::new(if j % 2 == 0 { numerator } else { -numerator }, BigInt::one() << l);
     }
     coefficients
 }

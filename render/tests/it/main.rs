@@ -1,4 +1,5 @@
 //! The tests of the pictures, one module a subject, in one program.
 
+mod lightmap;
 mod pictures;
 mod report;

@@ -10,7 +10,7 @@ use zonal_render::gpu::Gpu;
 use zonal_render::report::{LIT, METHODS, Report};
 use zonal_render::subject::{Instead, Subject};
 
-fn repository(path: &str) -> PathBuf {
+pub fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
@@ -30,7 +30,7 @@ fn measured() -> Report {
 }
 
 /// A text with a mark for every number, and the numbers.
-fn split(text: &str) -> (String, Vec<f64>) {
+pub fn split(text: &str) -> (String, Vec<f64>) {
     let (mut words, mut numbers, mut open) = (String::new(), Vec::new(), String::new());
     for c in text.chars().chain(['\n']) {
         let inside = c.is_ascii_digit() || (!open.is_empty() && c == '.');

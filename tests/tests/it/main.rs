@@ -1,6 +1,7 @@
 //! The tests of the generator, one module a subject, in one program: it is linked once, and what they share is built once.
 
 mod accuracy;
+mod bake;
 mod bilinear;
 mod bounds;
 mod brdf;
@@ -18,6 +19,8 @@ mod found;
 mod goldens;
 mod half;
 mod hbasis;
+mod hemisphere;
+mod hemisphere_rotation;
 mod house;
 mod irradiance;
 mod laws;

@@ -27,6 +27,7 @@ mod conventions;
 mod dependents;
 mod light;
 mod project;
+mod surface;
 
 const TRIALS: usize = 40;
 

@@ -205,6 +205,15 @@ fn small_band(g: &mut Graph, values: &[Id], powers: &Powers, method: SmallAngle)
     }
 }
 
+/// β = sin β (1 + sin²β / 6) and its square, to the fifth order.
+pub fn of_sine(g: &mut Graph, sin: Id) -> [Id; 2] {
+    let square = g.mul(sin, sin);
+    let factor = g.affine(&Exact::ratio(1, 6), square, &Exact::one());
+    let beta = g.mul(sin, factor);
+    let factor = g.affine(&Exact::ratio(1, 3), square, &Exact::one());
+    [beta, g.mul(square, factor)]
+}
+
 impl Powers {
     /// β and its square, from β.
     pub fn of_angle(g: &mut Graph, beta: Id) -> Self {
@@ -213,12 +222,9 @@ impl Powers {
 
     /// β = sin β (1 + sin²β / 6) and its square, to the fifth order; what the exact bands need up to the last of them.
     pub fn of_phase(g: &mut Graph, phase: Phase, methods: &[SmallAngle]) -> Self {
-        let square = g.mul(phase.sin, phase.sin);
-        let factor = g.affine(&Exact::ratio(1, 6), square, &Exact::one());
-        let beta = g.mul(phase.sin, factor);
-        let factor = g.affine(&Exact::ratio(1, 3), square, &Exact::one());
+        let [beta, square] = of_sine(g, phase.sin);
         let exact = methods.iter().rposition(|method| *method == SmallAngle::Exact);
-        Self { beta, square: g.mul(square, factor), exact: exact.map(|last| y_phases(g, phase, last + 1)) }
+        Self { beta, square, exact: exact.map(|last| y_phases(g, phase, last + 1)) }
     }
 }
 

@@ -1,0 +1,110 @@
+//! Light from an environment map, by rays that go where it is bright: texels are picked by their power, and a ray goes
+//! anywhere in its texel. It knows nothing of surfaces.
+
+use crate::alias::Alias;
+use zonal_codegen::environment::Map;
+use zonal_codegen::promise::samples::Random;
+use zonal_picture::lights::Light;
+
+/// A map with the table by which its texels are picked.
+#[derive(Clone, Debug)]
+pub struct Sky {
+    map: Map,
+    table: Alias,
+}
+
+impl Sky {
+    /// Returns the sky of a map; none if it was made by hand and is black or holds what is no radiance.
+    pub fn new(map: Map) -> Option<Self> {
+        let power =
+            |(i, texel): (usize, &[f64; 3])| texel.iter().sum::<f64>() * map.solid_angle(i % map.width, i / map.width);
+        let weights: Vec<f64> = map.texels.iter().enumerate().map(power).collect();
+        Some(Self { table: Alias::new(&weights)?, map })
+    }
+
+    /// The map.
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// Returns so many rays of light, by which sums estimate integrals over the whole sphere: Σ f(direction) power has the
+    /// mean ∫ f L. Each is picked by a number of its own part of 0 to 1, so that parts of the map get their share but for
+    /// one ray each; all by the seed alone.
+    pub fn rays(&self, count: usize, seed: u64) -> impl Iterator<Item = Light> {
+        let mut random = Random::new(seed);
+        (0..count).map(move |i| {
+            let mut share = || 0.5 * (random.signed() + 1.0);
+            let texel = self.table.pick((i as f64 + share()) / count as f64);
+            let (x, y) = (texel % self.map.width, texel / self.map.width);
+            let (direction, solid_angle) = self.map.inside(x, y, [share(), share()]);
+            let weight = solid_angle / (self.table.share(texel) * count as f64);
+            Light { direction, power: self.map.texels[texel].map(|v| v * weight) }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use zonal_codegen::environment::harmonics::basis;
+
+    fn carried(name: &str) -> Map {
+        let path = zonal_scenes::below("maps").find(|path| path.contains(name)).expect("a map of that name");
+        Map::from_bytes(path, zonal_scenes::embedded(path).expect("embedded")).expect("a map")
+    }
+
+    #[test]
+    fn rays_sum_to_the_projection_of_the_map() {
+        let cube = |map: &Map| {
+            let mut cube = Map { width: 8, height: 48, texels: vec![[0.0; 3]; 8 * 48] };
+            for i in 0..cube.texels.len() {
+                cube.texels[i] = map.radiance(cube.direction(i % 8, i / 8));
+            }
+            cube
+        };
+        for map in [carried("city"), carried("courtyard"), cube(&carried("courtyard"))] {
+            let sky = Sky::new(map).expect("light");
+            let wanted = sky.map().project(3).coefficients;
+            let whole: f64 = wanted[0].iter().sum();
+            let count = 1 << 16;
+            let mut found = [[0.0; 3]; 9];
+            let mut values = [0.0; 9];
+            for ray in sky.rays(count, 5) {
+                basis(3, ray.direction, &mut values);
+                for (sum, y) in found.iter_mut().zip(values) {
+                    (0..3).for_each(|channel| sum[channel] += y * ray.power[channel]);
+                }
+            }
+            for (found, wanted) in found.iter().zip(&wanted) {
+                for channel in 0..3 {
+                    // A ray has the map's power to within its colour, and a harmonic of order 3 varies by one: the standard
+                    // error is below one in 256 of all, of which four are allowed.
+                    let error = (found[channel] - wanted[channel]).abs() / whole;
+                    assert!(error < 4.0 / 256.0, "{found:?} {wanted:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_ray_of_every_part_is_drawn_and_the_seed_says_which() {
+        // One texel has half of the light: it gets half of the rays but for one.
+        let mut map = Map { width: 16, height: 8, texels: vec![[1.0; 3]; 128] };
+        let rest: f64 = (0..128).filter(|&i| i != 40).map(|i| map.solid_angle(i % 16, i / 16)).sum();
+        map.texels[40] = [rest / map.solid_angle(8, 2); 3];
+        let sky = Sky::new(map.clone()).expect("light");
+        let inside = |light: &Light| map.radiance(light.direction) == map.texels[40];
+        for seed in 0..8 {
+            let hits = sky.rays(256, seed).filter(inside).count();
+            // A column of the table is split at most once, and 128 columns take two rays each.
+            assert!(hits.abs_diff(128) <= 12, "{hits}");
+        }
+        let all = |seed| sky.rays(64, seed).collect::<Vec<_>>();
+        assert!(all(3) == all(3) && all(3) != all(4));
+    }
+
+    #[test]
+    fn no_light_is_no_sky() {
+        assert!(Sky::new(Map { width: 2, height: 1, texels: vec![[0.0; 3]; 2] }).is_none());
+    }
+}

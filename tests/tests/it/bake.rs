@@ -1,0 +1,189 @@
+//! `zonal bake` as a person runs it: what it writes for vertices and lightmaps, what it refuses, and that nothing is written
+//! then.
+
+use exr::prelude::{ReadChannels, ReadLayers};
+use std::f64::consts::PI;
+use zonal_tests::command::{Folder, Run};
+
+/// Two triangles in the plane y = 0, with texture coordinates.
+const PLANE: &str =
+    "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+/// A folder with a mesh and a uniform map of radiance 1.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.put("plane.obj", PLANE);
+    // A mantissa of 128 with the exponent 129 stands for 1.
+    let head = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n";
+    folder.put("one.hdr", [&head[..], &[128, 128, 128, 129].repeat(128)].concat());
+    folder.put("black.hdr", [&head[..], &[0; 4].repeat(128)].concat());
+    folder
+}
+
+/// Runs what must be refused with these words; nothing may be written.
+fn refuses(folder: &Folder, arguments: &[&str], words: &[&str]) {
+    let before = folder.names();
+    let Run { code, out, err } = folder.run([&["bake"], arguments].concat());
+    assert_eq!(code, Some(1), "{arguments:?}: {out}{err}");
+    for part in words {
+        assert!(err.contains(part), "{arguments:?}: `{part}` is not in\n{err}");
+    }
+    assert_eq!(folder.names(), before, "{arguments:?}");
+}
+
+fn works(folder: &Folder, arguments: &[&str]) -> String {
+    let Run { code, out, err } = folder.run([&["bake"], arguments].concat());
+    assert_eq!(code, Some(0), "{arguments:?}: {err}");
+    out
+}
+
+#[test]
+fn a_lightmap_is_layers_of_an_image_and_says_what_they_are() {
+    let folder = folder();
+    let shared = ["plane.obj", "--map", "one.hdr", "--lightmap", "8", "--lightmap-uv", "plane.obj", "--rays", "4096"];
+    for (basis, layers) in [("irradiance2", 4), ("h4", 4), ("h6", 6), ("hl2", 3), ("sh3", 9)] {
+        let told = works(&folder, &[&shared[..], &["--basis", basis, "-o", "a.exr"]].concat());
+        assert!(told.contains("64 texels, each") && told.contains("a.exr and a.toml"), "{told}");
+        let about: toml::Table =
+            std::fs::read_to_string(folder.path("a.toml")).expect("written").parse().expect("TOML");
+        let text = |key: &str| about[key].as_str().expect("text").to_owned();
+        assert_eq!(
+            (text("basis"), text("space"), text("convention")),
+            (basis.into(), "tangent".into(), "zonal".into())
+        );
+        assert_eq!((about["over_pi"].as_bool(), about["scale"].as_float()), (Some(false), Some(1.0)));
+        assert_eq!(text("of"), if basis == "sh3" { "radiance" } else { "irradiance" });
+        assert_eq!(about["layers"].as_array().map(Vec::len), Some(layers));
+        let image = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_file(folder.path("a.exr"))
+            .expect("an image");
+        let mut wanted: Vec<String> =
+            (0..layers).flat_map(|i| ["R", "G", "B"].map(|channel| format!("c{i}.{channel}"))).collect();
+        wanted.push("covered".to_owned());
+        wanted.sort();
+        let channels = &image.layer_data.channel_data.list;
+        let mut found: Vec<String> = channels.iter().map(|channel| channel.name.to_string()).collect();
+        found.sort();
+        assert_eq!(found, wanted);
+        let texel = |name: &str| {
+            let channel = channels.iter().find(|channel| channel.name.eq(name)).expect("a channel");
+            f64::from(channel.sample_data.values_as_f32().nth(27).expect("a texel"))
+        };
+        assert_eq!(texel("covered"), 1.0);
+        // The mean of the irradiance over the whole sphere of normals, by the factor π of the constant band: half of the
+        // light's π, since the lower half of the light is hidden. The constant of the H-basis is not far from it.
+        if basis == "irradiance2" {
+            let constant = texel("c0.R") * 0.5 / PI.sqrt();
+            // Rays that are picked evenly err by less than one in the root of their number.
+            assert!((constant / (0.5 * PI) - 1.0).abs() < 2.0 / 64.0, "{constant}");
+        }
+    }
+}
+
+#[test]
+fn vertices_are_a_mesh_and_what_is_over_pi_is_less_by_pi() {
+    let folder = folder();
+    let shared = ["plane.obj", "--map", "one.hdr", "--basis", "irradiance3"];
+    let told = works(&folder, &shared);
+    assert!(told.contains("4 vertices, each 9 coefficients of irradiance") && told.contains("plane.ply"), "{told}");
+    works(&folder, &[&shared[..], &["--over-pi", "-o", "b.ply"]].concat());
+    let numbers = |name: &str| -> Vec<f32> {
+        let bytes = std::fs::read(folder.path(name)).expect("written");
+        let end = bytes.windows(11).position(|window| window == b"end_header\n").expect("a head") + 11;
+        assert!(bytes.starts_with(b"ply\nformat binary_little_endian 1.0\ncomment @generated by zonal bake\n"));
+        bytes[end..end + 4 * 37 * 4].as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+    };
+    let (plain, over) = (numbers("plane.ply"), numbers("b.ply"));
+    for (i, (plain, over)) in plain.iter().zip(&over).enumerate() {
+        let factor = if i % 37 < 10 { 1.0 } else { PI as f32 };
+        assert!((plain - factor * over).abs() < 1e-5, "{i}: {plain} {over}");
+    }
+    // In the file's own axes: places as they were, normals up.
+    let mut places: Vec<[i32; 3]> = plain.chunks(37).map(|v| [v[0], v[1], v[2]].map(|x| x as i32)).collect();
+    places.sort_unstable();
+    assert_eq!(places, [[0, 0, -1], [0, 0, 0], [1, 0, -1], [1, 0, 0]]);
+    assert!(plain.chunks(37).all(|v| v[4] == 1.0 && v[6] == 1.0 && v[9] == 1.0), "normal, tangent, hand");
+    // The same seed gives the same bytes, another one others.
+    let bytes = |name: &str| std::fs::read(folder.path(name)).expect("written");
+    let before = bytes("plane.ply");
+    works(&folder, &shared);
+    assert_eq!(bytes("plane.ply"), before);
+    works(&folder, &[&shared[..], &["--seed", "2"]].concat());
+    assert_ne!(bytes("plane.ply"), before);
+}
+
+#[test]
+fn what_is_wrong_is_named_and_nothing_is_written() {
+    let folder = folder();
+    folder.put("nan.obj", PLANE.replace("v 1 0 -1", "v 1 nan -1"));
+    folder.put("nan_uv.obj", PLANE.replace("vt 1 0", "vt inf 0"));
+    folder.put("empty.obj", "");
+    folder.put("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+    folder.put("bare.obj", PLANE.replace("/1", "").replace("/2", "").replace("/3", "").replace("/4", ""));
+    folder.put("fewer.obj", &PLANE[..PLANE.trim_end().rfind('\n').expect("lines") + 1]);
+    folder.put("outside.obj", PLANE.replace("vt 1 1", "vt 3 1"));
+    folder.put("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
+    folder.put("noise.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff");
+    let map = ["--map", "one.hdr"];
+    let with = |arguments: &[&'static str]| [arguments, &map].concat();
+    let lightmap = ["--lightmap", "8", "--lightmap-uv"];
+    refuses(&folder, &with(&["none.obj"]), &["cannot read `none.obj`", "name a mesh, .obj, .gltf or .glb"]);
+    refuses(&folder, &with(&["nan.obj"]), &["nan.obj: holds a coordinate that is not finite"]);
+    refuses(&folder, &with(&["nan_uv.obj"]), &["nan_uv.obj: holds a coordinate that is not finite"]);
+    for name in ["empty.obj", "flat.obj", "a.gltf"] {
+        refuses(&folder, &with(&[name]), &[name, "holds no triangle of any size", "export the mesh with its faces"]);
+    }
+    refuses(&folder, &with(&["noise.glb"]), &["noise.glb: cannot be read", "export the mesh as glTF 2.0 again"]);
+    let unknown = ["there is no basis `h5`", "irradiance3", "h4, h6, hl2"];
+    refuses(&folder, &with(&["plane.obj", "--basis", "h5"]), &unknown);
+    refuses(&folder, &with(&["plane.obj", "--basis", "sh3", "--over-pi"]), &["`sh3` stores radiance", "--over-pi"]);
+    let second = ["plane.obj: has no second set of texture coordinates", "TEXCOORD_1", "--lightmap-uv FILE.obj"];
+    refuses(&folder, &with(&["plane.obj", "--lightmap", "8"]), &second);
+    let first = ["bare.obj: has no texture coordinates of a normal map, nor tangents", "TEXCOORD_0"];
+    refuses(&folder, &[&with(&["bare.obj"])[..], &lightmap, &["plane.obj"]].concat(), &first);
+    let cases: [(&[&str], &[&str]); 4] = [
+        (&["plane.obj", "fewer.obj"], &["fewer.obj: has 1 triangles, and plane.obj has 2"]),
+        (&["plane.obj", "bare.obj"], &["bare.obj: has faces without texture coordinates"]),
+        (&["plane.obj", "outside.obj"], &["plane.obj: has lightmap coordinates from 0 to 3", "within 0 to 1"]),
+        (&["a.gltf", "plane.obj"], &["a.gltf: holds its second set of texture coordinates itself", "leave out"]),
+    ];
+    for (names, words) in cases {
+        refuses(&folder, &[&with(&[])[..], &[names[0]], &lightmap, &[names[1]]].concat(), words);
+    }
+    refuses(&folder, &["plane.obj", "--map", "none.hdr"], &["none.hdr"]);
+    refuses(&folder, &["plane.obj", "--map", "black.hdr"], &["black.hdr", "is black all over"]);
+    refuses(&folder, &with(&["plane.obj", "-o", "a.exr"]), &["`a.exr` is no name of a file for vertices", "`.ply`"]);
+    let name = ["`a.ply` is no name of a file for a lightmap", "`.exr`"];
+    refuses(&folder, &[&with(&["plane.obj", "-o", "a.ply"])[..], &lightmap, &["plane.obj"]].concat(), &name);
+    for arguments in [["--rays", "0"], ["--lightmap", "0"], ["--lightmap", "9999"]] {
+        let Run { code, err, .. } = folder.run([&["bake"], &with(&["plane.obj"])[..], &arguments].concat());
+        assert_eq!(code, Some(2), "{err}");
+    }
+}
+
+#[test]
+fn files_of_others_are_spared_and_odd_meshes_taken_with_a_word() {
+    let folder = folder();
+    folder.put("plane.ply", "my own mesh");
+    let own = ["`./plane.ply` was not written by zonal", "--force"];
+    refuses(&folder, &["plane.obj", "--map", "one.hdr"], &own);
+    works(&folder, &["plane.obj", "--map", "one.hdr", "--force"]);
+    works(&folder, &["plane.obj", "--map", "one.hdr"]);
+    // A third triangle stands on the edge that two share.
+    folder.put("fin.obj", format!("{PLANE}v 0 1 0\nf 1/1 3/3 5/2\n"));
+    let told = works(&folder, &["fin.obj", "--map", "one.hdr", "--basis", "sh2"]);
+    assert!(told.contains("note: 1 edges belong to three triangles or more"), "{told}");
+    folder.put("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n");
+    let told = works(&folder, &["bare.obj", "--map", "one.hdr", "--basis", "sh2"]);
+    assert!(told.contains("note: bare.obj has no texture coordinates, so that the tangents are zonal's own"), "{told}");
+    // Two islands on one place.
+    folder.put("twice.obj", PLANE.replace("f 1/1 3/3 4/4", "f 1/1 3/2 4/3"));
+    let arguments =
+        ["plane.obj", "--map", "one.hdr", "--lightmap", "8", "--lightmap-uv", "twice.obj", "--basis", "sh2"];
+    assert!(works(&folder, &arguments).contains("texels lie on two triangles"));
+}
