@@ -128,22 +128,43 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
     eval::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
 }
 
-/// `eval_monomial:3`: The sum of c_i y_i(dir) over the harmonics of order 3, from the coefficients that
-/// `to_monomial:3` makes.
+/// `eval:3:once`: The sum of c_i y_i(dir) over the harmonics of order 3, for one channel in the fewest
+/// operations; channels share none of them.
 ///
 /// - dir: the direction, of unit length.
-/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - c: the coefficients, index l(l+1)+m.
 /// - Returns sum c_i y_i(dir).
-/// - Operations: 12 (2 mul, 1 add, 9 fma); 0 constants, 2 live values.
-/// - Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
+/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+/// - Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, each band of norm one, for dir
 ///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   3.9e-7).
+///   1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn eval_once<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
+    let t0 = c[0].fma(T::lit(0.28209479177387814), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(0.4886025119029199));
+    let t1 = c[8] * T::lit(0.5);
+    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
+    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(1.0925484305920792), t0);
+    t3
+}
+
+/// `eval_monomial:3`: The sum of c_i y_i(dir) over the harmonics of order 3, from the coefficients that
+/// `to_monomial:3` makes. For directions of unit length alone. The error in f32 doubles with each
+/// order: from order 7 on `eval` is the more exact.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 8 (0 mul, 0 add, 8 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 9e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.9e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
-    let t0 = c[5].fma(dir[2], c[1]).fma(dir[1], c[7].fma(dir[2], c[3]).fma(dir[0], c[6].fma(dir[2], c[2]).fma(dir[2], c[0])));
-    let t1 = dir[0] * dir[1];
-    c[4].fma(t1 + t1, c[8].fma(dir[0].fms(dir[0], dir[1] * dir[1]), t0))
+    let t0 = c[6].fma(dir[0], c[5].fma(dir[1], c[2])).fma(dir[0], c[4].fma(dir[1], c[1]).fma(dir[1], c[0]));
+    c[8].fma(dir[0], c[7].fma(dir[1], c[3])).fma(dir[2], t0)
 }
 
 /// [`eval_monomial`] of three channels that share the parameters, as plain arrays.
@@ -156,23 +177,25 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
 /// `eval_monomial:3` takes; done once, when they are stored.
 ///
 /// - c: the coefficients, index l(l+1)+m.
-/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// - Operations: 10 (9 mul, 0 add, 1 fma); 6 constants, 9 live values.
-/// - Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
+/// - Operations: 11 (8 mul, 0 add, 3 fma); 6 constants, 9 live values.
+/// - Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
 ///   arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 9] {
+    let t0 = c[8] * T::lit(0.5462742152960396);
     [
-        c[0].fms(T::lit(0.28209479177387814), c[6] * T::lit(0.31539156525252)),
+        c[0].fma(T::lit(0.28209479177387814), c[6] * T::lit(0.63078313050504)),
         -(c[1] * T::lit(0.4886025119029199)),
-        c[2] * T::lit(0.4886025119029199),
         -(c[3] * T::lit(0.4886025119029199)),
-        c[4] * T::lit(0.5462742152960396),
+        c[2] * T::lit(0.4886025119029199),
+        -c[6].fma(T::lit(0.94617469575756), t0),
+        c[4] * T::lit(1.0925484305920792),
+        c[6].fnma(T::lit(0.94617469575756), t0),
         -(c[5] * T::lit(1.0925484305920792)),
-        c[6] * T::lit(0.94617469575756),
         -(c[7] * T::lit(1.0925484305920792)),
-        c[8] * T::lit(0.5462742152960396),
     ]
 }
 
@@ -2000,9 +2023,9 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
     convolve_cosine::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
-/// `irradiance:3`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-/// sends out.
+/// `irradiance:3:nested`: The irradiance of a surface that faces a direction, from the coefficients of
+/// the radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it,
+/// it is what a white surface sends out.
 ///
 /// - dir: the direction, of unit length.
 /// - c: the coefficients, index l(l+1)+m.
@@ -2013,7 +2036,7 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 ///   2.4e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
+pub fn irradiance_nested<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
     let t0 = dir[2] * dir[2];
     let t1 = c[0].fma(T::lit(0.886226925452758), c[6] * T::lit(0.7431238683011271).fms(t0, T::lit(0.2477079561003757)));
     let t2 = T::lit(0.8385254915624212) * dir[2];
@@ -2023,10 +2046,31 @@ pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
     c[4].fma(dir[0] * t4, t5)
 }
 
-/// [`irradiance`] of three channels that share the parameters, as plain arrays.
+/// [`irradiance_nested`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
 pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
-    irradiance::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+    irradiance_nested::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `irradiance:3`: The irradiance of a surface that faces a direction, from the coefficients of the
+/// radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+/// - Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.5e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
+    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
+    let t1 = c[8] * T::lit(0.5);
+    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
+    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(0.8580855308097834), t0);
+    t3
 }
 
 /// `light_directional:3`: Adds a directional light to coefficients of order 3: light is the irradiance
@@ -3240,5 +3284,1214 @@ pub fn axis_angles<T: Real>(dir: [T; 3]) -> [[T; 2]; 5] {
         [dir[2].fms(dir[2], t7), T::lit(2.0) * t8],
         [T::lit(0.5) * t7, t8],
     ]
+}
+
+/// `to_irradiance:3`: From the coefficients of radiance of order 3 to those of monomials of the
+/// irradiance, which `:over_pi` divides by pi, as `irradiance_prepared:3` takes them; done once, when
+/// they are stored.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
+/// - Operations: 11 (8 mul, 0 add, 3 fma); 6 constants, 9 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.5e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn to_irradiance<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 9] {
+    let t0 = c[8] * T::lit(0.4290427654048917);
+    [
+        c[0].fma(T::lit(0.886226925452758), c[6] * T::lit(0.4954159122007514)),
+        -(c[1] * T::lit(1.0233267079464885)),
+        -(c[3] * T::lit(1.0233267079464885)),
+        c[2] * T::lit(1.0233267079464885),
+        -c[6].fma(T::lit(0.7431238683011271), t0),
+        c[4] * T::lit(0.8580855308097834),
+        c[6].fnma(T::lit(0.7431238683011271), t0),
+        -(c[5] * T::lit(0.8580855308097834)),
+        -(c[7] * T::lit(0.8580855308097834)),
+    ]
+}
+
+/// [`to_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn to_irradiance_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    to_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `irradiance_prepared:3`: The irradiance of a surface that faces a direction, from the coefficients
+/// that `to_irradiance:3` makes, of which `:over_pi` divides them by pi. For directions of unit length
+/// alone.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
+/// - Returns the irradiance.
+/// - Operations: 8 (0 mul, 0 add, 8 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for dir of unit length (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance_prepared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
+    let t0 = c[6].fma(dir[0], c[5].fma(dir[1], c[2])).fma(dir[0], c[4].fma(dir[1], c[1]).fma(dir[1], c[0]));
+    c[8].fma(dir[0], c[7].fma(dir[1], c[3])).fma(dir[2], t0)
+}
+
+/// [`irradiance_prepared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn irradiance_prepared_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
+    irradiance_prepared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h6_basis`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere (Habel and
+/// Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
+/// means of normals are to be given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - Returns H_i(dir).
+/// - Operations: 8 (6 mul, 0 add, 2 fma); 5 constants, 5 live values.
+/// - Error: f32 rounding at most 2.6e-7 of one, for every dir of at most unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_basis<T: Real>(dir: [T; 3]) -> [T; 6] {
+    [
+        T::lit(0.3989422804014327),
+        -(T::lit(0.690988298942671) * dir[1]),
+        T::lit(1.381976597885342).fms(dir[2], T::lit(0.690988298942671)),
+        -(T::lit(0.690988298942671) * dir[0]),
+        dir[1] * (T::lit(1.5450968080927583) * dir[0]),
+        T::lit(0.7725484040463791) * dir[0].fms(dir[0], dir[1] * dir[1]),
+    ]
+}
+
+/// `h6_basis:normalised`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere
+/// (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
+/// unit; a zero one stays zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - Returns H_i(dir).
+/// - Operations: 14 (9 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 5 constants, 6 live
+///   values.
+/// - Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
+///   worst of 256 measured, 2.6e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 6] {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = dir[1] * t0;
+    let t2 = dir[0] * t0;
+    [
+        T::lit(0.3989422804014327),
+        -(T::lit(0.690988298942671) * t1),
+        T::lit(1.381976597885342).fms(dir[2] * t0, T::lit(0.690988298942671)),
+        -(T::lit(0.690988298942671) * t2),
+        t1 * (T::lit(1.5450968080927583) * t2),
+        T::lit(0.7725484040463791) * t2.fms(t2, t1 * t1),
+    ]
+}
+
+/// `h6_eval`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored (Habel
+/// and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
+/// the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 11 (4 mul, 0 add, 7 fma); 6 constants, 3 live values.
+/// - Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = c[5] * T::lit(1.118033988749895);
+    let t1 = c[2].fma(T::lit(2.0).fms(dir[2], T::lit(1.0)), t0.fma(dir[0], (c[4] * T::lit(2.23606797749979)).fms(dir[1], c[3])) * dir[0]);
+    let t2 = c[0].fma(T::lit(0.3989422804014327), t0.fma(dir[1], c[1]).fnma(dir[1], t1) * T::lit(0.690988298942671));
+    t2
+}
+
+/// `h6_eval:normalised`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are
+/// stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
+/// the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 17 (7 mul, 0 add, 10 fma) and 1 inverse square root or reciprocal; 6 constants, 5 live
+///   values.
+/// - Error: f32 rounding at most 7.3e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 2.5e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = dir[1] * t0;
+    let t2 = c[5] * T::lit(1.118033988749895);
+    let t3 = dir[0] * t0;
+    let t4 = c[2].fma(T::lit(2.0).fms(dir[2] * t0, T::lit(1.0)), t2.fma(t3, (c[4] * T::lit(2.23606797749979)).fms(t1, c[3])) * t3);
+    let t5 = c[0].fma(T::lit(0.3989422804014327), t2.fma(t1, c[1]).fnma(t1, t4) * T::lit(0.690988298942671));
+    t5
+}
+
+/// `h6_eval:shared`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored
+/// (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
+/// are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 14 (7 mul, 0 add, 7 fma); 5 constants, 2 live values.
+/// - Error: f32 rounding at most 9.9e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_shared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = c[2].fma(T::lit(1.381976597885342).fms(dir[2], T::lit(0.690988298942671)), c[0].fms(T::lit(0.3989422804014327), c[1] * (T::lit(0.690988298942671) * dir[1])));
+    let t1 = c[4].fma(dir[1] * (T::lit(1.5450968080927583) * dir[0]), c[3].fnma(T::lit(0.690988298942671) * dir[0], t0));
+    c[5].fma(T::lit(0.7725484040463791) * dir[0].fms(dir[0], dir[1] * dir[1]), t1)
+}
+
+/// [`h6_eval_shared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h6_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
+    h6_eval_shared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h6_eval:shared:normalised`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they
+/// are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
+/// horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 20 (10 mul, 0 add, 10 fma) and 1 inverse square root or reciprocal; 5 constants, 4
+///   live values.
+/// - Error: f32 rounding at most 6.5e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_shared_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = dir[1] * t0;
+    let t2 = c[2].fma(T::lit(1.381976597885342).fms(dir[2] * t0, T::lit(0.690988298942671)), c[0].fms(T::lit(0.3989422804014327), c[1] * (T::lit(0.690988298942671) * t1)));
+    let t3 = dir[0] * t0;
+    let t4 = c[4].fma(t1 * (T::lit(1.5450968080927583) * t3), c[3].fnma(T::lit(0.690988298942671) * t3, t2));
+    c[5].fma(T::lit(0.7725484040463791) * t3.fms(t3, t1 * t1), t4)
+}
+
+/// [`h6_eval_shared_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h6_eval_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
+    h6_eval_shared_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h6_to_monomial`: From coefficients of the H-basis to those of the monomials that `h6_eval_monomial`
+/// takes; done once, when they are stored.
+///
+/// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Operations: 7 (6 mul, 0 add, 1 fma); 5 constants, 6 live values.
+/// - Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_to_monomial<T: Real, V: Signal<T>>(c: &[V; 6]) -> [V; 6] {
+    [
+        c[0].fms(T::lit(0.3989422804014327), c[2] * T::lit(0.690988298942671)),
+        -(c[1] * T::lit(0.690988298942671)),
+        c[2] * T::lit(1.381976597885342),
+        -(c[3] * T::lit(0.690988298942671)),
+        c[4] * T::lit(1.5450968080927583),
+        c[5] * T::lit(0.7725484040463791),
+    ]
+}
+
+/// [`h6_to_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h6_to_monomial_rgb<T: Real>(c: &[[T; 3]; 6]) -> [[T; 3]; 6] {
+    h6_to_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `h6_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h6_to_monomial`
+/// or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
+/// given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = c[5].fma(dir[0], c[3]).fma(dir[0], c[5].fnma(dir[1], c[4].fma(dir[0], c[1])).fma(dir[1], c[2].fma(dir[2], c[0])));
+    t0
+}
+
+/// `h6_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
+/// `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
+/// zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 12 (3 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
+///   values.
+/// - Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_monomial_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = dir[0] * t0;
+    let t2 = dir[1] * t0;
+    let t3 = c[5].fma(t1, c[3]).fma(t1, c[5].fnma(t2, c[4].fma(t1, c[1])).fma(t2, c[2].fma(dir[2] * t0, c[0])));
+    t3
+}
+
+/// `h6_eval_monomial:shared`: The sum of the H-basis from the coefficients of monomials that
+/// `h6_to_monomial` or a conversion with `:monomial` makes. The normal need not be a unit: means of
+/// normals are to be given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 7 (1 mul, 0 add, 6 fma); 0 constants, 2 live values.
+/// - Error: f32 rounding at most 5.3e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_monomial_shared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = c[4].fma(dir[0], c[1]).fma(dir[1], c[5].fma(dir[0].fms(dir[0], dir[1] * dir[1]), c[3].fma(dir[0], c[2].fma(dir[2], c[0]))));
+    t0
+}
+
+/// [`h6_eval_monomial_shared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h6_eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
+    h6_eval_monomial_shared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h6_eval_monomial:shared:normalised`: The sum of the H-basis from the coefficients of monomials that
+/// `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
+/// zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 13 (4 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
+///   values.
+/// - Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h6_eval_monomial_shared_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = dir[0] * t0;
+    let t2 = dir[1] * t0;
+    let t3 = c[4].fma(t1, c[1]).fma(t2, c[5].fma(t1.fms(t1, t2 * t2), c[3].fma(t1, c[2].fma(dir[2] * t0, c[0]))));
+    t3
+}
+
+/// [`h6_eval_monomial_shared_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h6_eval_monomial_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
+    h6_eval_monomial_shared_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `sh3_to_h4`: From harmonics of order 3 of radiance to the functions of H4, of its irradiance E (the
+/// integral of radiance times the cosine; `:over_pi` divides it by pi): the best approximation over the
+/// upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 8 (4 mul, 0 add, 4 fma); 6 constants, 4 live values.
+/// - Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h4_coefficients<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 4] {
+    [
+        c[0].fma(T::lit(2.221441469079183), c[2] * T::lit(1.282549830161864)),
+        c[1].fma(T::lit(1.480960979386122), c[5] * T::lit(0.46568382495919225)),
+        c[2].fma(T::lit(0.740480489693061), c[6] * T::lit(0.5377253633948884)),
+        c[3].fma(T::lit(1.480960979386122), c[7] * T::lit(0.46568382495919225)),
+    ]
+}
+
+/// [`sh3_to_h4_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 4] {
+    sh3_to_h4_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h4:monomial`: From harmonics of order 3 of radiance to the monomials of H4, of its
+/// irradiance E (the integral of radiance times the cosine; `:over_pi` divides it by pi): the best
+/// approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x.
+/// - Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+/// - Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_monomial<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 4] {
+    [
+        c[0].fms(T::lit(0.886226925452758), c[6] * T::lit(0.37156193415056354)),
+        -c[1].fma(T::lit(1.0233267079464885), c[5] * T::lit(0.32178207405366877)),
+        c[2].fma(T::lit(1.0233267079464885), c[6] * T::lit(0.7431238683011271)),
+        -c[3].fma(T::lit(1.0233267079464885), c[7] * T::lit(0.32178207405366877)),
+    ]
+}
+
+/// [`sh3_to_h4_coefficients_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_monomial_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 4] {
+    sh3_to_h4_coefficients_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h4:irradiance`: From harmonics of order 3 of irradiance to the functions of H4, of the same
+/// function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+/// - Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_irradiance<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 4] {
+    [
+        c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)),
+        c[1].fma(T::lit(0.7071067811865476), c[5] * T::lit(0.5929270612815711)),
+        c[2].fma(T::lit(0.3535533905932738), c[6] * T::lit(0.6846531968814576)),
+        c[3].fma(T::lit(0.7071067811865476), c[7] * T::lit(0.5929270612815711)),
+    ]
+}
+
+/// [`sh3_to_h4_coefficients_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 4] {
+    sh3_to_h4_coefficients_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h4:irradiance:monomial`: From harmonics of order 3 of irradiance to the monomials of H4, of
+/// the same function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x.
+/// - Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+/// - Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.5e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_irradiance_monomial<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 4] {
+    [
+        c[0].fms(T::lit(0.28209479177387814), c[6] * T::lit(0.47308734787878)),
+        -c[1].fma(T::lit(0.4886025119029199), c[5] * T::lit(0.40970566147202964)),
+        c[2].fma(T::lit(0.4886025119029199), c[6] * T::lit(0.94617469575756)),
+        -c[3].fma(T::lit(0.4886025119029199), c[7] * T::lit(0.40970566147202964)),
+    ]
+}
+
+/// [`sh3_to_h4_coefficients_irradiance_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h4_coefficients_irradiance_monomial_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 4] {
+    sh3_to_h4_coefficients_irradiance_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h6`: From harmonics of order 3 of radiance to the functions of H6, of its irradiance E (the
+/// integral of radiance times the cosine; `:over_pi` divides it by pi): the best approximation over the
+/// upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+/// - Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h6_coefficients<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 6] {
+    [
+        c[0].fma(T::lit(2.221441469079183), c[2] * T::lit(1.282549830161864)),
+        c[1].fma(T::lit(1.480960979386122), c[5] * T::lit(0.46568382495919225)),
+        c[2].fma(T::lit(0.740480489693061), c[6] * T::lit(0.5377253633948884)),
+        c[3].fma(T::lit(1.480960979386122), c[7] * T::lit(0.46568382495919225)),
+        c[4] * T::lit(0.5553603672697958),
+        c[8] * T::lit(0.5553603672697958),
+    ]
+}
+
+/// [`sh3_to_h6_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 6] {
+    sh3_to_h6_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h6:monomial`: From harmonics of order 3 of radiance to the monomials of H6, of its
+/// irradiance E (the integral of radiance times the cosine; `:over_pi` divides it by pi): the best
+/// approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+/// - Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_monomial<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 6] {
+    [
+        c[0].fms(T::lit(0.886226925452758), c[6] * T::lit(0.37156193415056354)),
+        -c[1].fma(T::lit(1.0233267079464885), c[5] * T::lit(0.32178207405366877)),
+        c[2].fma(T::lit(1.0233267079464885), c[6] * T::lit(0.7431238683011271)),
+        -c[3].fma(T::lit(1.0233267079464885), c[7] * T::lit(0.32178207405366877)),
+        c[4] * T::lit(0.8580855308097834),
+        c[8] * T::lit(0.4290427654048917),
+    ]
+}
+
+/// [`sh3_to_h6_coefficients_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_monomial_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 6] {
+    sh3_to_h6_coefficients_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h6:irradiance`: From harmonics of order 3 of irradiance to the functions of H6, of the same
+/// function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 10 (6 mul, 0 add, 4 fma); 5 constants, 6 live values.
+/// - Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_irradiance<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 6] {
+    [
+        c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)),
+        c[1].fma(T::lit(0.7071067811865476), c[5] * T::lit(0.5929270612815711)),
+        c[2].fma(T::lit(0.3535533905932738), c[6] * T::lit(0.6846531968814576)),
+        c[3].fma(T::lit(0.7071067811865476), c[7] * T::lit(0.5929270612815711)),
+        c[4] * T::lit(0.7071067811865476),
+        c[8] * T::lit(0.7071067811865476),
+    ]
+}
+
+/// [`sh3_to_h6_coefficients_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 6] {
+    sh3_to_h6_coefficients_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_h6:irradiance:monomial`: From harmonics of order 3 of irradiance to the monomials of H6, of
+/// the same function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+/// - Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_irradiance_monomial<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 6] {
+    [
+        c[0].fms(T::lit(0.28209479177387814), c[6] * T::lit(0.47308734787878)),
+        -c[1].fma(T::lit(0.4886025119029199), c[5] * T::lit(0.40970566147202964)),
+        c[2].fma(T::lit(0.4886025119029199), c[6] * T::lit(0.94617469575756)),
+        -c[3].fma(T::lit(0.4886025119029199), c[7] * T::lit(0.40970566147202964)),
+        c[4] * T::lit(1.0925484305920792),
+        c[8] * T::lit(0.5462742152960396),
+    ]
+}
+
+/// [`sh3_to_h6_coefficients_irradiance_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_h6_coefficients_irradiance_monomial_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 6] {
+    sh3_to_h6_coefficients_irradiance_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_hl2`: From harmonics of order 3 of radiance to the Half-Life 2 basis, of its irradiance E
+/// (the integral of radiance times the cosine; `:over_pi` divides it by pi): the best approximation
+/// over the upper hemisphere (Habel and Wimmer 2010, eqs. 1 and 2).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the three coefficients of the Half-Life 2 basis.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+/// - Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_hl2_coefficients<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 3] {
+    let t0 = c[6].fma(T::lit(0.38909874756034163), c[0].fma(T::lit(2.784163998415854), c[2] * T::lit(2.1432504452712773)));
+    let t1 = t0 * T::lit(0.3989422804014327);
+    let t2 = c[3].fma(T::lit(2.1432504452712773), c[7] * T::lit(0.6739387999359284));
+    let t3 = t2.fma(T::lit(0.28209479177387814), t1);
+    let t4 = c[1].fma(T::lit(2.1432504452712773), c[5] * T::lit(0.6739387999359284));
+    [
+        t4.fma(T::lit(0.4886025119029199), t3),
+        t4.fnma(T::lit(0.4886025119029199), t3),
+        t2.fnma(T::lit(0.5641895835477563), t1),
+    ]
+}
+
+/// [`sh3_to_hl2_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_hl2_coefficients_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 3] {
+    sh3_to_hl2_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh3_to_hl2:irradiance`: From harmonics of order 3 of irradiance to the Half-Life 2 basis, of the
+/// same function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eqs. 1 and
+/// 2).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the three coefficients of the Half-Life 2 basis.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+/// - Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh3_to_hl2_coefficients_irradiance<T: Real, V: Signal<T>>(c: &[V; 9]) -> [V; 3] {
+    let t0 = c[6].fma(T::lit(0.4954159122007514), c[0].fma(T::lit(0.886226925452758), c[2] * T::lit(1.0233267079464885)));
+    let t1 = t0 * T::lit(0.3989422804014327);
+    let t2 = c[3].fma(T::lit(1.0233267079464885), c[7] * T::lit(0.8580855308097834));
+    let t3 = t2.fma(T::lit(0.28209479177387814), t1);
+    let t4 = c[1].fma(T::lit(1.0233267079464885), c[5] * T::lit(0.8580855308097834));
+    [
+        t4.fma(T::lit(0.4886025119029199), t3),
+        t4.fnma(T::lit(0.4886025119029199), t3),
+        t2.fnma(T::lit(0.5641895835477563), t1),
+    ]
+}
+
+/// [`sh3_to_hl2_coefficients_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh3_to_hl2_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 3] {
+    sh3_to_hl2_coefficients_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `minimum:3`: The least value on the sphere of a function of order 3, where it lies, and a bound
+/// below it: with rounding in f32 or f64 no value is less than the bound. Of irradiance, give its
+/// coefficients. For bands from 1e-7 to 1e15 in size.
+///
+/// - c: the coefficients of one channel, index l(l+1)+m.
+/// - Returns the least value, the direction x, y, z of unit length in which it is, the bound.
+/// - Operations: 499 (212 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
+///   reciprocal, inverse square root); 12 constants, 45 live values.
+/// - Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 1.4e-6; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn minimum<T: Real>(c: &[T; 9]) -> [T; 5] {
+    let t0 = T::lit(0.28209479177387814) * c[0];
+    let t1 = T::lit(0.31539156525252) * c[6];
+    let t2 = T::lit(0.5462742152960396).fms(c[8], t1);
+    let t3 = T::lit(0.5462742152960396) * c[4];
+    let t4 = T::lit(0.5462742152960396).fma(c[8], t1);
+    let t5 = t4 + t2;
+    let t6 = T::lit(1.0925484305920792) * c[4];
+    let t7 = T::recip(T::root(t5.fma(t5, t6 * t6)) + T::abs(t5) + T::TINY) * T::choose(-t5, T::lit(0.0), -t6, t6);
+    let t8 = t3.fnma(t7, t2);
+    let t9 = T::lit(0.5462742152960396) * c[5];
+    let t10 = T::rsqrt(t7.fma(t7, T::lit(1.0)));
+    let t11 = t7 * t10;
+    let t12 = T::lit(0.5462742152960396) * c[7];
+    let t13 = t9.fms(t11, t12 * t10);
+    let t14 = T::lit(0.63078313050504).fms(c[6], t8);
+    let t15 = T::lit(2.0) * t13;
+    let t16 = T::recip(T::root(t14.fma(t14, t15 * t15)) + T::abs(t14) + T::TINY) * T::choose(t14, T::lit(0.0), -t15, t15);
+    let t17 = t13 * t16;
+    let t18 = t8 - t17;
+    let t19 = t12.fma(t11, t9 * t10);
+    let t20 = T::rsqrt(t16.fma(t16, T::lit(1.0)));
+    let t21 = t16 * t20;
+    let t22 = t19 * t21;
+    let t23 = T::lit(0.63078313050504).fma(c[6], t17);
+    let t24 = t3.fms(t7, t4);
+    let t25 = t23 - t24;
+    let t26 = t19 * t20;
+    let t27 = T::lit(2.0) * t26;
+    let t28 = T::recip(T::root(t25.fma(t25, t27 * t27)) + T::abs(t25) + T::TINY) * T::choose(t25, T::lit(0.0), t27, -t27);
+    let t29 = T::rsqrt(t28.fma(t28, T::lit(1.0)));
+    let t30 = t22 * t29;
+    let t31 = t26.fma(t28, t24);
+    let t32 = t31 - t18;
+    let t33 = T::lit(2.0) * t30;
+    let t34 = T::recip(T::root(t32.fma(t32, t33 * t33)) + T::abs(t32) + T::TINY) * T::choose(t32, T::lit(0.0), -t33, t33);
+    let t35 = t30.fnma(t34, t18);
+    let t36 = t28 * t29;
+    let t37 = t22 * t36;
+    let t38 = T::rsqrt(t34.fma(t34, T::lit(1.0)));
+    let t39 = t37 * t38;
+    let t40 = t26.fnma(t28, t23);
+    let t41 = t40 - t35;
+    let t42 = T::lit(2.0) * t39;
+    let t43 = T::recip(T::root(t41.fma(t41, t42 * t42)) + T::abs(t41) + T::TINY) * T::choose(t41, T::lit(0.0), -t42, t42);
+    let t44 = t39.fnma(t43, t35);
+    let t45 = t34 * t38;
+    let t46 = t37 * t45;
+    let t47 = T::rsqrt(t43.fma(t43, T::lit(1.0)));
+    let t48 = t43 * t47;
+    let t49 = t46 * t48;
+    let t50 = t39.fma(t43, t40);
+    let t51 = t30.fma(t34, t31);
+    let t52 = t50 - t51;
+    let t53 = t46 * t47;
+    let t54 = T::lit(2.0) * t53;
+    let t55 = T::recip(T::root(t52.fma(t52, t54 * t54)) + T::abs(t52) + T::TINY) * T::choose(t52, T::lit(0.0), -t54, t54);
+    let t56 = T::rsqrt(t55.fma(t55, T::lit(1.0)));
+    let t57 = t49 * t56;
+    let t58 = t53.fnma(t55, t51);
+    let t59 = t58 - t44;
+    let t60 = T::lit(2.0) * t57;
+    let t61 = T::recip(T::root(t59.fma(t59, t60 * t60)) + T::abs(t59) + T::TINY) * T::choose(t59, T::lit(0.0), t60, -t60);
+    let t62 = t57.fma(t61, t44);
+    let t63 = t55 * t56;
+    let t64 = t49 * t63;
+    let t65 = T::rsqrt(t61.fma(t61, T::lit(1.0)));
+    let t66 = t64 * t65;
+    let t67 = t53.fma(t55, t50);
+    let t68 = t67 - t62;
+    let t69 = T::lit(2.0) * t66;
+    let t70 = T::recip(T::root(t68.fma(t68, t69 * t69)) + T::abs(t68) + T::TINY) * T::choose(t68, T::lit(0.0), t69, -t69);
+    let t71 = t66.fma(t70, t62);
+    let t72 = t61 * t65;
+    let t73 = t64 * t72;
+    let t74 = T::rsqrt(t70.fma(t70, T::lit(1.0)));
+    let t75 = t70 * t74;
+    let t76 = t73 * t75;
+    let t77 = t66.fnma(t70, t67);
+    let t78 = t57.fnma(t61, t58);
+    let t79 = t77 - t78;
+    let t80 = t73 * t74;
+    let t81 = T::lit(2.0) * t80;
+    let t82 = T::recip(T::root(t79.fma(t79, t81 * t81)) + T::abs(t79) + T::TINY) * T::choose(t79, T::lit(0.0), t81, -t81);
+    let t83 = T::rsqrt(t82.fma(t82, T::lit(1.0)));
+    let t84 = t76 * t83;
+    let t85 = t80.fma(t82, t78);
+    let t86 = t85 - t71;
+    let t87 = T::lit(2.0) * t84;
+    let t88 = T::recip(T::root(t86.fma(t86, t87 * t87)) + T::abs(t86) + T::TINY) * T::choose(t86, T::lit(0.0), -t87, t87);
+    let t89 = t84.fnma(t88, t71);
+    let t90 = t82 * t83;
+    let t91 = t76 * t90;
+    let t92 = T::rsqrt(t88.fma(t88, T::lit(1.0)));
+    let t93 = t91 * t92;
+    let t94 = t80.fnma(t82, t77);
+    let t95 = t94 - t89;
+    let t96 = T::lit(2.0) * t93;
+    let t97 = T::recip(T::root(t95.fma(t95, t96 * t96)) + T::abs(t95) + T::TINY) * T::choose(t95, T::lit(0.0), -t96, t96);
+    let t98 = t93.fnma(t97, t89);
+    let t99 = t84.fma(t88, t85);
+    let t100 = t88 * t92;
+    let t101 = T::rsqrt(t97.fma(t97, T::lit(1.0)));
+    let t102 = t91 * t100 * t101;
+    let t103 = t93.fma(t97, t94);
+    let t104 = t103 - t99;
+    let t105 = T::lit(2.0) * t102;
+    let t106 = T::recip(T::root(t104.fma(t104, t105 * t105)) + T::abs(t104) + T::TINY) * T::choose(t104, T::lit(0.0), -t105, t105);
+    let t107 = t102.fnma(t106, t99);
+    let t108 = t102.fma(t106, t103);
+    let t109 = T::min(T::min(t98, t107), t108);
+    let t110 = t98 - t109;
+    let t111 = T::lit(0.4886025119029199) * c[1];
+    let t112 = T::lit(0.4886025119029199) * c[3];
+    let t113 = t111.fms(t11, t112 * t10);
+    let t114 = T::lit(0.4886025119029199) * c[2];
+    let t115 = t113.fma(t21, t114 * t20);
+    let t116 = t112.fma(t11, t111 * t10);
+    let t117 = t115.fma(t36, t116 * t29);
+    let t118 = t113.fms(t20, t114 * t21);
+    let t119 = t117.fma(t45, t118 * t38);
+    let t120 = t115.fms(t29, t116 * t36);
+    let t121 = t119.fms(t47, t120 * t48);
+    let t122 = t118.fms(t45, t117 * t38);
+    let t123 = t119.fma(t48, t120 * t47);
+    let t124 = t122.fms(t56, t123 * t63);
+    let t125 = t121.fms(t65, t124 * t72);
+    let t126 = t122.fma(t63, t123 * t56);
+    let t127 = t125.fms(t74, t126 * t75);
+    let t128 = t121.fma(t72, t124 * t65);
+    let t129 = t125.fma(t75, t126 * t74);
+    let t130 = t128.fms(t83, t129 * t90);
+    let t131 = t127.fms(t92, t130 * t100);
+    let t132 = t128.fma(t90, t129 * t83);
+    let t133 = t97 * t101;
+    let t134 = t131.fms(t101, t132 * t133);
+    let t135 = T::lit(0.5) * t134;
+    let t136 = t127.fma(t100, t130 * t92);
+    let t137 = T::rsqrt(t106.fma(t106, T::lit(1.0)));
+    let t138 = t131.fma(t133, t132 * t101);
+    let t139 = t106 * t137;
+    let t140 = t136.fms(t137, t138 * t139);
+    let t141 = T::lit(0.5) * t140;
+    let t142 = t107 - t109;
+    let t143 = t136.fma(t139, t138 * t137);
+    let t144 = T::lit(0.5) * t143;
+    let t145 = t108 - t109;
+    let t146 = T::max(T::max(T::abs(t135) - t110, T::abs(t141) - t142), T::abs(t144) - t145);
+    let t147 = T::TINY + t146;
+    let t148 = T::recip(t110 + t147);
+    let t149 = t135 * t148;
+    let t150 = t149 * t149;
+    let t151 = T::recip(t142 + t147);
+    let t152 = t141 * t151;
+    let t153 = t152 * t152;
+    let t154 = T::recip(t145 + t147);
+    let t155 = t144 * t154;
+    let t156 = t155 * t155;
+    let t157 = t150 + t153 + t156;
+    let t158 = T::recip(T::TINY + t154.fma(t156, t148.fma(t150, t151 * t153))) * (t157 * (T::root(t157) - T::lit(1.0)));
+    let t159 = t146 + T::max(t158, T::lit(0.0));
+    let t160 = T::TINY + t159;
+    let t161 = T::recip(t110 + t160);
+    let t162 = t135 * t161;
+    let t163 = t162 * t162;
+    let t164 = T::recip(t142 + t160);
+    let t165 = t141 * t164;
+    let t166 = t165 * t165;
+    let t167 = T::recip(t145 + t160);
+    let t168 = t144 * t167;
+    let t169 = t168 * t168;
+    let t170 = t163 + t166 + t169;
+    let t171 = T::recip(T::TINY + t167.fma(t169, t161.fma(t163, t164 * t166))) * (t170 * (T::root(t170) - T::lit(1.0)));
+    let t172 = t159 + T::max(t171, T::lit(0.0));
+    let t173 = T::TINY + t172;
+    let t174 = T::recip(t110 + t173);
+    let t175 = t135 * t174;
+    let t176 = t175 * t175;
+    let t177 = T::recip(t142 + t173);
+    let t178 = t141 * t177;
+    let t179 = t178 * t178;
+    let t180 = T::recip(t145 + t173);
+    let t181 = t144 * t180;
+    let t182 = t181 * t181;
+    let t183 = t176 + t179 + t182;
+    let t184 = T::recip(T::TINY + t180.fma(t182, t174.fma(t176, t177 * t179))) * (t183 * (T::root(t183) - T::lit(1.0)));
+    let t185 = t172 + T::max(t184, T::lit(0.0));
+    let t186 = T::TINY + t185;
+    let t187 = T::recip(t110 + t186);
+    let t188 = t135 * t187;
+    let t189 = t188 * t188;
+    let t190 = T::recip(t142 + t186);
+    let t191 = t141 * t190;
+    let t192 = t191 * t191;
+    let t193 = T::recip(t145 + t186);
+    let t194 = t144 * t193;
+    let t195 = t194 * t194;
+    let t196 = t189 + t192 + t195;
+    let t197 = T::recip(T::TINY + t193.fma(t195, t187.fma(t189, t190 * t192))) * (t196 * (T::root(t196) - T::lit(1.0)));
+    let t198 = t185 + T::max(t197, T::lit(0.0));
+    let t199 = T::TINY + t198;
+    let t200 = T::recip(t110 + t199);
+    let t201 = t135 * t200;
+    let t202 = t201 * t201;
+    let t203 = T::recip(t142 + t199);
+    let t204 = t141 * t203;
+    let t205 = t204 * t204;
+    let t206 = T::recip(t145 + t199);
+    let t207 = t144 * t206;
+    let t208 = t207 * t207;
+    let t209 = t202 + t205 + t208;
+    let t210 = T::recip(T::TINY + t206.fma(t208, t200.fma(t202, t203 * t205))) * (t209 * (T::root(t209) - T::lit(1.0)));
+    let t211 = t198 + T::max(t210, T::lit(0.0));
+    let t212 = T::TINY + t211;
+    let t213 = T::recip(t110 + t212);
+    let t214 = t135 * t213;
+    let t215 = t214 * t214;
+    let t216 = T::recip(t142 + t212);
+    let t217 = t141 * t216;
+    let t218 = t217 * t217;
+    let t219 = T::recip(t145 + t212);
+    let t220 = t144 * t219;
+    let t221 = t220 * t220;
+    let t222 = t215 + t218 + t221;
+    let t223 = T::recip(T::TINY + t219.fma(t221, t213.fma(t215, t216 * t218))) * (t222 * (T::root(t222) - T::lit(1.0)));
+    let t224 = t211 + T::max(t223, T::lit(0.0));
+    let t225 = T::TINY + t224;
+    let t226 = T::recip(t110 + t225);
+    let t227 = t135 * t226;
+    let t228 = t227 * t227;
+    let t229 = T::recip(t142 + t225);
+    let t230 = t141 * t229;
+    let t231 = t230 * t230;
+    let t232 = T::recip(t145 + t225);
+    let t233 = t144 * t232;
+    let t234 = t233 * t233;
+    let t235 = t228 + t231 + t234;
+    let t236 = T::recip(T::TINY + t232.fma(t234, t226.fma(t228, t229 * t231))) * (t235 * (T::root(t235) - T::lit(1.0)));
+    let t237 = t224 + T::max(t236, T::lit(0.0));
+    let t238 = T::TINY + t237;
+    let t239 = T::recip(t110 + t238);
+    let t240 = t135 * t239;
+    let t241 = t240 * t240;
+    let t242 = T::recip(t142 + t238);
+    let t243 = t141 * t242;
+    let t244 = t243 * t243;
+    let t245 = T::recip(t145 + t238);
+    let t246 = t144 * t245;
+    let t247 = t246 * t246;
+    let t248 = t241 + t244 + t247;
+    let t249 = T::recip(T::TINY + t245.fma(t247, t239.fma(t241, t242 * t244))) * (t248 * (T::root(t248) - T::lit(1.0)));
+    let t250 = t237 + T::max(t249, T::lit(0.0));
+    let t251 = T::TINY + t250;
+    let t252 = t135 * T::recip(t110 + t251);
+    let t253 = t144 * T::recip(t145 + t251);
+    let t254 = t141 * T::recip(t142 + t251);
+    let t255 = T::choose(T::lit(0.0), t110, T::choose(T::lit(0.0), t142, t253, t254), t252);
+    let t256 = T::lit(1.0) - t253.fma(t253, t252.fma(t252, t254 * t254));
+    let t257 = T::root(t255.fma(t255, T::choose(T::lit(9.5367431640625e-7), t256, t256, T::lit(0.0))));
+    let t258 = T::choose(t255, T::lit(0.0), -t257, t257);
+    let t259 = T::choose(T::lit(0.0), t110, t252, t258);
+    let t260 = T::choose(T::lit(0.0), t110, T::choose(T::lit(0.0), t142, t254, t258), t254);
+    let t261 = T::choose(T::lit(0.0), t110, T::choose(T::lit(0.0), t142, t258, t253), t253);
+    let t262 = T::rsqrt(t261.fma(t261, t259.fma(t259, t260 * t260)));
+    let t263 = t259 * t262;
+    let t264 = t260 * t262;
+    let t265 = t261 * t262;
+    let t266 = t265.fma(t108.fnma(t265, t143), t263.fma(t98.fnma(t263, t134), t264 * t107.fnma(t264, t140)));
+    let t267 = t139.fms(t264, t137 * t265);
+    let t268 = t133.fms(t267, t101 * t263);
+    let t269 = t139.fma(t265, t137 * t264);
+    let t270 = t100.fma(t268, t92 * t269);
+    let t271 = t133.fma(t263, t101 * t267);
+    let t272 = t90.fma(t270, t83 * t271);
+    let t273 = t92.fms(t268, t100 * t269);
+    let t274 = t74.fms(t272, t75 * t273);
+    let t275 = t90.fms(t271, t83 * t270);
+    let t276 = t75.fma(t272, t74 * t273);
+    let t277 = t65.fms(t275, t72 * t276);
+    let t278 = t56.fms(t274, t63 * t277);
+    let t279 = t72.fma(t275, t65 * t276);
+    let t280 = t47.fms(t278, t48 * t279);
+    let t281 = t63.fma(t274, t56 * t277);
+    let t282 = t48.fma(t278, t47 * t279);
+    let t283 = t38.fms(t281, t45 * t282);
+    let t284 = t36.fma(t280, t29 * t283);
+    let t285 = t29.fms(t280, t36 * t283);
+    let t286 = t45.fma(t281, t38 * t282);
+    let t287 = t21.fma(t285, t20 * t286);
+    let t288 = (T::abs(t0) + T::abs(t109) + t250).fnma(T::lit(32.0) * T::root(T::TINY), t109 - t250 - t144.fma(t253, t135.fma(t252, t141 * t254)) + t0);
+    [
+        t0 - t266,
+        t11.fma(t284, t10 * t287),
+        t10.fms(t284, t11 * t287),
+        t20.fms(t285, t21 * t286),
+        t288,
+    ]
+}
+
+/// `lerp_to_dc:3`: Fades a function of order 3 towards its mean until it is negative nowhere: the bands
+/// above 0 times s = m / (m - least), where m is the mean and least the bound that `minimum:3` finds; s
+/// is 1 where nothing is negative and 0 where the mean is not positive. For data that is blended; a
+/// shader clamps at no cost.
+///
+/// - c: the coefficients of one channel, index l(l+1)+m.
+/// - Returns the coefficients of the faded function.
+/// - Operations: 437 (191 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
+///   reciprocal, inverse square root); 11 constants, 33 live values.
+/// - Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
+///   256 measured, 6.3e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn lerp_to_dc<T: Real>(c: &[T; 9]) -> [T; 9] {
+    let t0 = T::lit(0.28209479177387814) * c[0];
+    let t1 = T::lit(0.31539156525252) * c[6];
+    let t2 = T::lit(0.5462742152960396).fms(c[8], t1);
+    let t3 = T::lit(0.5462742152960396) * c[4];
+    let t4 = T::lit(0.5462742152960396).fma(c[8], t1);
+    let t5 = t4 + t2;
+    let t6 = T::lit(1.0925484305920792) * c[4];
+    let t7 = T::recip(T::root(t5.fma(t5, t6 * t6)) + T::abs(t5) + T::TINY) * T::choose(-t5, T::lit(0.0), -t6, t6);
+    let t8 = t3.fnma(t7, t2);
+    let t9 = T::lit(0.5462742152960396) * c[5];
+    let t10 = T::rsqrt(t7.fma(t7, T::lit(1.0)));
+    let t11 = t7 * t10;
+    let t12 = T::lit(0.5462742152960396) * c[7];
+    let t13 = t9.fms(t11, t12 * t10);
+    let t14 = T::lit(0.63078313050504).fms(c[6], t8);
+    let t15 = T::lit(2.0) * t13;
+    let t16 = T::recip(T::root(t14.fma(t14, t15 * t15)) + T::abs(t14) + T::TINY) * T::choose(t14, T::lit(0.0), -t15, t15);
+    let t17 = t13 * t16;
+    let t18 = t8 - t17;
+    let t19 = t12.fma(t11, t9 * t10);
+    let t20 = T::rsqrt(t16.fma(t16, T::lit(1.0)));
+    let t21 = t16 * t20;
+    let t22 = t19 * t21;
+    let t23 = T::lit(0.63078313050504).fma(c[6], t17);
+    let t24 = t3.fms(t7, t4);
+    let t25 = t23 - t24;
+    let t26 = t19 * t20;
+    let t27 = T::lit(2.0) * t26;
+    let t28 = T::recip(T::root(t25.fma(t25, t27 * t27)) + T::abs(t25) + T::TINY) * T::choose(t25, T::lit(0.0), t27, -t27);
+    let t29 = T::rsqrt(t28.fma(t28, T::lit(1.0)));
+    let t30 = t22 * t29;
+    let t31 = t26.fma(t28, t24);
+    let t32 = t31 - t18;
+    let t33 = T::lit(2.0) * t30;
+    let t34 = T::recip(T::root(t32.fma(t32, t33 * t33)) + T::abs(t32) + T::TINY) * T::choose(t32, T::lit(0.0), -t33, t33);
+    let t35 = t30.fnma(t34, t18);
+    let t36 = t28 * t29;
+    let t37 = t22 * t36;
+    let t38 = T::rsqrt(t34.fma(t34, T::lit(1.0)));
+    let t39 = t37 * t38;
+    let t40 = t26.fnma(t28, t23);
+    let t41 = t40 - t35;
+    let t42 = T::lit(2.0) * t39;
+    let t43 = T::recip(T::root(t41.fma(t41, t42 * t42)) + T::abs(t41) + T::TINY) * T::choose(t41, T::lit(0.0), -t42, t42);
+    let t44 = t39.fnma(t43, t35);
+    let t45 = t34 * t38;
+    let t46 = t37 * t45;
+    let t47 = T::rsqrt(t43.fma(t43, T::lit(1.0)));
+    let t48 = t43 * t47;
+    let t49 = t46 * t48;
+    let t50 = t39.fma(t43, t40);
+    let t51 = t30.fma(t34, t31);
+    let t52 = t50 - t51;
+    let t53 = t46 * t47;
+    let t54 = T::lit(2.0) * t53;
+    let t55 = T::recip(T::root(t52.fma(t52, t54 * t54)) + T::abs(t52) + T::TINY) * T::choose(t52, T::lit(0.0), -t54, t54);
+    let t56 = T::rsqrt(t55.fma(t55, T::lit(1.0)));
+    let t57 = t49 * t56;
+    let t58 = t53.fnma(t55, t51);
+    let t59 = t58 - t44;
+    let t60 = T::lit(2.0) * t57;
+    let t61 = T::recip(T::root(t59.fma(t59, t60 * t60)) + T::abs(t59) + T::TINY) * T::choose(t59, T::lit(0.0), t60, -t60);
+    let t62 = t57.fma(t61, t44);
+    let t63 = t55 * t56;
+    let t64 = t49 * t63;
+    let t65 = T::rsqrt(t61.fma(t61, T::lit(1.0)));
+    let t66 = t64 * t65;
+    let t67 = t53.fma(t55, t50);
+    let t68 = t67 - t62;
+    let t69 = T::lit(2.0) * t66;
+    let t70 = T::recip(T::root(t68.fma(t68, t69 * t69)) + T::abs(t68) + T::TINY) * T::choose(t68, T::lit(0.0), t69, -t69);
+    let t71 = t66.fma(t70, t62);
+    let t72 = t61 * t65;
+    let t73 = t64 * t72;
+    let t74 = T::rsqrt(t70.fma(t70, T::lit(1.0)));
+    let t75 = t70 * t74;
+    let t76 = t73 * t75;
+    let t77 = t66.fnma(t70, t67);
+    let t78 = t57.fnma(t61, t58);
+    let t79 = t77 - t78;
+    let t80 = t73 * t74;
+    let t81 = T::lit(2.0) * t80;
+    let t82 = T::recip(T::root(t79.fma(t79, t81 * t81)) + T::abs(t79) + T::TINY) * T::choose(t79, T::lit(0.0), t81, -t81);
+    let t83 = T::rsqrt(t82.fma(t82, T::lit(1.0)));
+    let t84 = t76 * t83;
+    let t85 = t80.fma(t82, t78);
+    let t86 = t85 - t71;
+    let t87 = T::lit(2.0) * t84;
+    let t88 = T::recip(T::root(t86.fma(t86, t87 * t87)) + T::abs(t86) + T::TINY) * T::choose(t86, T::lit(0.0), -t87, t87);
+    let t89 = t84.fnma(t88, t71);
+    let t90 = t82 * t83;
+    let t91 = t76 * t90;
+    let t92 = T::rsqrt(t88.fma(t88, T::lit(1.0)));
+    let t93 = t91 * t92;
+    let t94 = t80.fnma(t82, t77);
+    let t95 = t94 - t89;
+    let t96 = T::lit(2.0) * t93;
+    let t97 = T::recip(T::root(t95.fma(t95, t96 * t96)) + T::abs(t95) + T::TINY) * T::choose(t95, T::lit(0.0), -t96, t96);
+    let t98 = t93.fnma(t97, t89);
+    let t99 = t84.fma(t88, t85);
+    let t100 = t88 * t92;
+    let t101 = T::rsqrt(t97.fma(t97, T::lit(1.0)));
+    let t102 = t91 * t100 * t101;
+    let t103 = t93.fma(t97, t94);
+    let t104 = t103 - t99;
+    let t105 = T::lit(2.0) * t102;
+    let t106 = T::recip(T::root(t104.fma(t104, t105 * t105)) + T::abs(t104) + T::TINY) * T::choose(t104, T::lit(0.0), -t105, t105);
+    let t107 = t102.fnma(t106, t99);
+    let t108 = t102.fma(t106, t103);
+    let t109 = T::min(T::min(t98, t107), t108);
+    let t110 = T::lit(0.4886025119029199) * c[1];
+    let t111 = T::lit(0.4886025119029199) * c[3];
+    let t112 = t110.fms(t11, t111 * t10);
+    let t113 = T::lit(0.4886025119029199) * c[2];
+    let t114 = t112.fma(t21, t113 * t20);
+    let t115 = t111.fma(t11, t110 * t10);
+    let t116 = t114.fma(t36, t115 * t29);
+    let t117 = t112.fms(t20, t113 * t21);
+    let t118 = t116.fma(t45, t117 * t38);
+    let t119 = t114.fms(t29, t115 * t36);
+    let t120 = t118.fms(t47, t119 * t48);
+    let t121 = t117.fms(t45, t116 * t38);
+    let t122 = t118.fma(t48, t119 * t47);
+    let t123 = t121.fms(t56, t122 * t63);
+    let t124 = t120.fms(t65, t123 * t72);
+    let t125 = t121.fma(t63, t122 * t56);
+    let t126 = t124.fms(t74, t125 * t75);
+    let t127 = t120.fma(t72, t123 * t65);
+    let t128 = t124.fma(t75, t125 * t74);
+    let t129 = t127.fms(t83, t128 * t90);
+    let t130 = t126.fms(t92, t129 * t100);
+    let t131 = t127.fma(t90, t128 * t83);
+    let t132 = t97 * t101;
+    let t133 = T::lit(0.5) * t130.fms(t101, t131 * t132);
+    let t134 = t98 - t109;
+    let t135 = t126.fma(t100, t129 * t92);
+    let t136 = T::rsqrt(t106.fma(t106, T::lit(1.0)));
+    let t137 = t130.fma(t132, t131 * t101);
+    let t138 = t106 * t136;
+    let t139 = T::lit(0.5) * t135.fms(t136, t137 * t138);
+    let t140 = t107 - t109;
+    let t141 = T::lit(0.5) * t135.fma(t138, t137 * t136);
+    let t142 = t108 - t109;
+    let t143 = T::max(T::max(T::abs(t133) - t134, T::abs(t139) - t140), T::abs(t141) - t142);
+    let t144 = T::TINY + t143;
+    let t145 = T::recip(t134 + t144);
+    let t146 = t133 * t145;
+    let t147 = t146 * t146;
+    let t148 = T::recip(t140 + t144);
+    let t149 = t139 * t148;
+    let t150 = t149 * t149;
+    let t151 = T::recip(t142 + t144);
+    let t152 = t141 * t151;
+    let t153 = t152 * t152;
+    let t154 = t147 + t150 + t153;
+    let t155 = T::recip(T::TINY + t151.fma(t153, t145.fma(t147, t148 * t150))) * (t154 * (T::root(t154) - T::lit(1.0)));
+    let t156 = t143 + T::max(t155, T::lit(0.0));
+    let t157 = T::TINY + t156;
+    let t158 = T::recip(t134 + t157);
+    let t159 = t133 * t158;
+    let t160 = t159 * t159;
+    let t161 = T::recip(t140 + t157);
+    let t162 = t139 * t161;
+    let t163 = t162 * t162;
+    let t164 = T::recip(t142 + t157);
+    let t165 = t141 * t164;
+    let t166 = t165 * t165;
+    let t167 = t160 + t163 + t166;
+    let t168 = T::recip(T::TINY + t164.fma(t166, t158.fma(t160, t161 * t163))) * (t167 * (T::root(t167) - T::lit(1.0)));
+    let t169 = t156 + T::max(t168, T::lit(0.0));
+    let t170 = T::TINY + t169;
+    let t171 = T::recip(t134 + t170);
+    let t172 = t133 * t171;
+    let t173 = t172 * t172;
+    let t174 = T::recip(t140 + t170);
+    let t175 = t139 * t174;
+    let t176 = t175 * t175;
+    let t177 = T::recip(t142 + t170);
+    let t178 = t141 * t177;
+    let t179 = t178 * t178;
+    let t180 = t173 + t176 + t179;
+    let t181 = T::recip(T::TINY + t177.fma(t179, t171.fma(t173, t174 * t176))) * (t180 * (T::root(t180) - T::lit(1.0)));
+    let t182 = t169 + T::max(t181, T::lit(0.0));
+    let t183 = T::TINY + t182;
+    let t184 = T::recip(t134 + t183);
+    let t185 = t133 * t184;
+    let t186 = t185 * t185;
+    let t187 = T::recip(t140 + t183);
+    let t188 = t139 * t187;
+    let t189 = t188 * t188;
+    let t190 = T::recip(t142 + t183);
+    let t191 = t141 * t190;
+    let t192 = t191 * t191;
+    let t193 = t186 + t189 + t192;
+    let t194 = T::recip(T::TINY + t190.fma(t192, t184.fma(t186, t187 * t189))) * (t193 * (T::root(t193) - T::lit(1.0)));
+    let t195 = t182 + T::max(t194, T::lit(0.0));
+    let t196 = T::TINY + t195;
+    let t197 = T::recip(t134 + t196);
+    let t198 = t133 * t197;
+    let t199 = t198 * t198;
+    let t200 = T::recip(t140 + t196);
+    let t201 = t139 * t200;
+    let t202 = t201 * t201;
+    let t203 = T::recip(t142 + t196);
+    let t204 = t141 * t203;
+    let t205 = t204 * t204;
+    let t206 = t199 + t202 + t205;
+    let t207 = T::recip(T::TINY + t203.fma(t205, t197.fma(t199, t200 * t202))) * (t206 * (T::root(t206) - T::lit(1.0)));
+    let t208 = t195 + T::max(t207, T::lit(0.0));
+    let t209 = T::TINY + t208;
+    let t210 = T::recip(t134 + t209);
+    let t211 = t133 * t210;
+    let t212 = t211 * t211;
+    let t213 = T::recip(t140 + t209);
+    let t214 = t139 * t213;
+    let t215 = t214 * t214;
+    let t216 = T::recip(t142 + t209);
+    let t217 = t141 * t216;
+    let t218 = t217 * t217;
+    let t219 = t212 + t215 + t218;
+    let t220 = T::recip(T::TINY + t216.fma(t218, t210.fma(t212, t213 * t215))) * (t219 * (T::root(t219) - T::lit(1.0)));
+    let t221 = t208 + T::max(t220, T::lit(0.0));
+    let t222 = T::TINY + t221;
+    let t223 = T::recip(t134 + t222);
+    let t224 = t133 * t223;
+    let t225 = t224 * t224;
+    let t226 = T::recip(t140 + t222);
+    let t227 = t139 * t226;
+    let t228 = t227 * t227;
+    let t229 = T::recip(t142 + t222);
+    let t230 = t141 * t229;
+    let t231 = t230 * t230;
+    let t232 = t225 + t228 + t231;
+    let t233 = T::recip(T::TINY + t229.fma(t231, t223.fma(t225, t226 * t228))) * (t232 * (T::root(t232) - T::lit(1.0)));
+    let t234 = t221 + T::max(t233, T::lit(0.0));
+    let t235 = T::TINY + t234;
+    let t236 = T::recip(t134 + t235);
+    let t237 = t133 * t236;
+    let t238 = t237 * t237;
+    let t239 = T::recip(t140 + t235);
+    let t240 = t139 * t239;
+    let t241 = t240 * t240;
+    let t242 = T::recip(t142 + t235);
+    let t243 = t141 * t242;
+    let t244 = t243 * t243;
+    let t245 = t238 + t241 + t244;
+    let t246 = T::recip(T::TINY + t242.fma(t244, t236.fma(t238, t239 * t241))) * (t245 * (T::root(t245) - T::lit(1.0)));
+    let t247 = t234 + T::max(t246, T::lit(0.0));
+    let t248 = T::TINY + t247;
+    let t249 = t141.fma(t141 * T::recip(t142 + t248), t133.fma(t133 * T::recip(t134 + t248), t139 * (t139 * T::recip(t140 + t248))));
+    let t250 = (T::abs(t0) + T::abs(t109) + t247).fnma(T::lit(32.0) * T::root(T::TINY), t109 - t247 - t249 + t0);
+    let t251 = T::min(T::max(t0 * T::recip(T::max(t0 - t250, T::TINY)), T::lit(0.0)), T::lit(1.0));
+    [
+        c[0],
+        c[1] * t251,
+        c[2] * t251,
+        c[3] * t251,
+        c[4] * t251,
+        c[5] * t251,
+        c[6] * t251,
+        c[7] * t251,
+        c[8] * t251,
+    ]
+}
+
+/// `window:3`: Blurs a signal of order 3: band l times exp(-mu l (l+1)), the diffusion of heat on the
+/// sphere. It keeps what is positive so far up as the bands go.
+///
+/// - mu: how wide it is, not negative; 0 changes nothing.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the windowed coefficients.
+/// - Operations: 11 (11 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 8 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
+///   256 measured, 1.4e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn window<T: Real, V: Signal<T>>(mu: T, c: &[V; 9]) -> [V; 9] {
+    let t0 = T::exp2(-(T::lit(2.8853900817779268) * mu));
+    let t1 = t0 * (t0 * t0);
+    [
+        c[0],
+        c[1] * t0,
+        c[2] * t0,
+        c[3] * t0,
+        c[4] * t1,
+        c[5] * t1,
+        c[6] * t1,
+        c[7] * t1,
+        c[8] * t1,
+    ]
+}
+
+/// [`window`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn window_rgb<T: Real>(mu: T, c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    window::<T, Channels<T, 3>>(mu, &c.map(Channels)).map(|v| v.0)
 }
 

@@ -215,27 +215,25 @@ pub fn bands_0_1_2_4_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 18]) -> [T; 3] 
 }
 
 /// `eval_monomial:5`: The sum of c_i y_i(dir) over the harmonics of order 5, from the coefficients that
-/// `to_monomial:5` makes.
+/// `to_monomial:5` makes. For directions of unit length alone. The error in f32 doubles with each
+/// order: from order 7 on `eval` is the more exact.
 ///
 /// - dir: the direction, of unit length.
-/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
 /// - Returns sum c_i y_i(dir).
-/// - Operations: 36 (6 mul, 1 add, 29 fma); 0 constants, 5 live values.
-/// - Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+/// - Operations: 24 (0 mul, 0 add, 24 fma); 0 constants, 4 live values.
+/// - Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, each band of norm one, for dir
 ///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   4.3e-7).
+///   2.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 25]) -> V {
-    let t0 = c[21].fma(dir[2], c[13]).fma(dir[2], c[7]).fma(dir[2], c[3]).fma(dir[0], c[20].fma(dir[2], c[12]).fma(dir[2], c[6]).fma(dir[2], c[2]).fma(dir[2], c[0]));
-    let t1 = dir[0].fms(dir[0], dir[1] * dir[1]);
-    let t2 = c[22].fma(dir[2], c[14]).fma(dir[2], c[8]).fma(t1, c[19].fma(dir[2], c[11]).fma(dir[2], c[5]).fma(dir[2], c[1]).fma(dir[1], t0));
-    let t3 = dir[0] * dir[1];
-    let t4 = t3 + t3;
-    let t5 = dir[0].fms(t1, dir[1] * t4);
-    let t6 = dir[0].fma(t4, dir[1] * t1);
-    let t7 = c[17].fma(dir[2], c[9]).fma(t6, c[23].fma(dir[2], c[15]).fma(t5, c[18].fma(dir[2], c[10]).fma(dir[2], c[4]).fma(t4, t2)));
-    c[16].fma(dir[0].fma(t6, dir[1] * t5), c[24].fma(dir[0].fms(t5, dir[1] * t6), t7))
+    let t0 = c[20].fma(dir[0], c[19].fma(dir[1], c[12])).fma(dir[0], c[18].fma(dir[1], c[11]).fma(dir[1], c[6]));
+    let t1 = t0.fma(dir[0], c[17].fma(dir[1], c[10]).fma(dir[1], c[5]).fma(dir[1], c[2])).fma(dir[0], c[16].fma(dir[1], c[9]).fma(dir[1], c[4]).fma(dir[1], c[1]).fma(dir[1], c[0]));
+    let t2 = c[24].fma(dir[0], c[23].fma(dir[1], c[15])).fma(dir[0], c[22].fma(dir[1], c[14]).fma(dir[1], c[8]));
+    let t3 = t2.fma(dir[0], c[21].fma(dir[1], c[13]).fma(dir[1], c[7]).fma(dir[1], c[3])).fma(dir[2], t1);
+    t3
 }
 
 /// [`eval_monomial`] of three channels that share the parameters, as plain arrays.
@@ -248,40 +246,51 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 25]) -> [T; 3] {
 /// `eval_monomial:5` takes; done once, when they are stored.
 ///
 /// - c: the coefficients, index l(l+1)+m.
-/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// - Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
-/// - Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
-///   arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
+/// - Operations: 48 (17 mul, 0 add, 31 fma); 28 constants, 25 live values.
+/// - Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 5.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 25] {
-    let t0 = c[0].fma(T::lit(0.28209479177387814), c[20].fms(T::lit(0.31735664074561293), c[6] * T::lit(0.31539156525252)));
+    let t0 = c[20].fma(T::lit(0.8462843753216345), c[0].fma(T::lit(0.28209479177387814), c[6] * T::lit(0.63078313050504)));
+    let t1 = c[8] * T::lit(0.5462742152960396);
+    let t2 = c[22].fma(T::lit(2.8385240872726802), c[20].fma(T::lit(4.231421876608172), c[6].fma(T::lit(0.94617469575756), t1)));
+    let t3 = c[22].fma(T::lit(2.8385240872726802), c[20].fnma(T::lit(4.231421876608172), c[6].fnma(T::lit(0.94617469575756), t1)));
+    let t4 = c[11] * T::lit(2.2852289973223288);
+    let t5 = c[13] * T::lit(2.2852289973223288);
+    let t6 = c[14] * T::lit(1.4453057213202771);
+    let t7 = c[22] * T::lit(3.3116114351514603);
+    let t8 = c[18] * T::lit(6.623222870302921);
+    let t9 = c[19] * T::lit(4.683325804901024);
+    let t10 = c[21] * T::lit(4.683325804901024);
     [
         t0,
-        c[11].fms(T::lit(0.4570457994644657), c[1] * T::lit(0.4886025119029199)),
-        c[2].fms(T::lit(0.4886025119029199), c[12] * T::lit(1.1195289977703462)),
-        c[13].fms(T::lit(0.4570457994644657), c[3] * T::lit(0.4886025119029199)),
-        c[4].fms(T::lit(0.5462742152960396), c[18] * T::lit(0.47308734787878)),
-        c[19].fms(T::lit(2.0071396306718676), c[5] * T::lit(1.0925484305920792)),
-        c[6].fms(T::lit(0.94617469575756), c[20] * T::lit(3.173566407456129)),
-        c[21].fms(T::lit(2.0071396306718676), c[7] * T::lit(1.0925484305920792)),
-        c[8].fms(T::lit(0.5462742152960396), c[22] * T::lit(0.47308734787878)),
-        -(c[9] * T::lit(0.5900435899266435)),
-        c[10] * T::lit(1.4453057213202771),
-        -(c[11] * T::lit(2.2852289973223288)),
-        c[12] * T::lit(1.865881662950577),
-        -(c[13] * T::lit(2.2852289973223288)),
-        c[14] * T::lit(1.4453057213202771),
-        -(c[15] * T::lit(0.5900435899266435)),
-        c[16] * T::lit(0.6258357354491761),
-        -(c[17] * T::lit(1.7701307697799304)),
-        c[18] * T::lit(3.3116114351514603),
-        -(c[19] * T::lit(4.683325804901024)),
-        c[20] * T::lit(3.7024941420321507),
-        -(c[21] * T::lit(4.683325804901024)),
-        c[22] * T::lit(3.3116114351514603),
-        -(c[23] * T::lit(1.7701307697799304)),
-        c[24] * T::lit(0.6258357354491761),
+        -c[1].fma(T::lit(0.4886025119029199), c[11] * T::lit(1.8281831978578629)),
+        -c[3].fma(T::lit(0.4886025119029199), c[13] * T::lit(1.8281831978578629)),
+        c[2].fma(T::lit(0.4886025119029199), c[12] * T::lit(0.7463526651802308)),
+        -t2,
+        c[4].fma(T::lit(1.0925484305920792), c[18] * T::lit(5.6770481745453605)),
+        t3,
+        -c[5].fma(T::lit(1.0925484305920792), c[19] * T::lit(2.676186174229157)),
+        -c[7].fma(T::lit(1.0925484305920792), c[21] * T::lit(2.676186174229157)),
+        c[9].fma(T::lit(0.5900435899266435), t4),
+        c[15].fma(T::lit(1.7701307697799304), t5),
+        c[9].fnma(T::lit(1.7701307697799304), t4),
+        c[15].fnma(T::lit(0.5900435899266435), t5),
+        -c[12].fma(T::lit(1.865881662950577), t6),
+        c[10] * T::lit(2.8906114426405543),
+        c[12].fnma(T::lit(1.865881662950577), t6),
+        c[24].fma(T::lit(0.6258357354491761), c[20].fma(T::lit(3.7024941420321507), t7)),
+        -c[16].fma(T::lit(2.5033429417967046), t8),
+        c[20].fms(T::lit(7.404988284064301), c[24] * T::lit(3.755014412695057)),
+        c[16].fms(T::lit(2.5033429417967046), t8),
+        c[24].fma(T::lit(0.6258357354491761), c[20].fms(T::lit(3.7024941420321507), t7)),
+        c[17].fma(T::lit(1.7701307697799304), t9),
+        c[23].fma(T::lit(5.310392309339791), t10),
+        c[17].fnma(T::lit(5.310392309339791), t9),
+        c[23].fnma(T::lit(1.7701307697799304), t10),
     ]
 }
 
@@ -4696,8 +4705,8 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 }
 
 /// `irradiance:5`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-/// sends out.
+/// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out.
 ///
 /// - dir: the direction, of unit length.
 /// - c: the coefficients, index l(l+1)+m.
@@ -6910,5 +6919,377 @@ pub fn axis_angles<T: Real>(dir: [T; 3]) -> [[T; 2]; 9] {
         [dir[2].fms(t15, t10 * t16), dir[2].fma(t16, t10 * t15)],
         [T::lit(0.5) * t11, t13],
     ]
+}
+
+/// `to_irradiance:5`: From the coefficients of radiance of order 5 to those of monomials of the
+/// irradiance, which `:over_pi` divides by pi, as `irradiance_prepared:5` takes them; done once, when
+/// they are stored.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d,
+///   x y^(d-1), ..., x^d, then z times those of degree d-1.
+/// - Operations: 35 (13 mul, 0 add, 22 fma); 20 constants, 18 live values.
+/// - Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn to_irradiance<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 18] {
+    let t0 = c[20].fnma(T::lit(0.11077836568159476), c[0].fma(T::lit(0.886226925452758), c[6] * T::lit(0.4954159122007514)));
+    let t1 = c[8] * T::lit(0.4290427654048917);
+    let t2 = c[22].fma(T::lit(0.37156193415056354), c[20].fms(T::lit(0.5538918284079738), c[6].fma(T::lit(0.7431238683011271), t1)));
+    let t3 = c[22].fnma(T::lit(0.37156193415056354), c[20].fma(T::lit(0.5538918284079738), c[6].fnma(T::lit(0.7431238683011271), t1)));
+    let t4 = c[22] * T::lit(0.43348892317565746);
+    let t5 = c[18] * T::lit(0.8669778463513149);
+    let t6 = c[19] * T::lit(0.6130459142935234);
+    let t7 = c[21] * T::lit(0.6130459142935234);
+    [
+        t0,
+        -(c[1] * T::lit(1.0233267079464885)),
+        -(c[3] * T::lit(1.0233267079464885)),
+        c[2] * T::lit(1.0233267079464885),
+        t2,
+        c[4].fms(T::lit(0.8580855308097834), c[18] * T::lit(0.7431238683011271)),
+        t3,
+        c[19].fms(T::lit(0.35031195102487056), c[5] * T::lit(0.8580855308097834)),
+        c[21].fms(T::lit(0.35031195102487056), c[7] * T::lit(0.8580855308097834)),
+        -c[24].fma(T::lit(0.08192170620171238), c[20].fma(T::lit(0.48465534985697706), t4)),
+        c[16].fma(T::lit(0.3276868248068495), t5),
+        c[24].fms(T::lit(0.4915302372102743), c[20] * T::lit(0.9693106997139541)),
+        c[16].fnma(T::lit(0.3276868248068495), t5),
+        c[24].fnma(T::lit(0.08192170620171238), c[20].fnma(T::lit(0.48465534985697706), t4)),
+        -c[17].fma(T::lit(0.23170957592641148), t6),
+        -c[23].fma(T::lit(0.6951287277792344), t7),
+        c[17].fms(T::lit(0.6951287277792344), t6),
+        c[23].fms(T::lit(0.23170957592641148), t7),
+    ]
+}
+
+/// [`to_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn to_irradiance_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 18] {
+    to_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `irradiance_prepared:5`: The irradiance of a surface that faces a direction, from the coefficients
+/// that `to_irradiance:5` makes, of which `:over_pi` divides them by pi. For directions of unit length
+/// alone.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
+///   y^(d-1), ..., x^d, then z times those of degree d-1.
+/// - Returns the irradiance.
+/// - Operations: 20 (3 mul, 0 add, 17 fma); 0 constants, 5 live values.
+/// - Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance_prepared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 18]) -> V {
+    let t0 = dir[1] * dir[1];
+    let t1 = c[12].fma(dir[1], c[13] * dir[0]).fma(dir[0], c[11].fma(t0, c[6])).fma(dir[0], c[10].fma(t0, c[5]).fma(dir[1], c[2]));
+    let t2 = c[16].fma(dir[1], c[17] * dir[0]).fma(dir[0], c[15].fma(t0, c[8])).fma(dir[0], c[14].fma(t0, c[7]).fma(dir[1], c[3]));
+    t2.fma(dir[2], t1.fma(dir[0], c[9].fma(t0, c[4]).fma(dir[1], c[1]).fma(dir[1], c[0])))
+}
+
+/// [`irradiance_prepared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn irradiance_prepared_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 18]) -> [T; 3] {
+    irradiance_prepared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `sh5_to_h4`: From harmonics of order 5 of radiance to the functions of H4, of its irradiance E (the
+/// integral of radiance times the cosine; `:over_pi` divides it by pi): the best approximation over the
+/// upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3 is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 11 (4 mul, 0 add, 7 fma); 8 constants, 4 live values.
+/// - Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h4_coefficients<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 4] {
+    let t0 = c[19].fma(T::lit(0.031685770906043846), c[1].fma(T::lit(1.480960979386122), c[5] * T::lit(0.46568382495919225)));
+    let t1 = c[20].fma(T::lit(0.020039841096279126), c[2].fma(T::lit(0.740480489693061), c[6] * T::lit(0.5377253633948884)));
+    let t2 = c[21].fma(T::lit(0.031685770906043846), c[3].fma(T::lit(1.480960979386122), c[7] * T::lit(0.46568382495919225)));
+    [
+        c[0].fma(T::lit(2.221441469079183), c[2] * T::lit(1.282549830161864)),
+        t0,
+        t1,
+        t2,
+    ]
+}
+
+/// [`sh5_to_h4_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 4] {
+    sh5_to_h4_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h4:monomial`: From harmonics of order 5 of radiance to the monomials of H4, of its
+/// irradiance E (the integral of radiance times the cosine; `:over_pi` divides it by pi): the best
+/// approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3 is not read:
+/// irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+/// - Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 4] {
+    let t0 = c[20].fnma(T::lit(0.013847295710199345), c[0].fms(T::lit(0.886226925452758), c[6] * T::lit(0.37156193415056354)));
+    let t1 = c[19].fma(T::lit(0.02189449693905441), c[1].fma(T::lit(1.0233267079464885), c[5] * T::lit(0.32178207405366877)));
+    let t2 = c[20].fma(T::lit(0.02769459142039869), c[2].fma(T::lit(1.0233267079464885), c[6] * T::lit(0.7431238683011271)));
+    let t3 = c[21].fma(T::lit(0.02189449693905441), c[3].fma(T::lit(1.0233267079464885), c[7] * T::lit(0.32178207405366877)));
+    [
+        t0,
+        -t1,
+        t2,
+        -t3,
+    ]
+}
+
+/// [`sh5_to_h4_coefficients_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_monomial_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 4] {
+    sh5_to_h4_coefficients_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h4:irradiance`: From harmonics of order 5 of irradiance to the functions of H4, of the same
+/// function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3
+/// is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 11 (4 mul, 0 add, 7 fma); 7 constants, 4 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_irradiance<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 4] {
+    let t0 = c[19].fnma(T::lit(0.24206145913796356), c[1].fma(T::lit(0.7071067811865476), c[5] * T::lit(0.5929270612815711)));
+    let t1 = c[20].fnma(T::lit(0.15309310892394862), c[2].fma(T::lit(0.3535533905932738), c[6] * T::lit(0.6846531968814576)));
+    let t2 = c[21].fnma(T::lit(0.24206145913796356), c[3].fma(T::lit(0.7071067811865476), c[7] * T::lit(0.5929270612815711)));
+    [
+        c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)),
+        t0,
+        t1,
+        t2,
+    ]
+}
+
+/// [`sh5_to_h4_coefficients_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 4] {
+    sh5_to_h4_coefficients_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h4:irradiance:monomial`: From harmonics of order 5 of irradiance to the monomials of H4, of
+/// the same function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+/// Band 3 is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+/// - Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.2e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_irradiance_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 4] {
+    let t0 = c[20].fma(T::lit(0.10578554691520431), c[0].fms(T::lit(0.28209479177387814), c[6] * T::lit(0.47308734787878)));
+    let t1 = c[19].fms(T::lit(0.1672616358893223), c[1].fma(T::lit(0.4886025119029199), c[5] * T::lit(0.40970566147202964)));
+    let t2 = c[20].fnma(T::lit(0.21157109383040862), c[2].fma(T::lit(0.4886025119029199), c[6] * T::lit(0.94617469575756)));
+    let t3 = c[21].fms(T::lit(0.1672616358893223), c[3].fma(T::lit(0.4886025119029199), c[7] * T::lit(0.40970566147202964)));
+    [
+        t0,
+        t1,
+        t2,
+        t3,
+    ]
+}
+
+/// [`sh5_to_h4_coefficients_irradiance_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h4_coefficients_irradiance_monomial_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 4] {
+    sh5_to_h4_coefficients_irradiance_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h6`: From harmonics of order 5 of radiance to the functions of H6, of its irradiance E (the
+/// integral of radiance times the cosine; `:over_pi` divides it by pi): the best approximation over the
+/// upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3 is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 13 (6 mul, 0 add, 7 fma); 9 constants, 6 live values.
+/// - Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h6_coefficients<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 6] {
+    let t0 = c[19].fma(T::lit(0.031685770906043846), c[1].fma(T::lit(1.480960979386122), c[5] * T::lit(0.46568382495919225)));
+    let t1 = c[20].fma(T::lit(0.020039841096279126), c[2].fma(T::lit(0.740480489693061), c[6] * T::lit(0.5377253633948884)));
+    let t2 = c[21].fma(T::lit(0.031685770906043846), c[3].fma(T::lit(1.480960979386122), c[7] * T::lit(0.46568382495919225)));
+    [
+        c[0].fma(T::lit(2.221441469079183), c[2] * T::lit(1.282549830161864)),
+        t0,
+        t1,
+        t2,
+        c[4] * T::lit(0.5553603672697958),
+        c[8] * T::lit(0.5553603672697958),
+    ]
+}
+
+/// [`sh5_to_h6_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 6] {
+    sh5_to_h6_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h6:monomial`: From harmonics of order 5 of radiance to the monomials of H6, of its
+/// irradiance E (the integral of radiance times the cosine; `:over_pi` divides it by pi): the best
+/// approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3 is not read:
+/// irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+/// - Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 6] {
+    let t0 = c[20].fnma(T::lit(0.013847295710199345), c[0].fms(T::lit(0.886226925452758), c[6] * T::lit(0.37156193415056354)));
+    let t1 = c[19].fma(T::lit(0.02189449693905441), c[1].fma(T::lit(1.0233267079464885), c[5] * T::lit(0.32178207405366877)));
+    let t2 = c[20].fma(T::lit(0.02769459142039869), c[2].fma(T::lit(1.0233267079464885), c[6] * T::lit(0.7431238683011271)));
+    let t3 = c[21].fma(T::lit(0.02189449693905441), c[3].fma(T::lit(1.0233267079464885), c[7] * T::lit(0.32178207405366877)));
+    [
+        t0,
+        -t1,
+        t2,
+        -t3,
+        c[4] * T::lit(0.8580855308097834),
+        c[8] * T::lit(0.4290427654048917),
+    ]
+}
+
+/// [`sh5_to_h6_coefficients_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_monomial_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 6] {
+    sh5_to_h6_coefficients_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h6:irradiance`: From harmonics of order 5 of irradiance to the functions of H6, of the same
+/// function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14). Band 3
+/// is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 13 (6 mul, 0 add, 7 fma); 7 constants, 6 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_irradiance<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 6] {
+    let t0 = c[19].fnma(T::lit(0.24206145913796356), c[1].fma(T::lit(0.7071067811865476), c[5] * T::lit(0.5929270612815711)));
+    let t1 = c[20].fnma(T::lit(0.15309310892394862), c[2].fma(T::lit(0.3535533905932738), c[6] * T::lit(0.6846531968814576)));
+    let t2 = c[21].fnma(T::lit(0.24206145913796356), c[3].fma(T::lit(0.7071067811865476), c[7] * T::lit(0.5929270612815711)));
+    [
+        c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)),
+        t0,
+        t1,
+        t2,
+        c[4] * T::lit(0.7071067811865476),
+        c[8] * T::lit(0.7071067811865476),
+    ]
+}
+
+/// [`sh5_to_h6_coefficients_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 6] {
+    sh5_to_h6_coefficients_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh5_to_h6:irradiance:monomial`: From harmonics of order 5 of irradiance to the monomials of H6, of
+/// the same function: the best approximation over the upper hemisphere (Habel and Wimmer 2010, eq. 14).
+/// Band 3 is not read: irradiance has none.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
+/// - Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+/// - Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_irradiance_monomial<T: Real, V: Signal<T>>(c: &[V; 25]) -> [V; 6] {
+    let t0 = c[20].fma(T::lit(0.10578554691520431), c[0].fms(T::lit(0.28209479177387814), c[6] * T::lit(0.47308734787878)));
+    let t1 = c[19].fms(T::lit(0.1672616358893223), c[1].fma(T::lit(0.4886025119029199), c[5] * T::lit(0.40970566147202964)));
+    let t2 = c[20].fnma(T::lit(0.21157109383040862), c[2].fma(T::lit(0.4886025119029199), c[6] * T::lit(0.94617469575756)));
+    let t3 = c[21].fms(T::lit(0.1672616358893223), c[3].fma(T::lit(0.4886025119029199), c[7] * T::lit(0.40970566147202964)));
+    [
+        t0,
+        t1,
+        t2,
+        t3,
+        c[4] * T::lit(1.0925484305920792),
+        c[8] * T::lit(0.5462742152960396),
+    ]
+}
+
+/// [`sh5_to_h6_coefficients_irradiance_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh5_to_h6_coefficients_irradiance_monomial_rgb<T: Real>(c: &[[T; 3]; 25]) -> [[T; 3]; 6] {
+    sh5_to_h6_coefficients_irradiance_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `window:5`: Blurs a signal of order 5: band l times exp(-mu l (l+1)), the diffusion of heat on the
+/// sphere. It keeps what is positive so far up as the bands go.
+///
+/// - mu: how wide it is, not negative; 0 changes nothing.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the windowed coefficients.
+/// - Operations: 30 (30 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 24 live values.
+/// - Error: f32 rounding at most 9.6e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
+///   256 measured, 3.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn window<T: Real, V: Signal<T>>(mu: T, c: &[V; 25]) -> [V; 25] {
+    let t0 = T::exp2(-(T::lit(2.8853900817779268) * mu));
+    let t1 = t0 * (t0 * t0);
+    let t2 = t1 * t1;
+    let t3 = t2 * (t0 * t1);
+    [
+        c[0],
+        c[1] * t0,
+        c[2] * t0,
+        c[3] * t0,
+        c[4] * t1,
+        c[5] * t1,
+        c[6] * t1,
+        c[7] * t1,
+        c[8] * t1,
+        c[9] * t2,
+        c[10] * t2,
+        c[11] * t2,
+        c[12] * t2,
+        c[13] * t2,
+        c[14] * t2,
+        c[15] * t2,
+        c[16] * t3,
+        c[17] * t3,
+        c[18] * t3,
+        c[19] * t3,
+        c[20] * t3,
+        c[21] * t3,
+        c[22] * t3,
+        c[23] * t3,
+        c[24] * t3,
+    ]
+}
+
+/// [`window`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn window_rgb<T: Real>(mu: T, c: &[[T; 3]; 25]) -> [[T; 3]; 25] {
+    window::<T, Channels<T, 3>>(mu, &c.map(Channels)).map(|v| v.0)
 }
 

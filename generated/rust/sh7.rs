@@ -250,35 +250,28 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 49]) -> [T; 3] {
 }
 
 /// `eval_monomial:7`: The sum of c_i y_i(dir) over the harmonics of order 7, from the coefficients that
-/// `to_monomial:7` makes.
+/// `to_monomial:7` makes. For directions of unit length alone. The error in f32 doubles with each
+/// order: from order 7 on `eval` is the more exact.
 ///
 /// - dir: the direction, of unit length.
-/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
 /// - Returns sum c_i y_i(dir).
-/// - Operations: 68 (10 mul, 1 add, 57 fma); 0 constants, 5 live values.
-/// - Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
-///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-7).
+/// - Operations: 48 (0 mul, 0 add, 48 fma); 0 constants, 6 live values.
+/// - Error: f32 rounding at most 4e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 49]) -> V {
-    let t0 = c[42].fma(dir[2], c[30]).fma(dir[2], c[20]).fma(dir[2], c[12]).fma(dir[2], c[6]).fma(dir[2], c[2]);
-    let t1 = c[43].fma(dir[2], c[31]).fma(dir[2], c[21]).fma(dir[2], c[13]).fma(dir[2], c[7]).fma(dir[2], c[3]);
-    let t2 = c[41].fma(dir[2], c[29]).fma(dir[2], c[19]).fma(dir[2], c[11]).fma(dir[2], c[5]).fma(dir[2], c[1]);
-    let t3 = dir[0].fms(dir[0], dir[1] * dir[1]);
-    let t4 = c[44].fma(dir[2], c[32]).fma(dir[2], c[22]).fma(dir[2], c[14]).fma(dir[2], c[8]).fma(t3, t2.fma(dir[1], t1.fma(dir[0], t0.fma(dir[2], c[0]))));
-    let t5 = dir[0] * dir[1];
-    let t6 = t5 + t5;
-    let t7 = c[40].fma(dir[2], c[28]).fma(dir[2], c[18]).fma(dir[2], c[10]).fma(dir[2], c[4]).fma(t6, t4);
-    let t8 = dir[0].fms(t3, dir[1] * t6);
-    let t9 = dir[0].fma(t6, dir[1] * t3);
-    let t10 = c[39].fma(dir[2], c[27]).fma(dir[2], c[17]).fma(dir[2], c[9]).fma(t9, c[45].fma(dir[2], c[33]).fma(dir[2], c[23]).fma(dir[2], c[15]).fma(t8, t7));
-    let t11 = dir[0].fms(t8, dir[1] * t9);
-    let t12 = dir[0].fma(t9, dir[1] * t8);
-    let t13 = c[38].fma(dir[2], c[26]).fma(dir[2], c[16]).fma(t12, c[46].fma(dir[2], c[34]).fma(dir[2], c[24]).fma(t11, t10));
-    let t14 = dir[0].fms(t11, dir[1] * t12);
-    let t15 = dir[0].fma(t12, dir[1] * t11);
-    let t16 = c[48].fma(dir[0].fms(t14, dir[1] * t15), c[37].fma(dir[2], c[25]).fma(t15, c[47].fma(dir[2], c[35]).fma(t14, t13)));
-    c[36].fma(dir[0].fma(t15, dir[1] * t14), t16)
+    let t0 = c[36].fma(dir[1], c[25]).fma(dir[1], c[16]).fma(dir[1], c[9]).fma(dir[1], c[4]).fma(dir[1], c[1]);
+    let t1 = c[37].fma(dir[1], c[26]).fma(dir[1], c[17]).fma(dir[1], c[10]).fma(dir[1], c[5]).fma(dir[1], c[2]);
+    let t2 = c[42].fma(dir[0], c[41].fma(dir[1], c[30])).fma(dir[0], c[40].fma(dir[1], c[29]).fma(dir[1], c[20]));
+    let t3 = t2.fma(dir[0], c[39].fma(dir[1], c[28]).fma(dir[1], c[19]).fma(dir[1], c[12])).fma(dir[0], c[38].fma(dir[1], c[27]).fma(dir[1], c[18]).fma(dir[1], c[11]).fma(dir[1], c[6]));
+    let t4 = c[43].fma(dir[1], c[31]).fma(dir[1], c[21]).fma(dir[1], c[13]).fma(dir[1], c[7]).fma(dir[1], c[3]);
+    let t5 = c[48].fma(dir[0], c[47].fma(dir[1], c[35])).fma(dir[0], c[46].fma(dir[1], c[34]).fma(dir[1], c[24]));
+    let t6 = t5.fma(dir[0], c[45].fma(dir[1], c[33]).fma(dir[1], c[23]).fma(dir[1], c[15])).fma(dir[0], c[44].fma(dir[1], c[32]).fma(dir[1], c[22]).fma(dir[1], c[14]).fma(dir[1], c[8]));
+    t6.fma(dir[0], t4).fma(dir[2], t3.fma(dir[0], t1).fma(dir[0], t0.fma(dir[1], c[0])))
 }
 
 /// [`eval_monomial`] of three channels that share the parameters, as plain arrays.
@@ -291,72 +284,114 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 49]) -> [T; 3] {
 /// `eval_monomial:7` takes; done once, when they are stored.
 ///
 /// - c: the coefficients, index l(l+1)+m.
-/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-/// - Operations: 84 (49 mul, 0 add, 35 fma); 49 constants, 49 live values.
-/// - Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
-///   arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
+/// - Operations: 156 (33 mul, 0 add, 123 fma); 83 constants, 49 live values.
+/// - Error: f32 rounding at most 2.2e-5 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 4.1e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 49]) -> [V; 49] {
-    let t0 = c[6].fnma(T::lit(0.31539156525252), c[20].fms(T::lit(0.31735664074561293), c[42] * T::lit(0.3178460113381421)));
-    let t1 = c[1].fnma(T::lit(0.4886025119029199), c[11].fms(T::lit(0.4570457994644657), c[29] * T::lit(0.45294665119569694)));
-    let t2 = c[2].fma(T::lit(0.4886025119029199), c[30].fms(T::lit(1.754254836801354), c[12] * T::lit(1.1195289977703462)));
-    let t3 = c[3].fnma(T::lit(0.4886025119029199), c[13].fms(T::lit(0.4570457994644657), c[31] * T::lit(0.45294665119569694)));
-    let t4 = c[4].fma(T::lit(0.5462742152960396), c[40].fms(T::lit(0.46060262975746175), c[18] * T::lit(0.47308734787878)));
-    let t5 = c[5].fnma(T::lit(1.0925484305920792), c[19].fms(T::lit(2.0071396306718676), c[41] * T::lit(2.913106812593657)));
-    let t6 = c[6].fma(T::lit(0.94617469575756), c[42].fms(T::lit(6.674766238100985), c[20] * T::lit(3.173566407456129)));
-    let t7 = c[7].fnma(T::lit(1.0925484305920792), c[21].fms(T::lit(2.0071396306718676), c[43] * T::lit(2.913106812593657)));
-    let t8 = c[8].fma(T::lit(0.5462742152960396), c[44].fms(T::lit(0.46060262975746175), c[22] * T::lit(0.47308734787878)));
+    let t0 = c[20].fma(T::lit(0.8462843753216345), c[0].fma(T::lit(0.28209479177387814), c[6] * T::lit(0.63078313050504)));
+    let t1 = c[29].fma(T::lit(3.6235732095655755), c[1].fma(T::lit(0.4886025119029199), c[11] * T::lit(1.8281831978578629)));
+    let t2 = c[31].fma(T::lit(3.6235732095655755), c[3].fma(T::lit(0.4886025119029199), c[13] * T::lit(1.8281831978578629)));
+    let t3 = c[30].fma(T::lit(0.9356025796273888), c[2].fma(T::lit(0.4886025119029199), c[12] * T::lit(0.7463526651802308)));
+    let t4 = c[8] * T::lit(0.5462742152960396);
+    let t5 = c[22].fma(T::lit(2.8385240872726802), c[20].fma(T::lit(4.231421876608172), c[6].fma(T::lit(0.94617469575756), t4)));
+    let t6 = c[40].fma(T::lit(14.739284152238776), c[4].fma(T::lit(1.0925484305920792), c[18] * T::lit(5.6770481745453605)));
+    let t7 = c[22].fma(T::lit(2.8385240872726802), c[20].fnma(T::lit(4.231421876608172), c[6].fnma(T::lit(0.94617469575756), t4)));
+    let t8 = c[41].fma(T::lit(4.660970900149851), c[5].fma(T::lit(1.0925484305920792), c[19] * T::lit(2.676186174229157)));
+    let t9 = c[43].fma(T::lit(4.660970900149851), c[7].fma(T::lit(1.0925484305920792), c[21] * T::lit(2.676186174229157)));
+    let t10 = c[11] * T::lit(2.2852289973223288);
+    let t11 = c[29].fma(T::lit(12.682506233479513), c[27].fma(T::lit(3.913906395482003), c[9].fma(T::lit(0.5900435899266435), t10)));
+    let t12 = c[13] * T::lit(2.2852289973223288);
+    let t13 = c[33].fma(T::lit(11.741719186446009), c[31].fma(T::lit(12.682506233479513), c[15].fma(T::lit(1.7701307697799304), t12)));
+    let t14 = c[29].fma(T::lit(12.682506233479513), c[27].fnma(T::lit(11.741719186446009), c[9].fnma(T::lit(1.7701307697799304), t10)));
+    let t15 = c[33].fnma(T::lit(3.913906395482003), c[31].fma(T::lit(12.682506233479513), c[15].fnma(T::lit(0.5900435899266435), t12)));
+    let t16 = c[14] * T::lit(1.4453057213202771);
+    let t17 = c[32].fma(T::lit(4.793536784973324), c[30].fma(T::lit(6.549218057391721), c[12].fma(T::lit(1.865881662950577), t16)));
+    let t18 = c[32].fma(T::lit(4.793536784973324), c[30].fnma(T::lit(6.549218057391721), c[12].fnma(T::lit(1.865881662950577), t16)));
+    let t19 = c[22] * T::lit(3.3116114351514603);
+    let t20 = c[42].fma(T::lit(24.029158457163543), c[24].fma(T::lit(0.6258357354491761), c[20].fma(T::lit(3.7024941420321507), t19)));
+    let t21 = c[18] * T::lit(6.623222870302921);
+    let t22 = c[40].fma(T::lit(44.21785245671633), c[38].fma(T::lit(20.182596029148968), c[16].fma(T::lit(2.5033429417967046), t21)));
+    let t23 = c[42].fma(T::lit(48.05831691432709), c[20].fms(T::lit(7.404988284064301), c[24] * T::lit(3.755014412695057)));
+    let t24 = c[40].fnma(T::lit(44.21785245671633), c[38].fma(T::lit(20.182596029148968), c[16].fms(T::lit(2.5033429417967046), t21)));
+    let t25 = c[42].fma(T::lit(24.029158457163543), c[24].fma(T::lit(0.6258357354491761), c[20].fms(T::lit(3.7024941420321507), t19)));
+    let t26 = c[19] * T::lit(4.683325804901024);
+    let t27 = c[41].fma(T::lit(20.97436905067433), c[39].fma(T::lit(7.369642076119388), c[17].fma(T::lit(1.7701307697799304), t26)));
+    let t28 = c[21] * T::lit(4.683325804901024);
+    let t29 = c[45].fma(T::lit(22.108926228358165), c[43].fma(T::lit(20.97436905067433), c[23].fma(T::lit(5.310392309339791), t28)));
+    let t30 = c[41].fma(T::lit(20.97436905067433), c[39].fnma(T::lit(22.108926228358165), c[17].fnma(T::lit(5.310392309339791), t26)));
+    let t31 = c[45].fnma(T::lit(7.369642076119388), c[43].fma(T::lit(20.97436905067433), c[23].fnma(T::lit(1.7701307697799304), t28)));
+    let t32 = c[29].fma(T::lit(9.511879675109636), c[25].fma(T::lit(0.6563820568401701), c[27] * T::lit(4.403144694917254)));
+    let t33 = c[31] * T::lit(9.511879675109636);
+    let t34 = c[29].fnma(T::lit(19.023759350219272), c[25].fma(T::lit(6.5638205684017015), c[27] * T::lit(8.806289389834507)));
+    let t35 = c[35].fms(T::lit(6.5638205684017015), c[31].fma(T::lit(19.023759350219272), c[33] * T::lit(8.806289389834507)));
+    let t36 = c[29].fnma(T::lit(9.511879675109636), c[27].fms(T::lit(13.209434084751761), c[25] * T::lit(3.2819102842008507)));
+    let t37 = c[32] * T::lit(7.190305177459986);
+    let t38 = c[28] * T::lit(14.380610354919972);
+    let t39 = c[44] * T::lit(15.199886781996238);
+    let t40 = c[48].fma(T::lit(0.6831841051919143), c[46].fma(T::lit(5.550213908015966), c[42].fma(T::lit(14.684485723822167), t39)));
+    let t41 = c[38] * T::lit(22.200855632063863);
+    let t42 = c[48].fma(T::lit(10.247761577878714), c[46].fms(T::lit(27.75106954007983), c[42].fma(T::lit(44.0534571714665), t39)));
+    let t43 = c[48].fnma(T::lit(10.247761577878714), c[46].fma(T::lit(27.75106954007983), c[42].fnma(T::lit(44.0534571714665), t39)));
+    let t44 = c[48].fma(T::lit(0.6831841051919143), c[46].fnma(T::lit(5.550213908015966), c[42].fnma(T::lit(14.684485723822167), t39)));
+    let t45 = c[41].fma(T::lit(19.226504963118135), c[37].fma(T::lit(2.366619162231752), c[39] * T::lit(10.133257854664159)));
+    let t46 = c[43] * T::lit(19.226504963118135);
+    let t47 = c[41].fnma(T::lit(38.45300992623627), c[37].fma(T::lit(23.66619162231752), c[39] * T::lit(20.266515709328317)));
+    let t48 = c[47].fms(T::lit(23.66619162231752), c[43].fma(T::lit(38.45300992623627), c[45] * T::lit(20.266515709328317)));
+    let t49 = c[41].fnma(T::lit(19.226504963118135), c[39].fms(T::lit(30.399773563992476), c[37] * T::lit(11.83309581115876)));
     [
-        c[0].fma(T::lit(0.28209479177387814), t0),
-        t1,
-        t2,
+        c[42].fma(T::lit(1.0171072362820548), t0),
+        -t1,
+        -t2,
         t3,
-        t4,
-        t5,
+        -c[44].fma(T::lit(7.369642076119388), c[42].fma(T::lit(10.679625980961575), t5)),
         t6,
-        t7,
-        t8,
-        c[27].fms(T::lit(0.4892382994352504), c[9] * T::lit(0.5900435899266435)),
-        c[10].fms(T::lit(1.4453057213202771), c[28] * T::lit(2.396768392486662)),
-        c[29].fms(T::lit(6.341253116739757), c[11] * T::lit(2.2852289973223288)),
-        c[12].fms(T::lit(1.865881662950577), c[30] * T::lit(8.186522571739651)),
-        c[31].fms(T::lit(6.341253116739757), c[13] * T::lit(2.2852289973223288)),
-        c[14].fms(T::lit(1.4453057213202771), c[32] * T::lit(2.396768392486662)),
-        c[33].fms(T::lit(0.4892382994352504), c[15] * T::lit(0.5900435899266435)),
-        c[16].fms(T::lit(0.6258357354491761), c[38] * T::lit(0.5045649007287242)),
-        c[39].fms(T::lit(2.7636157785447706), c[17] * T::lit(1.7701307697799304)),
-        c[18].fms(T::lit(3.3116114351514603), c[40] * T::lit(8.29084733563431)),
-        c[41].fms(T::lit(17.478640875561943), c[19] * T::lit(4.683325804901024)),
-        c[20].fms(T::lit(3.7024941420321507), c[42] * T::lit(20.024298714302954)),
-        c[43].fms(T::lit(17.478640875561943), c[21] * T::lit(4.683325804901024)),
-        c[22].fms(T::lit(3.3116114351514603), c[44] * T::lit(8.29084733563431)),
-        c[45].fms(T::lit(2.7636157785447706), c[23] * T::lit(1.7701307697799304)),
-        c[24].fms(T::lit(0.6258357354491761), c[46] * T::lit(0.5045649007287242)),
-        -(c[25] * T::lit(0.6563820568401701)),
-        c[26] * T::lit(2.075662314881041),
-        -(c[27] * T::lit(4.403144694917254)),
-        c[28] * T::lit(7.190305177459986),
-        -(c[29] * T::lit(9.511879675109636)),
-        c[30] * T::lit(7.367870314565686),
-        -(c[31] * T::lit(9.511879675109636)),
-        c[32] * T::lit(7.190305177459986),
-        -(c[33] * T::lit(4.403144694917254)),
-        c[34] * T::lit(2.075662314881041),
-        -(c[35] * T::lit(0.6563820568401701)),
-        c[36] * T::lit(0.6831841051919143),
-        -(c[37] * T::lit(2.366619162231752)),
-        c[38] * T::lit(5.550213908015966),
-        -(c[39] * T::lit(10.133257854664159)),
-        c[40] * T::lit(15.199886781996238),
-        -(c[41] * T::lit(19.226504963118135)),
-        c[42] * T::lit(14.684485723822167),
-        -(c[43] * T::lit(19.226504963118135)),
-        c[44] * T::lit(15.199886781996238),
-        -(c[45] * T::lit(10.133257854664159)),
-        c[46] * T::lit(5.550213908015966),
-        -(c[47] * T::lit(2.366619162231752)),
-        c[48] * T::lit(0.6831841051919143),
+        c[44].fma(T::lit(7.369642076119388), c[42].fnma(T::lit(10.679625980961575), t7)),
+        -t8,
+        -t9,
+        t11,
+        t13,
+        t14,
+        t15,
+        -t17,
+        c[10].fma(T::lit(2.8906114426405543), c[28] * T::lit(9.587073569946648)),
+        t18,
+        c[46].fma(T::lit(5.045649007287242), c[44].fma(T::lit(22.108926228358165), t20)),
+        -t22,
+        c[46].fnma(T::lit(30.27389404372345), t23),
+        t24,
+        c[46].fma(T::lit(5.045649007287242), c[44].fnma(T::lit(22.108926228358165), t25)),
+        t27,
+        t29,
+        t30,
+        t31,
+        -t32,
+        -c[35].fma(T::lit(3.2819102842008507), c[33].fma(T::lit(13.209434084751761), t33)),
+        t34,
+        t35,
+        t36,
+        c[35].fnma(T::lit(0.6563820568401701), c[33].fms(T::lit(4.403144694917254), t33)),
+        c[34].fma(T::lit(2.075662314881041), c[30].fma(T::lit(7.367870314565686), t37)),
+        -c[26].fma(T::lit(8.302649259524165), t38),
+        c[30].fms(T::lit(14.735740629131373), c[34] * T::lit(12.453973889286248)),
+        c[26].fms(T::lit(8.302649259524165), t38),
+        c[34].fma(T::lit(2.075662314881041), c[30].fms(T::lit(7.367870314565686), t37)),
+        -t40,
+        c[40].fma(T::lit(30.399773563992476), c[36].fma(T::lit(4.099104631151486), t41)),
+        t42,
+        c[40].fms(T::lit(60.79954712798495), c[36] * T::lit(13.663682103838287)),
+        t43,
+        c[40].fma(T::lit(30.399773563992476), c[36].fms(T::lit(4.099104631151486), t41)),
+        t44,
+        -t45,
+        -c[47].fma(T::lit(11.83309581115876), c[45].fma(T::lit(30.399773563992476), t46)),
+        t47,
+        t48,
+        t49,
+        c[47].fnma(T::lit(2.366619162231752), c[45].fms(T::lit(10.133257854664159), t46)),
     ]
 }
 

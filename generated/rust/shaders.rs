@@ -34,6 +34,7 @@ pub mod sh2 {
             ("basis:2:loop", "sh2_basis_loop"),
             ("eval:2", "sh2_eval"),
             ("eval:2:rgb", "sh2_eval_rgb"),
+            ("eval:2:once", "sh2_eval_once"),
             ("eval_monomial:2", "sh2_eval_monomial"),
             ("eval_monomial:2:rgb", "sh2_eval_monomial_rgb"),
             ("to_monomial:2", "sh2_to_monomial"),
@@ -168,8 +169,8 @@ pub mod sh2 {
             ("convolve:2:rgb", "sh2_convolve_rgb"),
             ("convolve_cosine:2", "sh2_convolve_cosine"),
             ("convolve_cosine:2:rgb", "sh2_convolve_cosine_rgb"),
-            ("irradiance:2", "sh2_irradiance"),
             ("irradiance:2:rgb", "sh2_irradiance_rgb"),
+            ("irradiance:2", "sh2_irradiance"),
             ("light_directional:2", "sh2_light_directional"),
             ("light_directional:2:rgb", "sh2_light_directional_rgb"),
             ("light_sphere:2", "sh2_light_sphere"),
@@ -227,6 +228,50 @@ pub mod sh2 {
             ("axis_angles:2", "sh2_axis_angles"),
         ],
     };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 2,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh2_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh2_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:2", "sh2_to_irradiance"),
+            ("to_irradiance:2:rgb", "sh2_to_irradiance_rgb"),
+            ("irradiance_prepared:2", "sh2_irradiance_prepared"),
+            ("irradiance_prepared:2:rgb", "sh2_irradiance_prepared_rgb"),
+            ("h4_basis", "h4_basis"),
+            ("h4_basis:normalised", "h4_basis_normalised"),
+            ("h4_eval", "h4_eval"),
+            ("h4_eval:normalised", "h4_eval_normalised"),
+            ("h4_eval:rgb", "h4_eval_rgb"),
+            ("h4_eval:normalised:rgb", "h4_eval_normalised_rgb"),
+            ("h4_to_monomial", "h4_to_monomial"),
+            ("h4_to_monomial:rgb", "h4_to_monomial_rgb"),
+            ("h4_eval_monomial", "h4_eval_monomial"),
+            ("h4_eval_monomial:rgb", "h4_eval_monomial_rgb"),
+            ("h4_eval_monomial:normalised", "h4_eval_monomial_normalised"),
+            ("h4_eval_monomial:normalised:rgb", "h4_eval_monomial_normalised_rgb"),
+            ("hl2_basis", "hl2_basis"),
+            ("hl2_basis:normalised", "hl2_basis_normalised"),
+            ("hl2_eval", "hl2_eval"),
+            ("hl2_eval:rgb", "hl2_eval_rgb"),
+            ("hl2_eval:normalised", "hl2_eval_normalised"),
+            ("hl2_eval:normalised:rgb", "hl2_eval_normalised_rgb"),
+            ("hl2_to_h4", "hl2_to_h4_coefficients"),
+            ("hl2_to_h4:rgb", "hl2_to_h4_coefficients_rgb"),
+            ("hl2_to_vector", "hl2_to_vector"),
+            ("hl2_to_vector:rgb", "hl2_to_vector_rgb"),
+            ("hl2_eval_vector", "hl2_eval_vector"),
+            ("hl2_eval_vector:rgb", "hl2_eval_vector_rgb"),
+            ("hl2_eval_vector:normalised", "hl2_eval_vector_normalised"),
+            ("hl2_eval_vector:normalised:rgb", "hl2_eval_vector_normalised_rgb"),
+            ("window:2", "sh2_window"),
+            ("window:2:rgb", "sh2_window_rgb"),
+            ("eval_geomerics", "eval_geomerics"),
+            ("eval_zh3", "eval_zh3_hallucinated"),
+        ],
+    };
 }
 
 /// The shaders of order 3: bands 0 to 2, 9 coefficients.
@@ -245,6 +290,7 @@ pub mod sh3 {
             ("basis:3:loop", "sh3_basis_loop"),
             ("eval:3", "sh3_eval"),
             ("eval:3:rgb", "sh3_eval_rgb"),
+            ("eval:3:once", "sh3_eval_once"),
             ("eval_monomial:3", "sh3_eval_monomial"),
             ("eval_monomial:3:rgb", "sh3_eval_monomial_rgb"),
             ("to_monomial:3", "sh3_to_monomial"),
@@ -382,8 +428,8 @@ pub mod sh3 {
             ("convolve:3:rgb", "sh3_convolve_rgb"),
             ("convolve_cosine:3", "sh3_convolve_cosine"),
             ("convolve_cosine:3:rgb", "sh3_convolve_cosine_rgb"),
-            ("irradiance:3", "sh3_irradiance"),
             ("irradiance:3:rgb", "sh3_irradiance_rgb"),
+            ("irradiance:3", "sh3_irradiance"),
             ("light_directional:3", "sh3_light_directional"),
             ("light_directional:3:rgb", "sh3_light_directional_rgb"),
             ("light_sphere:3", "sh3_light_sphere"),
@@ -441,6 +487,56 @@ pub mod sh3 {
             ("product_hemisphere_about:3:angles", "sh3_product_hemisphere_about_angles"),
             ("product_hemisphere_about:3:angles:rgb", "sh3_product_hemisphere_about_angles_rgb"),
             ("axis_angles:3", "sh3_axis_angles"),
+        ],
+    };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 3,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh3_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh3_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:3", "sh3_to_irradiance"),
+            ("to_irradiance:3:rgb", "sh3_to_irradiance_rgb"),
+            ("irradiance_prepared:3", "sh3_irradiance_prepared"),
+            ("irradiance_prepared:3:rgb", "sh3_irradiance_prepared_rgb"),
+            ("h6_basis", "h6_basis"),
+            ("h6_basis:normalised", "h6_basis_normalised"),
+            ("h6_eval", "h6_eval"),
+            ("h6_eval:normalised", "h6_eval_normalised"),
+            ("h6_eval:rgb", "h6_eval_rgb"),
+            ("h6_eval:normalised:rgb", "h6_eval_normalised_rgb"),
+            ("h6_to_monomial", "h6_to_monomial"),
+            ("h6_to_monomial:rgb", "h6_to_monomial_rgb"),
+            ("h6_eval_monomial", "h6_eval_monomial"),
+            ("h6_eval_monomial:normalised", "h6_eval_monomial_normalised"),
+            ("h6_eval_monomial:rgb", "h6_eval_monomial_rgb"),
+            ("h6_eval_monomial:normalised:rgb", "h6_eval_monomial_normalised_rgb"),
+            ("sh3_to_h4", "sh3_to_h4_coefficients"),
+            ("sh3_to_h4:rgb", "sh3_to_h4_coefficients_rgb"),
+            ("sh3_to_h4:monomial", "sh3_to_h4_coefficients_monomial"),
+            ("sh3_to_h4:monomial:rgb", "sh3_to_h4_coefficients_monomial_rgb"),
+            ("sh3_to_h4:irradiance", "sh3_to_h4_coefficients_irradiance"),
+            ("sh3_to_h4:irradiance:rgb", "sh3_to_h4_coefficients_irradiance_rgb"),
+            ("sh3_to_h4:irradiance:monomial", "sh3_to_h4_coefficients_irradiance_monomial"),
+            ("sh3_to_h4:irradiance:monomial:rgb", "sh3_to_h4_coefficients_irradiance_monomial_rgb"),
+            ("sh3_to_h6", "sh3_to_h6_coefficients"),
+            ("sh3_to_h6:rgb", "sh3_to_h6_coefficients_rgb"),
+            ("sh3_to_h6:monomial", "sh3_to_h6_coefficients_monomial"),
+            ("sh3_to_h6:monomial:rgb", "sh3_to_h6_coefficients_monomial_rgb"),
+            ("sh3_to_h6:irradiance", "sh3_to_h6_coefficients_irradiance"),
+            ("sh3_to_h6:irradiance:rgb", "sh3_to_h6_coefficients_irradiance_rgb"),
+            ("sh3_to_h6:irradiance:monomial", "sh3_to_h6_coefficients_irradiance_monomial"),
+            ("sh3_to_h6:irradiance:monomial:rgb", "sh3_to_h6_coefficients_irradiance_monomial_rgb"),
+            ("sh3_to_hl2", "sh3_to_hl2_coefficients"),
+            ("sh3_to_hl2:rgb", "sh3_to_hl2_coefficients_rgb"),
+            ("sh3_to_hl2:irradiance", "sh3_to_hl2_coefficients_irradiance"),
+            ("sh3_to_hl2:irradiance:rgb", "sh3_to_hl2_coefficients_irradiance_rgb"),
+            ("minimum:3", "sh3_minimum"),
+            ("lerp_to_dc:3", "sh3_lerp_to_dc"),
+            ("window:3", "sh3_window"),
+            ("window:3:rgb", "sh3_window_rgb"),
         ],
     };
 }
@@ -608,8 +704,8 @@ pub mod sh4 {
             ("convolve:4:rgb", "sh4_convolve_rgb"),
             ("convolve_cosine:4", "sh4_convolve_cosine"),
             ("convolve_cosine:4:rgb", "sh4_convolve_cosine_rgb"),
-            ("irradiance:4", "sh4_irradiance"),
             ("irradiance:4:rgb", "sh4_irradiance_rgb"),
+            ("irradiance:4", "sh4_irradiance"),
             ("light_directional:4", "sh4_light_directional"),
             ("light_directional:4:rgb", "sh4_light_directional_rgb"),
             ("light_sphere:4", "sh4_light_sphere"),
@@ -667,6 +763,22 @@ pub mod sh4 {
             ("product_hemisphere_about:4:angles", "sh4_product_hemisphere_about_angles"),
             ("product_hemisphere_about:4:angles:rgb", "sh4_product_hemisphere_about_angles_rgb"),
             ("axis_angles:4", "sh4_axis_angles"),
+        ],
+    };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 4,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh4_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh4_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:4", "sh4_to_irradiance"),
+            ("to_irradiance:4:rgb", "sh4_to_irradiance_rgb"),
+            ("irradiance_prepared:4", "sh4_irradiance_prepared"),
+            ("irradiance_prepared:4:rgb", "sh4_irradiance_prepared_rgb"),
+            ("window:4", "sh4_window"),
+            ("window:4:rgb", "sh4_window_rgb"),
         ],
     };
 }
@@ -886,6 +998,38 @@ pub mod sh5 {
             ("axis_angles:5", "sh5_axis_angles"),
         ],
     };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 5,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh5_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh5_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:5", "sh5_to_irradiance"),
+            ("to_irradiance:5:rgb", "sh5_to_irradiance_rgb"),
+            ("irradiance_prepared:5", "sh5_irradiance_prepared"),
+            ("irradiance_prepared:5:rgb", "sh5_irradiance_prepared_rgb"),
+            ("sh5_to_h4", "sh5_to_h4_coefficients"),
+            ("sh5_to_h4:rgb", "sh5_to_h4_coefficients_rgb"),
+            ("sh5_to_h4:monomial", "sh5_to_h4_coefficients_monomial"),
+            ("sh5_to_h4:monomial:rgb", "sh5_to_h4_coefficients_monomial_rgb"),
+            ("sh5_to_h4:irradiance", "sh5_to_h4_coefficients_irradiance"),
+            ("sh5_to_h4:irradiance:rgb", "sh5_to_h4_coefficients_irradiance_rgb"),
+            ("sh5_to_h4:irradiance:monomial", "sh5_to_h4_coefficients_irradiance_monomial"),
+            ("sh5_to_h4:irradiance:monomial:rgb", "sh5_to_h4_coefficients_irradiance_monomial_rgb"),
+            ("sh5_to_h6", "sh5_to_h6_coefficients"),
+            ("sh5_to_h6:rgb", "sh5_to_h6_coefficients_rgb"),
+            ("sh5_to_h6:monomial", "sh5_to_h6_coefficients_monomial"),
+            ("sh5_to_h6:monomial:rgb", "sh5_to_h6_coefficients_monomial_rgb"),
+            ("sh5_to_h6:irradiance", "sh5_to_h6_coefficients_irradiance"),
+            ("sh5_to_h6:irradiance:rgb", "sh5_to_h6_coefficients_irradiance_rgb"),
+            ("sh5_to_h6:irradiance:monomial", "sh5_to_h6_coefficients_irradiance_monomial"),
+            ("sh5_to_h6:irradiance:monomial:rgb", "sh5_to_h6_coefficients_irradiance_monomial_rgb"),
+            ("window:5", "sh5_window"),
+            ("window:5:rgb", "sh5_window_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 6: bands 0 to 5, 36 coefficients.
@@ -1094,6 +1238,22 @@ pub mod sh6 {
             ("product_hemisphere:6", "sh6_product_hemisphere"),
             ("product_hemisphere:6:rgb", "sh6_product_hemisphere_rgb"),
             ("axis_angles:6", "sh6_axis_angles"),
+        ],
+    };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 6,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh6_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh6_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:6", "sh6_to_irradiance"),
+            ("to_irradiance:6:rgb", "sh6_to_irradiance_rgb"),
+            ("irradiance_prepared:6", "sh6_irradiance_prepared"),
+            ("irradiance_prepared:6:rgb", "sh6_irradiance_prepared_rgb"),
+            ("window:6", "sh6_window"),
+            ("window:6:rgb", "sh6_window_rgb"),
         ],
     };
 }
@@ -1756,6 +1916,8 @@ pub const ALL: &[Shaders] = &[
     sh2::LIGHTING,
     #[cfg(feature = "order2")]
     sh2::PRODUCTS,
+    #[cfg(feature = "order2")]
+    sh2::IRRADIANCES,
     #[cfg(feature = "order3")]
     sh3::EVALUATION,
     #[cfg(feature = "order3")]
@@ -1772,6 +1934,8 @@ pub const ALL: &[Shaders] = &[
     sh3::LIGHTING,
     #[cfg(feature = "order3")]
     sh3::PRODUCTS,
+    #[cfg(feature = "order3")]
+    sh3::IRRADIANCES,
     #[cfg(feature = "order4")]
     sh4::EVALUATION,
     #[cfg(feature = "order4")]
@@ -1788,6 +1952,8 @@ pub const ALL: &[Shaders] = &[
     sh4::LIGHTING,
     #[cfg(feature = "order4")]
     sh4::PRODUCTS,
+    #[cfg(feature = "order4")]
+    sh4::IRRADIANCES,
     #[cfg(feature = "order5")]
     sh5::EVALUATION,
     #[cfg(feature = "order5")]
@@ -1804,6 +1970,8 @@ pub const ALL: &[Shaders] = &[
     sh5::LIGHTING,
     #[cfg(feature = "order5")]
     sh5::PRODUCTS,
+    #[cfg(feature = "order5")]
+    sh5::IRRADIANCES,
     #[cfg(feature = "order6")]
     sh6::EVALUATION,
     #[cfg(feature = "order6")]
@@ -1820,6 +1988,8 @@ pub const ALL: &[Shaders] = &[
     sh6::LIGHTING,
     #[cfg(feature = "order6")]
     sh6::PRODUCTS,
+    #[cfg(feature = "order6")]
+    sh6::IRRADIANCES,
     #[cfg(feature = "order7")]
     sh7::EVALUATION,
     #[cfg(feature = "order7")]
