@@ -175,6 +175,8 @@ pub trait Coefficients:
     fn angles(q: [Self::Scalar; 4]) -> Self::Angles;
     #[doc(hidden)]
     fn rotate_angles(angles: &Self::Angles, c: &Self) -> Self;
+    #[doc(hidden)]
+    fn minimum(channel: &Self::Basis) -> Option<Self::Scalar>;
 }
 
 /// A zonal signal, which is symmetric about z: `[E; 2]` to `[E; 10]`, one coefficient a band, that of m = 0.
@@ -192,7 +194,7 @@ pub trait Zonal: AsRef<[<<Self as Zonal>::Coefficients as Coefficients>::Element
 }
 
 macro_rules! orders {
-    ($($feature:literal $module:ident: $order:literal, $count:literal, $pairs:literal, $one:ident, $many:ident, $matrix:tt;)*) => { $(
+    ($($feature:literal $module:ident: $order:literal, $count:literal, $pairs:literal, $one:ident, $many:ident, $matrix:tt, $least:tt;)*) => { $(
         #[cfg(feature = $feature)]
         impl<E: Element> Coefficients for [E; $count] {
             const ORDER: usize = $order;
@@ -267,6 +269,10 @@ macro_rules! orders {
             fn rotate_angles(angles: &Self::Angles, c: &Self) -> Self {
                 zonal_kernels::$module::rotate_angles(&angles.0, &c.map(E::signal)).map(E::element)
             }
+            #[inline]
+            fn minimum(channel: &Self::Basis) -> Option<E::Scalar> {
+                orders!(@ $least $module channel)
+            }
         }
         #[cfg(feature = $feature)]
         impl<E: Element> Zonal for [E; $order] {
@@ -283,18 +289,25 @@ macro_rules! orders {
     (@ quaternion $module:ident $columns:ident $c:ident $element:ident) => {
         Self::rotate(crate::matrix::quaternion($columns), $c)
     };
+    (@ minimum $module:ident $channel:ident) => {
+        Some(zonal_kernels::$module::minimum($channel)[0])
+    };
+    (@ sampled $module:ident $channel:ident) => {{
+        let _ = $channel;
+        None
+    }};
 }
 
 // The feature, the module, the order, its coefficients, the pairs of `angles`, `rotate` of one channel and of several, and
-// whether a matrix serves as it is.
+// whether a matrix serves as it is, how the least value is found.
 orders! {
-    "order2" sh2: 2, 4, 4, rotate, rotate, direct;
-    "order3" sh3: 3, 9, 7, rotate, rotate_zyz, direct;
-    "order4" sh4: 4, 16, 10, rotate, rotate, quaternion;
-    "order5" sh5: 5, 25, 13, rotate, rotate, quaternion;
-    "order6" sh6: 6, 36, 16, rotate, rotate, quaternion;
-    "order7" sh7: 7, 49, 19, rotate, rotate, quaternion;
-    "order8" sh8: 8, 64, 22, rotate, rotate, quaternion;
-    "order9" sh9: 9, 81, 25, rotate, rotate, quaternion;
-    "order10" sh10: 10, 100, 28, rotate, rotate, quaternion;
+    "order2" sh2: 2, 4, 4, rotate, rotate, direct, sampled;
+    "order3" sh3: 3, 9, 7, rotate, rotate_zyz, direct, minimum;
+    "order4" sh4: 4, 16, 10, rotate, rotate, quaternion, sampled;
+    "order5" sh5: 5, 25, 13, rotate, rotate, quaternion, sampled;
+    "order6" sh6: 6, 36, 16, rotate, rotate, quaternion, sampled;
+    "order7" sh7: 7, 49, 19, rotate, rotate, quaternion, sampled;
+    "order8" sh8: 8, 64, 22, rotate, rotate, quaternion, sampled;
+    "order9" sh9: 9, 81, 25, rotate, rotate, quaternion, sampled;
+    "order10" sh10: 10, 100, 28, rotate, rotate, quaternion, sampled;
 }

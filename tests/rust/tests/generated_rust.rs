@@ -84,30 +84,34 @@ adapters! {
     list_value_signal(A: [&], B: [], C: [&]);
     value_list_signal(A: [], B: [&], C: [&]);
     list_list_signal(A: [&], B: [&], C: [&]);
+    value_list(A: [], C: [&]);
 }
 
-/// Every function of one order under its name in shaders.
+/// Every function of one order under its name in shaders; after `alone` that has no order.
 macro_rules! functions {
+    ($scalar:ident, $table:ident, alone $module:ident, $($adapter:ident: $($one:ident $(/ $rgb:ident)?),*;)*) => {
+        $($(
+            $table.insert(stringify!($one), functions!(@ $scalar, $module, $adapter, $one));
+            $($table.insert(stringify!($rgb), $adapter(zonal::$module::$rgb::<$scalar>));)?
+        )*)*
+    };
     ($scalar:ident, $table:ident, $module:ident, $($adapter:ident: $($one:ident $(/ $rgb:ident)?),*;)*) => {
         $($(
-            functions!(@ $scalar, $table, $module, $adapter, $one);
+            $table.insert(
+                concat!(stringify!($module), "_", stringify!($one)),
+                functions!(@ $scalar, $module, $adapter, $one),
+            );
             $($table.insert(
                 concat!(stringify!($module), "_", stringify!($rgb)),
                 $adapter(zonal::$module::$rgb::<$scalar>),
             );)?
         )*)*
     };
-    (@ $scalar:ident, $table:ident, $module:ident, value, $one:ident) => {
-        $table.insert(concat!(stringify!($module), "_", stringify!($one)), value(zonal::$module::$one::<$scalar>));
-    };
-    (@ $scalar:ident, $table:ident, $module:ident, list, $one:ident) => {
-        $table.insert(concat!(stringify!($module), "_", stringify!($one)), list(zonal::$module::$one::<$scalar>));
-    };
-    (@ $scalar:ident, $table:ident, $module:ident, $adapter:ident, $one:ident) => {
-        $table.insert(
-            concat!(stringify!($module), "_", stringify!($one)),
-            $adapter(zonal::$module::$one::<$scalar, $scalar>),
-        );
+    (@ $scalar:ident, $module:ident, value, $one:ident) => { value(zonal::$module::$one::<$scalar>) };
+    (@ $scalar:ident, $module:ident, list, $one:ident) => { list(zonal::$module::$one::<$scalar>) };
+    (@ $scalar:ident, $module:ident, value_list, $one:ident) => { value_list(zonal::$module::$one::<$scalar>) };
+    (@ $scalar:ident, $module:ident, $adapter:ident, $one:ident) => {
+        $adapter(zonal::$module::$one::<$scalar, $scalar>)
     };
 }
 
@@ -155,9 +159,10 @@ macro_rules! lights {
             $scalar, $table, $module,
             value: cap, gaussian, gaussian_narrow, phong, henyey_greenstein;
             list: dominant, light_fit;
-            signal: convolve_cosine / convolve_cosine_rgb;
+            signal: convolve_cosine / convolve_cosine_rgb, to_irradiance / to_irradiance_rgb;
             list_signal: convolve / convolve_rgb;
-            value_signal: irradiance / irradiance_rgb, light_fit_along / light_fit_along_rgb;
+            value_signal: irradiance / irradiance_rgb, light_fit_along / light_fit_along_rgb, window / window_rgb,
+                irradiance_prepared / irradiance_prepared_rgb;
             value_value_signal: light_directional / light_directional_rgb;
             value_value_value_signal: light_sphere / light_sphere_rgb, light_cone / light_cone_rgb,
                 light_hemisphere / light_hemisphere_rgb, light_gaussian / light_gaussian_rgb;
@@ -196,6 +201,60 @@ macro_rules! products_to_4 {
     };
 }
 
+/// The bases of irradiance over the hemisphere, which have no order, and what is there at order 3 alone.
+macro_rules! irradiances {
+    ($scalar:ident, $table:ident) => {
+        functions! {
+            $scalar, $table, alone sh2,
+            value: h4_basis, h4_basis_normalised, hl2_basis, hl2_basis_normalised;
+            value_signal: h4_eval / h4_eval_rgb,
+                h4_eval_normalised / h4_eval_normalised_rgb,
+                h4_eval_monomial / h4_eval_monomial_rgb,
+                h4_eval_monomial_normalised / h4_eval_monomial_normalised_rgb,
+                hl2_eval / hl2_eval_rgb,
+                hl2_eval_normalised / hl2_eval_normalised_rgb,
+                hl2_eval_vector / hl2_eval_vector_rgb,
+                hl2_eval_vector_normalised / hl2_eval_vector_normalised_rgb;
+            signal: h4_to_monomial / h4_to_monomial_rgb,
+                hl2_to_h4_coefficients / hl2_to_h4_coefficients_rgb,
+                hl2_to_vector / hl2_to_vector_rgb;
+            value_list: eval_geomerics, eval_zh3_hallucinated;
+        }
+        functions! {
+            $scalar, $table, alone sh3,
+            value: h6_basis, h6_basis_normalised;
+            value_signal: h6_eval / h6_eval_rgb,
+                h6_eval_normalised / h6_eval_normalised_rgb,
+                h6_eval_monomial / h6_eval_monomial_rgb,
+                h6_eval_monomial_normalised / h6_eval_monomial_normalised_rgb;
+            signal: h6_to_monomial / h6_to_monomial_rgb,
+                sh3_to_h4_coefficients / sh3_to_h4_coefficients_rgb,
+                sh3_to_h4_coefficients_irradiance / sh3_to_h4_coefficients_irradiance_rgb,
+                sh3_to_h4_coefficients_monomial / sh3_to_h4_coefficients_monomial_rgb,
+                sh3_to_h4_coefficients_irradiance_monomial / sh3_to_h4_coefficients_irradiance_monomial_rgb,
+                sh3_to_h6_coefficients / sh3_to_h6_coefficients_rgb,
+                sh3_to_h6_coefficients_irradiance / sh3_to_h6_coefficients_irradiance_rgb,
+                sh3_to_h6_coefficients_monomial / sh3_to_h6_coefficients_monomial_rgb,
+                sh3_to_h6_coefficients_irradiance_monomial / sh3_to_h6_coefficients_irradiance_monomial_rgb,
+                sh3_to_hl2_coefficients / sh3_to_hl2_coefficients_rgb,
+                sh3_to_hl2_coefficients_irradiance / sh3_to_hl2_coefficients_irradiance_rgb;
+        }
+        functions! {
+            $scalar, $table, alone sh5,
+            signal: sh5_to_h4_coefficients / sh5_to_h4_coefficients_rgb,
+                sh5_to_h4_coefficients_irradiance / sh5_to_h4_coefficients_irradiance_rgb,
+                sh5_to_h4_coefficients_monomial / sh5_to_h4_coefficients_monomial_rgb,
+                sh5_to_h4_coefficients_irradiance_monomial / sh5_to_h4_coefficients_irradiance_monomial_rgb,
+                sh5_to_h6_coefficients / sh5_to_h6_coefficients_rgb,
+                sh5_to_h6_coefficients_irradiance / sh5_to_h6_coefficients_irradiance_rgb,
+                sh5_to_h6_coefficients_monomial / sh5_to_h6_coefficients_monomial_rgb,
+                sh5_to_h6_coefficients_irradiance_monomial / sh5_to_h6_coefficients_irradiance_monomial_rgb;
+        }
+        functions! { $scalar, $table, sh2, value_signal: eval_once; }
+        functions! { $scalar, $table, sh3, value_signal: eval_once; list: minimum, lerp_to_dc; }
+    };
+}
+
 macro_rules! every_order {
     ($scalar:ident) => {{
         let mut table: BTreeMap<&'static str, Flattened<$scalar>> = BTreeMap::new();
@@ -222,6 +281,7 @@ macro_rules! every_order {
         products!($scalar, table, sh5,
             list_signal: of_sh2_and_sh5_product / of_sh2_and_sh5_product_rgb, product_grey / product_grey_rgb;);
         products!($scalar, table, sh6,);
+        irradiances!($scalar, table);
         table
     }};
 }

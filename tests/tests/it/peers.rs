@@ -97,8 +97,13 @@ const HLSL: [Peer; 19] = [
         Some(approximate_light),
     ),
     peer("CalculateIrradiance", "irradiance:n", "the same: not divided by π", Some(irradiance)),
-    peer("CalculateIrradianceGeomerics", "", "none", None),
-    peer("CalculateIrradianceL1ZH3Hallucinate", "", "none", None),
+    peer(
+        "CalculateIrradianceGeomerics",
+        "eval_geomerics",
+        "of the coefficients of irradiance, which `convolve_cosine:2` makes, one channel",
+        None,
+    ),
+    peer("CalculateIrradianceL1ZH3Hallucinate", "eval_zh3", "of the coefficients of irradiance, one channel", None),
     peer(
         "ApproximateGGXAsL1ZH, ApproximateGGXAsL2ZH",
         "",
@@ -151,7 +156,11 @@ fn table(peers: &[Peer]) -> String {
         let all = [specs(ours, ORDER), specs(ours, LARGEST)].concat();
         let most = |spec: &Spec| if spec.half { MAX_HALF_ORDER } else { *spec.family.orders.end() };
         let [least, most] = [all.iter().map(|spec| *spec.family.orders.start()).min(), all.iter().map(most).max()];
-        let orders = least.zip(most).map_or("–".to_owned(), |(least, most)| format!("{least} to {most}"));
+        let orders = match least.zip(most) {
+            None => "–".to_owned(),
+            Some((least, most)) if least == most => least.to_string(),
+            Some((least, most)) => format!("{least} to {most}"),
+        };
         let ours = match ours.is_empty() {
             true => "–".to_owned(),
             false => ours.split(", ").map(|spec| format!("`{spec}`")).collect::<Vec<_>>().join(", "),

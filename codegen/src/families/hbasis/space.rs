@@ -143,13 +143,12 @@ pub(super) fn no_half(spec: &Spec) -> Option<[String; 2]> {
 }
 
 /// What is said of normals below the horizon and of their lengths.
-pub(super) fn of_normals(spec: &Spec) -> &'static str {
-    match spec.has(NORMALISED[0]) {
-        true => "The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.",
-        false => {
-            "The normal need not be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on."
-        }
-    }
+pub(super) fn of_normals(spec: &Spec) -> String {
+    let length = match spec.has(NORMALISED[0]) {
+        true => "The normal is made a unit; a zero one stays zero.",
+        false => "The normal need not be a unit: means of normals are to be given as they are.",
+    };
+    format!("{length} Below the horizon the polynomials go on and err by more: clamp the result, not the normal.")
 }
 
 /// Declares the coefficients of a basis.
