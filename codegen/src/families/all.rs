@@ -2,8 +2,8 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, hemisphere, lifted, lights, monomial, product, small_turn, tensor, tilt, zhf,
-    zonal, zonal_functions, zxzxz, zyz,
+    about_y, align, axis, basis, convolution, fitted, hemisphere, lifted, lights, monomial, product, small_turn,
+    tensor, tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
 };
 
 /// Every family, by group; the catalogue and every list of families are in this order.

@@ -4,7 +4,8 @@
 //! the same for m and −m.
 
 use super::exact::{Exact, Real};
-use super::tables::{ladder, legendre_rationals};
+use super::index::{coefficients, degrees};
+use super::tables::{ladder, legendre_rationals, swap_yz};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -239,6 +240,47 @@ fn coupling(order: usize, below: Below, m: usize) -> Coupling {
         (to..order).map(row).collect()
     };
     Coupling { up: block(m, m + 1, 1), down: block(m + 1, m, -1) }
+}
+
+/// The matrix by rows that turns about y by an angle in radians, in f64: C D E where functions go on below the horizon, C D Cᵀ
+/// where they vanish, D of spherical order [`SPHERICAL_ORDER`].
+pub fn about_y(order: usize, below: Below, beta: f64) -> Vec<Vec<f64>> {
+    let (sin, cos) = beta.sin_cos();
+    // The multiples e^(ikβ).
+    let mut multiples = vec![[1.0, 0.0]];
+    for k in 1..SPHERICAL_ORDER {
+        let [c, s]: [f64; 2] = multiples[k - 1];
+        multiples.push([c * cos - s * sin, s * cos + c * sin]);
+    }
+    let swapped = |l: usize, x: &[f64]| -> Vec<f64> {
+        let row = |a: isize| degrees(l).zip(x).map(|(b, x)| swap_yz(l, a, b).to_f64() * x).sum();
+        degrees(l).map(row).collect()
+    };
+    // Exchanging y and z, turning about z the other way, and exchanging again.
+    let turned = |l: usize, x: &[f64]| -> Vec<f64> {
+        let x = swapped(l, x);
+        let turn = |m: isize| {
+            let ([c, s], at) = (multiples[m.unsigned_abs()], |m: isize| x[l.wrapping_add_signed(m)]);
+            c * at(m) + if m < 0 { -s } else { s } * at(-m)
+        };
+        swapped(l, &degrees(l).map(turn).collect::<Vec<f64>>())
+    };
+    let lifted = |l: usize, spherical: usize, m: isize| match below {
+        Below::Zero => overlap(l, spherical, m).to_f64(),
+        Below::GoesOn => extension(order, spherical, l, m).to_f64(),
+    };
+    let mut matrix = vec![vec![0.0; order * order]; order * order];
+    for (column, (l, m)) in coefficients(order).enumerate() {
+        for spherical in m.unsigned_abs()..SPHERICAL_ORDER {
+            let mut x = vec![0.0; 2 * spherical + 1];
+            x[spherical.wrapping_add_signed(m)] = lifted(l, spherical, m);
+            let x = turned(spherical, &x);
+            for (row, (to, m)) in coefficients(order).enumerate().filter(|(_, (_, m))| m.unsigned_abs() <= spherical) {
+                matrix[row][column] += overlap(to, spherical, m).to_f64() * x[spherical.wrapping_add_signed(m)];
+            }
+        }
+    }
+    matrix
 }
 
 #[cfg(test)]

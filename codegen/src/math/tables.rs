@@ -46,8 +46,7 @@ pub fn legendre_rationals(l: usize, m: usize) -> Vec<BigRational> {
         };
         let choices = binomial(BigInt::from(l), j.into()) * binomial(BigInt::from(2 * l - 2 * j), l.into());
         let numerator = choices * product(power + 1, l - 2 * j);
-        coefficients[power] =
-            BigRational::new(if j % 2 == 0 { numerator } else { -numerator }, BigInt::one() << l);
+        coefficients[power] = BigRational::new(if j % 2 == 0 { numerator } else { -numerator }, BigInt::one() << l);
     }
     coefficients
 }

@@ -132,7 +132,8 @@ fn below_the_horizon_is_what_the_horizon_has() {
             assert!(band_error(&narrow, &want) <= 1e-6, "{direction:?}: {narrow:?}");
             let sums = [
                 Runner::<f64>::new(&eval).run(&[direction.clone(), c.clone()])[0],
-                Runner::<f64>::new(&spec(&format!("hsh_eval_monomial:{order}"))).run(&[direction, monomials.clone()])[0],
+                Runner::<f64>::new(&spec(&format!("hsh_eval_monomial:{order}"))).run(&[direction, monomials.clone()])
+                    [0],
             ];
             let size = norm(&c) * norm(&want);
             assert!(sums.iter().all(|sum| (sum - dot(&c, &want)).abs() <= 1e-14 * size), "{sums:?}");
@@ -241,8 +242,7 @@ fn the_extension_is_the_best_one() {
             };
             for spherical in m as usize..SPHERICAL_ORDER {
                 for &b in &bands {
-                    let got: f64 =
-                        bands.iter().map(|&a| extension(order, spherical, a, m).to_f64() * gram(a, b)).sum();
+                    let got: f64 = bands.iter().map(|&a| extension(order, spherical, a, m).to_f64() * gram(a, b)).sum();
                     let want = power(spherical) * entry(b, spherical, m);
                     // E is an inverse of condition up to 1e3.
                     assert!((got - want).abs() <= 1e-12, "order {order}, m {m}: {got} for {want}");
@@ -288,10 +288,9 @@ fn nothing_on_the_hemisphere_costs_more_than_the_best_known() {
         let specs: Vec<_> = (2..=8).map(|order| spec(&format!("{name}:{order}"))).collect();
         build(&specs).iter().map(|function| function.built.code.cost(1)).collect()
     };
-    for (name, most) in [
-        ("hsh_basis", [7, 17, 31, 47, 69, 94, 125]),
-        ("hsh_eval_monomial", [7, 12, 19, 28, 39, 52, 67]),
-    ] {
+    for (name, most) in
+        [("hsh_basis", [7, 17, 31, 47, 69, 94, 125]), ("hsh_eval_monomial", [7, 12, 19, 28, 39, 52, 67])]
+    {
         let got = costs(name);
         let totals: Vec<usize> = got.iter().map(|cost| cost.total - cost.choice).collect();
         println!("{name}: {totals:?}, and a choice");

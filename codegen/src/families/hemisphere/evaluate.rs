@@ -83,7 +83,12 @@ pub static HSH_TO_MONOMIAL: Family = Family {
 
 /// Declares the direction.
 fn direction(builder: &mut Builder) -> Vec<Id> {
-    builder.param("dir", Shape::Vec3, Domain::Direction, "the direction, of unit length; its z is taken as at least 1e-36")
+    builder.param(
+        "dir",
+        Shape::Vec3,
+        Domain::Direction,
+        "the direction, of unit length; its z is taken as at least 1e-36",
+    )
 }
 
 /// z, at least 1e-36, and 1 / √(z² + z). Zero would give zero times infinity.
@@ -168,8 +173,7 @@ fn to_monomial(order: usize) -> Kernel {
     let c = signal(&mut builder, order);
     // X² + Y² = z (1 − z).
     let minus = -Exact::one();
-    let square =
-        Polynomial::new([([0, 0, 1], Exact::one()), ([2, 0, 0], minus.clone()), ([0, 2, 0], minus.clone())]);
+    let square = Polynomial::new([([0, 0, 1], Exact::one()), ([2, 0, 0], minus.clone()), ([0, 2, 0], minus.clone())]);
     let functions: Vec<(Id, Polynomial)> = coefficients(order)
         .zip(&c)
         .map(|((l, m), &c)| {

@@ -4,10 +4,10 @@
 //! stretched sphere's rotation to compare with.
 
 use crate::families::family::{Family, Measure, Proof, Spec};
+use crate::families::hemisphere::evaluate::stretch;
 use crate::families::hemisphere::methods::{about_y, between_z, by_the_sphere, stretched_angle};
 use crate::families::hemisphere::shears::{self, WAYS, Way};
 use crate::families::hemisphere::{COMMON, in_words, signal};
-use crate::families::hemisphere::evaluate::stretch;
 use crate::families::parts::params::{normal, quaternion};
 use crate::families::parts::phases::{Phase, phases, phases_of_normal, phases_of_quaternion};
 use crate::families::parts::small_angle::of_sine;
@@ -32,8 +32,23 @@ const EQUATION_13: &str = "eq13";
 
 /// The other methods: spherical harmonics of an order, and the stretched sphere's.
 const METHODS: &[&str] = &[
-    SH, EQUATION_13, "sh=2", "sh=3", "sh=4", "sh=5", "sh=6", "sh=7", "sh=8", "sh=9", "sh=10", "sh=11", "sh=12", "sh=13",
-    "sh=14", "sh=15", "sh=16",
+    SH,
+    EQUATION_13,
+    "sh=2",
+    "sh=3",
+    "sh=4",
+    "sh=5",
+    "sh=6",
+    "sh=7",
+    "sh=8",
+    "sh=9",
+    "sh=10",
+    "sh=11",
+    "sh=12",
+    "sh=13",
+    "sh=14",
+    "sh=15",
+    "sh=16",
 ];
 
 /// What all these rotations have in common.
@@ -47,7 +62,10 @@ const ROTATION: Family = Family {
     fault: |spec| match method(spec) {
         Method::Sphere(spherical) if spherical < spec.order => {
             let message = format!("{spherical} spherical bands hold less than {} hemispherical ones", spec.order);
-            Some([message, format!("name an order of {} to {SPHERICAL_ORDER}, as in `sh={}`", spec.order, spec.order + 2)])
+            Some([
+                message,
+                format!("name an order of {} to {SPHERICAL_ORDER}, as in `sh={}`", spec.order, spec.order + 2),
+            ])
         }
         _ => None,
     },

@@ -130,10 +130,16 @@ pub fn tilted(g: &mut Graph, c: &[Id], order: usize, below: Below, beta: [Id; 2]
                         };
                         if sign > 0 { g.add(with_c, with_s) } else { g.sub(with_c, with_s) }
                     };
-                    [re, im].into_iter().enumerate().map(|(part, start)| {
-                        let start = sum(g, start, &up, |g, band| turned(g, at(band, m + 1), part, -1));
-                        sum(g, start, &down, |g, band| turned(g, at(band, m.wrapping_sub(1)), part, 1))
-                    }).collect::<Vec<Id>>().try_into().expect("two parts")
+                    [re, im]
+                        .into_iter()
+                        .enumerate()
+                        .map(|(part, start)| {
+                            let start = sum(g, start, &up, |g, band| turned(g, at(band, m + 1), part, -1));
+                            sum(g, start, &down, |g, band| turned(g, at(band, m.wrapping_sub(1)), part, 1))
+                        })
+                        .collect::<Vec<Id>>()
+                        .try_into()
+                        .expect("two parts")
                 }
             };
             x[places[0]] = re;
