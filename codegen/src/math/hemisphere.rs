@@ -4,7 +4,8 @@
 //! the same for m and −m.
 
 use super::exact::{Exact, Real};
-use super::tables::{ladder, legendre_rationals};
+use super::index::{coefficients, degrees};
+use super::tables::{ladder, legendre_rationals, swap_yz};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -239,6 +240,82 @@ fn coupling(order: usize, below: Below, m: usize) -> Coupling {
         (to..order).map(row).collect()
     };
     Coupling { up: block(m, m + 1, 1), down: block(m + 1, m, -1) }
+}
+
+/// An exact turn about y of spherical bands below [`SPHERICAL_ORDER`], in f64.
+struct Turn {
+    /// cos kβ and sin kβ.
+    multiples: Vec<[f64; 2]>,
+}
+
+impl Turn {
+    /// By an angle in radians.
+    fn new(beta: f64) -> Self {
+        Self { multiples: (0..SPHERICAL_ORDER).map(|k| (k as f64 * beta).sin_cos()).map(|(s, c)| [c, s]).collect() }
+    }
+
+    /// A band, turned: y and z are exchanged, then comes a turn about z the other way, then the exchange again.
+    fn of(&self, x: &[f64]) -> Vec<f64> {
+        let l = x.len() / 2;
+        let swapped = |x: &[f64]| -> Vec<f64> {
+            let row = |a: isize| degrees(l).zip(x).map(|(b, x)| swap_yz(l, a, b).to_f64() * x).sum();
+            degrees(l).map(row).collect()
+        };
+        let x = swapped(x);
+        let at = |m: isize| x[l.wrapping_add_signed(m)];
+        let turned = degrees(l).map(|m| {
+            let [c, s] = self.multiples[m.unsigned_abs()];
+            c * at(m) + if m < 0 { -s } else { s } * at(-m)
+        });
+        swapped(&turned.collect::<Vec<f64>>())
+    }
+}
+
+/// C times a band of spherical coefficients, added to hemispherical ones.
+fn project(order: usize, x: &[f64], out: &mut [f64]) {
+    let spherical = x.len() / 2;
+    for ((l, m), out) in coefficients(order).zip(out).filter(|((_, m), _)| m.unsigned_abs() <= spherical) {
+        *out += overlap(l, spherical, m).to_f64() * x[spherical.wrapping_add_signed(m)];
+    }
+}
+
+/// The matrix by rows that turns about y by an angle in radians, in f64: C D E where functions go on below the horizon, C D Cᵀ
+/// where they vanish, D of spherical order [`SPHERICAL_ORDER`].
+pub fn about_y(order: usize, below: Below, beta: f64) -> Vec<Vec<f64>> {
+    let turn = Turn::new(beta);
+    let lifted = |l: usize, spherical: usize, m: isize| match below {
+        Below::Zero => overlap(l, spherical, m).to_f64(),
+        Below::GoesOn => extension(order, spherical, l, m).to_f64(),
+    };
+    let columns: Vec<Vec<f64>> = coefficients(order)
+        .map(|(l, m)| {
+            let mut column = vec![0.0; order * order];
+            for spherical in m.unsigned_abs()..SPHERICAL_ORDER {
+                let mut x = vec![0.0; 2 * spherical + 1];
+                x[spherical.wrapping_add_signed(m)] = lifted(l, spherical, m);
+                project(order, &turn.of(&x), &mut column);
+            }
+            column
+        })
+        .collect();
+    (0..order * order).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
+}
+
+/// Independent functions on the sphere, each of the power that the prior of the best extension gives it, as hemispherical
+/// coefficients before and after a turn about y by an angle in radians: what a record of radiance is expected to be.
+pub fn expected_records(order: usize, beta: f64) -> Vec<[Vec<f64>; 2]> {
+    let turn = Turn::new(beta);
+    coefficients(SPHERICAL_ORDER)
+        .map(|(spherical, m)| {
+            let mut x = vec![0.0; 2 * spherical + 1];
+            x[spherical.wrapping_add_signed(m)] = prior(spherical).to_f64().sqrt();
+            [x.clone(), turn.of(&x)].map(|x| {
+                let mut out = vec![0.0; order * order];
+                project(order, &x, &mut out);
+                out
+            })
+        })
+        .collect()
 }
 
 #[cfg(test)]

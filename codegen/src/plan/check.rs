@@ -5,9 +5,10 @@ use crate::emit::Module;
 use crate::emit::language::{self, Target};
 use crate::emit::names::{self, Use};
 use crate::families::family::{Does, Spec};
+use crate::families::hemisphere::table::ROTATE_TABLE;
 use crate::plan::mixtures;
 use crate::scene::diagnostic::{Diagnostic, Place};
-use crate::scene::{Job, Located, Order, Scene, Wanted};
+use crate::scene::{Job, Located, Order, Rotation, Scene, Wanted};
 use std::collections::BTreeMap;
 
 /// Refuses a named method that cannot take the scene's angle.
@@ -35,6 +36,24 @@ pub(super) fn check_half(scene: &Scene, place: &Place) -> Result<(), Diagnostic>
         language::ALL.iter().filter(|target| target.half.is_some()).map(|target| format!("\"{target}\"")).collect();
     let message = format!("{} f16", language::only(|target| target.half.is_some()));
     Err(Diagnostic::at(place, message, format!("write `targets = [{}]`, or leave f16 out", names.join(", "))))
+}
+
+/// Refuses an order that hemispherical coefficients do not have.
+pub(super) fn check_hemisphere(rotation: &Rotation, order: usize) -> Result<(), Diagnostic> {
+    let place = &rotation.order.place;
+    match (&rotation.hemisphere, rotation.order.value) {
+        (None, _) => Ok(()),
+        (Some(_), Order::Environment) => {
+            let message = "the order of the environment is that of spherical coefficients";
+            Err(Diagnostic::at(place, message, "write the order of the hemispherical ones as a number"))
+        }
+        // Names a family: it says which orders the hemisphere has.
+        (Some(_), Order::Number(_)) if !ROTATE_TABLE.orders.contains(&order) => {
+            let [message, help] = (ROTATE_TABLE.outside)(order);
+            Err(Diagnostic::at(place, message, help))
+        }
+        (Some(_), Order::Number(_)) => Ok(()),
+    }
 }
 
 /// Refuses kernels of zonal for coefficients that are not held as zonal holds them.

@@ -3,14 +3,17 @@
 
 use crate::emit::Function;
 use crate::families::family::Spec;
+use crate::families::hemisphere::rotate;
 use crate::generate::{self, Row};
 use crate::ir::graph::Kind;
 use crate::ir::listing::Cost;
+use crate::math::hemisphere::Below;
 use crate::plan::mixtures::{self, Budget, candidates, set_up};
 use crate::plan::text::short;
 use crate::promise::built::Built;
+use crate::promise::hemisphere::Trials;
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::{Job, Norm, Precision, Rotation};
+use crate::scene::{Hemisphere, Job, Norm, Precision, Rotation};
 use serde::Serialize;
 
 /// What an inverse square root or a reciprocal weighs against a multiply-add when methods are compared. GPUs have a
@@ -69,6 +72,9 @@ pub struct Chosen {
     pub max_error: Option<f64>,
     /// What the error is the error of.
     pub norm: Option<Norm>,
+    /// What it is the error of on the hemisphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hemisphere: Option<Hemisphere>,
     /// What the method adds at that angle to the error of what is seen of the environment, relative to all of its bands, in
     /// the root mean square.
     pub seen_error: Option<f64>,
@@ -92,6 +98,8 @@ pub(super) struct Contest<'a> {
     rotation: &'a Rotation,
     order: usize,
     budget: Budget,
+    /// What methods on the hemisphere are tried on.
+    trials: Option<Trials>,
     entries: Vec<Entry>,
 }
 
@@ -103,25 +111,12 @@ impl<'a> Contest<'a> {
             norm: rotation.norm.value,
             energy: energy.to_vec(),
         };
-        let mut contest = Self { rotation, order, budget, entries: vec![] };
-        let all = candidates(rotation.kind, order, rotation.rgb).into_iter();
-        let (alone, shared): (Vec<_>, Vec<_>) =
-            all.map(|(spec, does)| (set_up(&spec), spec, does.barred)).partition(|(set_up, ..)| set_up.is_none());
-        let specs: Vec<Spec> = alone.iter().map(|(_, spec, _)| spec.clone()).collect();
-        for (function, (.., why)) in generate::build(&specs).into_iter().zip(alone) {
-            contest.enter(function, None, why);
-        }
-        // A set-up that is done once pays for several signals, or channels, that turn alike.
-        for (set_up, spec, why) in shared.into_iter().filter(|_| rotation.rgb || rotation.signals > 1) {
-            let specs: Vec<Spec> = set_up.into_iter().chain([spec]).collect();
-            if let [set_up, function] = &generate::build(&specs)[..] {
-                contest.enter(function.clone(), Some(set_up.clone()), why);
-            }
-        }
-        let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|entry| entry.function.spec == *spec);
-        let mixtures: Vec<Spec> = contest.mixtures().into_iter().filter(|spec| !known(&contest, spec)).collect();
-        for function in generate::build(&mixtures) {
-            contest.enter(function, None, None);
+        let below = rotation.hemisphere.as_ref().map(|hemisphere| hemisphere.value.below());
+        let trials = below.map(|below| Trials::new(order, below, budget.max_angle));
+        let mut contest = Self { rotation, order, budget, trials, entries: vec![] };
+        match below {
+            Some(below) => contest.enter_hemispherical(below),
+            None => contest.enter_spherical(),
         }
         contest.narrow();
         contest.entries.sort_by(|Entry { rival: a, .. }, Entry { rival: b, .. }| {
@@ -130,13 +125,55 @@ impl<'a> Contest<'a> {
         contest
     }
 
+    // Names a family: those of the hemisphere do the jobs of others for other coefficients.
+    fn enter_hemispherical(&mut self, below: Below) {
+        let specs = rotate::candidates(self.rotation.kind, self.order, below).into_iter();
+        let specs: Vec<Spec> = specs.map(|spec| Spec { rgb: self.rotation.rgb, ..spec }).collect();
+        for function in generate::build(&specs) {
+            self.enter(function, None, None);
+        }
+    }
+
+    fn enter_spherical(&mut self) {
+        let (rotation, order) = (self.rotation, self.order);
+        let all = candidates(rotation.kind, order, rotation.rgb).into_iter();
+        let (alone, shared): (Vec<_>, Vec<_>) =
+            all.map(|(spec, does)| (set_up(&spec), spec, does.barred)).partition(|(set_up, ..)| set_up.is_none());
+        let specs: Vec<Spec> = alone.iter().map(|(_, spec, _)| spec.clone()).collect();
+        for (function, (.., why)) in generate::build(&specs).into_iter().zip(alone) {
+            self.enter(function, None, why);
+        }
+        // A set-up that is done once pays for several signals, or channels, that turn alike.
+        for (set_up, spec, why) in shared.into_iter().filter(|_| rotation.rgb || rotation.signals > 1) {
+            let specs: Vec<Spec> = set_up.into_iter().chain([spec]).collect();
+            if let [set_up, function] = &generate::build(&specs)[..] {
+                self.enter(function.clone(), Some(set_up.clone()), why);
+            }
+        }
+        let known = |contest: &Self, spec: &Spec| contest.entries.iter().any(|entry| entry.function.spec == *spec);
+        let mixtures: Vec<Spec> = self.mixtures().into_iter().filter(|spec| !known(self, spec)).collect();
+        for function in generate::build(&mixtures) {
+            self.enter(function, None, None);
+        }
+    }
+
+    /// What the method of a spec errs by at the largest angle.
+    fn method_error(&self, spec: &Spec) -> f64 {
+        match (&self.trials, &self.rotation.hemisphere) {
+            (Some(trials), Some(hemisphere)) => {
+                trials.error(&rotate::matrix(spec, hemisphere.value.below(), self.budget.max_angle))
+            }
+            _ => self.budget.predict(spec),
+        }
+    }
+
     fn enter(&mut self, function: Function, set_up: Option<Function>, why: Option<&'static str>) {
         let (spec, built) = (&function.spec, &function.built);
         let (degrees, max_error) = (self.rotation.max_angle.value, self.rotation.max_error.value);
         let own = built.code.cost(spec.channels());
         let once = set_up.as_ref().map_or_else(Cost::default, |set_up| set_up.built.code.cost(1));
         let all = |of: fn(Cost) -> usize| self.rotation.signals * of(own) + of(once);
-        let method_error = self.budget.predict(spec);
+        let method_error = self.method_error(spec);
         let rounding = |built: &Built| built.rounding_within(self.budget.max_angle);
         let rounding_f32 = rounding(built) + set_up.as_ref().map_or(0.0, |set_up| rounding(&set_up.built));
         let beyond = spec.max_angle().is_some_and(|limit| degrees.to_radians() > limit);
@@ -242,7 +279,8 @@ impl<'a> Contest<'a> {
             max_angle: Some(self.rotation.max_angle.value),
             method_error: Some(self.entries[best].rival.method_error),
             max_error: Some(max_error.value),
-            norm: Some(self.budget.norm),
+            norm: self.trials.is_none().then_some(self.budget.norm),
+            hemisphere: self.rotation.hemisphere.as_ref().map(|hemisphere| hemisphere.value),
             seen_error: None,
             reason,
             rivals: self.entries.into_iter().map(|entry| entry.rival).collect(),

@@ -18,7 +18,7 @@ use crate::emit::names::Use;
 use crate::emit::{Function, Module};
 use crate::families::family::Spec;
 use crate::generate::{self, Row};
-use crate::plan::check::{check_angle, check_collisions, check_convention, check_half, check_name};
+use crate::plan::check::{check_angle, check_collisions, check_convention, check_half, check_hemisphere, check_name};
 use crate::plan::contest::Contest;
 use crate::plan::environment::EnvironmentPlan;
 use crate::promise::accuracy;
@@ -156,6 +156,7 @@ impl Plan {
                 method_error: max_angle.map(error),
                 max_error: None,
                 norm: None,
+                hemisphere: None,
                 seen_error: None,
                 reason: match wanted.spec.value.split(':').nth(1) {
                     Some("environment") => "asked for by the scene, at the order of its light".to_owned(),
@@ -172,6 +173,7 @@ impl Plan {
         let mut set_ups: Vec<(Function, Chosen, &Place)> = vec![];
         for rotation in &scene.rotations {
             let order = number_of(&rotation.order, self.environment.as_ref())?;
+            check_hemisphere(rotation, order)?;
             if rotation.precision.value != Precision::F32 {
                 check_half(scene, &rotation.precision.place)?;
             }

@@ -3,6 +3,7 @@
 use crate::plan::Plan;
 use crate::plan::contest::{HALF_SHARE, SPECIAL_WEIGHT};
 use crate::plan::text::{row, short, table};
+use crate::scene::Hemisphere;
 use std::fmt;
 
 impl fmt::Display for Plan {
@@ -72,7 +73,7 @@ impl fmt::Display for Plan {
             writeln!(
                 f,
                 "\nThe price is the total plus {SPECIAL_WEIGHT} for each special, in f16 by {HALF_SHARE}; errors are {}, at the largest angle.",
-                chosen.norm.unwrap_or_default().meaning()
+                chosen.hemisphere.map_or_else(|| chosen.norm.unwrap_or_default().meaning(), Hemisphere::meaning)
             )?;
         }
         Ok(())

@@ -6,7 +6,7 @@ use crate::families::text::hint;
 use crate::files;
 use crate::input;
 use crate::math::convention::{Convention, ZONAL};
-use crate::scene::budget::{Norm, Precision, RelativeTo};
+use crate::scene::budget::{Hemisphere, Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use crate::scene::frame;
 #[cfg(feature = "schema")]
@@ -122,6 +122,9 @@ struct RotationTable {
     max_error: Placed<f64>,
     /// What it is the error of; `max` if it is left out.
     norm: Option<Placed<Norm>>,
+    /// Where the coefficients are hemispherical ones, of what: `lobe` vanishes below the horizon, `record` goes on. The error is
+    /// then the mean over such functions, and `norm` is left out.
+    hemisphere: Option<Placed<Hemisphere>>,
     /// Which numbers the kernel may work in; `f32` if it is left out.
     precision: Option<Placed<Precision>>,
     /// Whether the signal has three channels.
@@ -281,11 +284,19 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
         });
     }
     for table in manifest.rotation {
+        let hemisphere = table.hemisphere.map(|hemisphere| locate.at(hemisphere));
+        let says_norm = table.norm.is_some();
+        let norm = locate.or_default(table.norm, &table.max_error);
+        if hemisphere.is_some() && says_norm {
+            let help = "leave `norm` out: the error is the mean over such functions";
+            return Err(Diagnostic::at(&norm.place, "a rotation on the hemisphere has a norm of its own", help));
+        }
         scene.rotations.push(Rotation {
             kind: table.kind,
             order: locate.at(table.order),
             max_angle: locate.angle(table.max_angle)?,
-            norm: locate.or_default(table.norm, &table.max_error),
+            norm,
+            hemisphere,
             precision: locate.or_default(table.precision, &table.max_error),
             max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
             rgb: table.rgb,

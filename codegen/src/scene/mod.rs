@@ -35,7 +35,7 @@ pub mod wanted;
 mod words;
 
 pub use crate::families::family::Job;
-pub use budget::{Norm, Precision, RelativeTo};
+pub use budget::{Hemisphere, Norm, Precision, RelativeTo};
 pub use located::{Located, Order};
 pub(crate) use manifest::form;
 #[cfg(feature = "schema")]

@@ -5,7 +5,7 @@ use crate::families::family::Job;
 use crate::input;
 use crate::math::convention::{Axes, Convention};
 use crate::reflectance::brdf::Brdf;
-use crate::scene::budget::{Norm, Precision, RelativeTo};
+use crate::scene::budget::{Hemisphere, Norm, Precision, RelativeTo};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Order};
 use crate::scene::picture::Picture;
@@ -68,6 +68,8 @@ pub struct Rotation {
     pub max_error: Located<f64>,
     /// What it is the error of.
     pub norm: Located<Norm>,
+    /// What the coefficients are of, where they are hemispherical.
+    pub hemisphere: Option<Located<Hemisphere>>,
     /// Which numbers it may work in.
     pub precision: Located<Precision>,
     /// Whether the signal has three channels.

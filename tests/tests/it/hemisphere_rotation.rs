@@ -3,17 +3,23 @@
 
 use crate::hemisphere::hemisphere;
 use serde_json::Value;
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 use zonal_codegen::families::hemisphere::table::{entries, places};
 use zonal_codegen::generate::build;
-use zonal_codegen::math::hemisphere::{Below, generator};
+use zonal_codegen::math::hemisphere::{Below, about_y, generator};
 use zonal_codegen::math::index::{coefficients, index};
 use zonal_codegen::promise::samples::Random;
-use zonal_tests::{Runner, golden, larger, norm, numbers, quaternion_of_angles, spec};
+use zonal_tests::{Runner, golden, norm, numbers, quaternion_of_angles, spec};
 
 const BOTH: [(&str, Below); 2] = [("lobe", Below::Zero), ("record", Below::GoesOn)];
 
-fn runner(text: &str) -> Runner<f64> {
-    Runner::new(&spec(text))
+/// A kernel, built once: those of many spherical bands take seconds.
+fn runner(text: &str) -> Arc<Runner<f64>> {
+    type Built = Arc<OnceLock<Arc<Runner<f64>>>>;
+    static KNOWN: LazyLock<Mutex<HashMap<String, Built>>> = LazyLock::new(Mutex::default);
+    let place = KNOWN.lock().expect("no test panics while it is held").entry(text.to_owned()).or_default().clone();
+    place.get_or_init(|| Arc::new(Runner::new(&spec(text)))).clone()
 }
 
 fn signal(order: usize, seed: u64) -> Vec<f64> {
@@ -50,14 +56,23 @@ fn rotations_meet_the_golden_values() {
         };
         check(format!("hsh_y_record:{order}"), vec![beta], &case["lf3_record"]);
         check(format!("hsh_y_lobe:{order}"), vec![beta], &case["lf3_lobe"]);
-        check(format!("hsh_y_record:{order}:sh=16"), pair(beta), &case["best_extension"]);
+        if case["best_extension"].is_array() {
+            let want = numbers(&case["best_extension"]);
+            let matrix = about_y(order, Below::GoesOn, beta);
+            let got: Vec<f64> = matrix.iter().map(|row| row.iter().zip(&h).map(|(a, b)| a * b).sum()).collect();
+            assert!(difference(&got, &want) <= 1e-12 * norm(&want), "the matrix of order {order}");
+        }
+        // A kernel of 16 spherical bands takes half a minute to build.
+        if order == 3 {
+            check("hsh_y_record:3:sh=16".to_owned(), pair(beta), &case["best_extension"]);
+        }
         if case["N"].is_u64() {
             check(format!("hsh_y_lobe:{order}:sh={}", whole("N")), pair(beta), &case["method1"]);
             assert_eq!(whole("N"), order + 2);
             check(format!("hsh_y_lobe:{order}:sh"), pair(beta), &case["method1"]);
         }
     }
-    assert_eq!(tried, 5 + 5 + 4 + 2 * 2);
+    assert_eq!(tried, 5 + 5 + 2 + 2 * 2);
 }
 
 #[test]
@@ -150,7 +165,7 @@ fn shears_are_undone_by_the_opposite_angle_and_no_angle_changes_nothing() {
 #[test]
 fn a_table_s_entry_is_the_matrix_of_its_angle() {
     for (name, below) in BOTH {
-        for order in [2, 3, 5] {
+        for order in [3, 4] {
             let (beta, azimuth, spin) = (0.6, 0.4, -1.3);
             let m = entries(order, below, beta);
             let count = |is_negative: bool| coefficients(order).filter(|(_, m)| (*m < 0) == is_negative).count();
@@ -159,11 +174,13 @@ fn a_table_s_entry_is_the_matrix_of_its_angle() {
             let c = signal(order, 2);
             let cs = [pair(azimuth), pair(spin)].concat();
             let got = runner(&format!("hsh_rotate_table:{order}")).run(&[cs, m, c.clone()]);
-            let q = quaternion_of_angles(azimuth, beta, spin);
-            let want = runner(&format!("hsh_rotate_{name}:{order}:sh=16")).run(&[q, c.clone()]);
+            let z = runner(&format!("rotate_z:{order}"));
+            let spun = z.run(&[pair(spin), c.clone()]);
+            let turned: Vec<f64> =
+                about_y(order, below, beta).iter().map(|row| row.iter().zip(&spun).map(|(a, b)| a * b).sum()).collect();
+            let want = z.run(&[pair(azimuth), turned]);
             let error = difference(&got, &want) / norm(&c);
-            // 16 bands each way.
-            assert!(error <= 1e-12, "{name}:{order}: {error:e}");
+            assert!(error <= 1e-14, "{name}:{order}: {error:e}");
         }
     }
 }
@@ -174,23 +191,25 @@ fn turned([x, y, z]: [f64; 3], angle: f64) -> [f64; 3] {
     [x * cos + z * sin, y, z * cos - x * sin]
 }
 
-/// Clamped lobes max(0, ω·a)⁵ max(0, z), a at 0, 10, … 50 degrees from z, towards x, y and −x.
-fn lobes() -> Vec<[f64; 3]> {
-    let mut axes = vec![[0.0, 0.0, 1.0]];
-    for degrees in [10.0, 20.0, 30.0, 40.0, 50.0] {
-        let (sin, cos) = f64::to_radians(degrees).sin_cos();
-        axes.extend([[sin, 0.0, cos], [0.0, sin, cos], [-sin, 0.0, cos]]);
-    }
-    axes
+/// The axes of lobes at some degrees from z, towards x, y and −x.
+fn axes(degrees: &[f64]) -> Vec<[f64; 3]> {
+    let of = |degrees: &f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        [[sin, 0.0, cos], [0.0, sin, cos], [-sin, 0.0, cos]]
+    };
+    degrees.iter().flat_map(of).collect()
 }
 
-/// The mean relative errors in per cent of lobes that are turned about y, and of those that are not turned at all, at 5, 10, 20
-/// and 30 degrees.
-fn errors(order: usize, methods: &[&str]) -> Vec<[f64; 4]> {
+/// How errors are put together.
+type Mean = fn(&[f64]) -> f64;
+
+/// The mean of relative errors in per cent of lobes that are turned about y by 5, 10, 20 and 30 degrees: of those that are not
+/// turned at all, and by methods.
+fn errors(order: usize, methods: &[&str], axes: &[[f64; 3]], mean: Mean) -> Vec<[f64; 4]> {
     let points = hemisphere(72, 144);
     let basis = runner(&format!("hsh_basis:{order}"));
     let values: Vec<Vec<f64>> = points.iter().map(|(direction, _)| basis.run(&[direction.to_vec()])).collect();
-    // Of the function turned by an angle, cut off at the horizon.
+    // Of max(0, ω·a)⁵ max(0, z) turned by an angle, cut off at the horizon.
     let projected = |axis: [f64; 3], angle: f64| -> Vec<f64> {
         let mut sum = vec![0.0; order * order];
         for ((direction, weight), h) in points.iter().zip(&values) {
@@ -203,18 +222,16 @@ fn errors(order: usize, methods: &[&str]) -> Vec<[f64; 4]> {
         }
         sum
     };
-    let kernels: Vec<Runner<f64>> =
+    let kernels: Vec<Arc<Runner<f64>>> =
         methods.iter().map(|method| runner(&format!("hsh_y_lobe:{order}{method}"))).collect();
     let angles = [5.0, 10.0, 20.0, 30.0].map(f64::to_radians);
-    let mut all = vec![[0.0; 4]; methods.len() + 1];
-    let axes = lobes();
-    for &axis in &axes {
+    let mut all = vec![[const { vec![] }; 4]; methods.len() + 1];
+    for &axis in axes {
         let still = projected(axis, 0.0);
         for (at, &angle) in angles.iter().enumerate() {
             let want = projected(axis, angle);
-            let mut add = |method: usize, got: &[f64]| {
-                all[method][at] += 100.0 * difference(got, &want) / norm(&want) / axes.len() as f64;
-            };
+            let mut add =
+                |method: usize, got: &[f64]| all[method][at].push(100.0 * difference(got, &want) / norm(&want));
             add(0, &still);
             for (i, (method, kernel)) in methods.iter().zip(&kernels).enumerate() {
                 let parameter = if method.is_empty() { vec![angle] } else { pair(angle) };
@@ -222,66 +239,108 @@ fn errors(order: usize, methods: &[&str]) -> Vec<[f64; 4]> {
             }
         }
     }
-    all
+    all.into_iter().map(|row| row.map(|list: Vec<f64>| mean(&list))).collect()
 }
 
-/// The table of errors of docs/MATH.md#rotation-on-the-hemisphere, to two digits: none, equation 13, method 1 with N = n + 2 and
-/// N = 2n, shears.
-#[test]
-fn lobes_err_by_what_is_said() {
-    let known: [(usize, [[f64; 4]; 5]); 3] = [
-        (
-            3,
-            [
-                [14.0, 28.0, 55.0, 79.0],
-                [2.0, 4.0, 7.8, 12.0],
-                [5.9, 5.9, 6.2, 7.2],
-                [6.1, 6.2, 6.7, 7.5],
-                [1.2, 2.8, 11.0, 33.0],
-            ],
-        ),
-        (
-            4,
-            [
-                [16.0, 31.0, 59.0, 84.0],
-                [2.4, 4.8, 9.5, 14.0],
-                [2.7, 2.8, 3.0, 3.1],
-                [2.0, 2.1, 2.5, 2.8],
-                [0.64, 2.1, 13.0, 45.0],
-            ],
-        ),
-        (
-            6,
-            [
-                [16.0, 31.0, 60.0, 85.0],
-                [2.6, 5.2, 11.0, 16.0],
-                [0.23, 0.22, 0.21, 0.19],
-                [0.10, 0.10, 0.11, 0.11],
-                [0.23, 1.7, 14.0, 47.0],
-            ],
-        ),
-    ];
+/// Errors of not turning, of equation 13, of method 1 with n + 2 and with 2n spherical bands, of shears.
+type Table = [(usize, [[f64; 4]; 5]); 3];
+
+/// The table of docs/MATH.md#rotation-on-the-hemisphere, to two digits: means over lobes at 0, 10, … 50 degrees.
+const MEANS: Table = [
+    (
+        3,
+        [
+            [14.0, 28.0, 55.0, 79.0],
+            [1.8, 3.5, 6.9, 10.0],
+            [5.3, 5.5, 6.0, 6.7],
+            [5.5, 5.7, 6.4, 7.0],
+            [1.1, 2.6, 9.5, 29.0],
+        ],
+    ),
+    (
+        4,
+        [
+            [15.0, 31.0, 59.0, 84.0],
+            [2.1, 4.1, 8.1, 12.0],
+            [2.6, 2.6, 2.8, 2.8],
+            [1.8, 2.0, 2.3, 2.5],
+            [0.62, 2.0, 12.0, 42.0],
+        ],
+    ),
+    (
+        6,
+        [
+            [16.0, 31.0, 60.0, 85.0],
+            [2.2, 4.4, 8.8, 13.0],
+            [0.12, 0.12, 0.11, 0.10],
+            [0.061, 0.065, 0.071, 0.07],
+            [0.20, 1.5, 13.0, 44.0],
+        ],
+    ),
+];
+
+/// What was found before the kernels were there, to two digits, by the root mean square over lobes at 0, 25 and 50 degrees.
+const FOUND_BEFORE: Table = [
+    (
+        3,
+        [
+            [14.0, 28.0, 55.0, 79.0],
+            [2.0, 4.0, 7.8, 12.0],
+            [5.9, 5.9, 6.2, 7.2],
+            [6.1, 6.2, 6.7, 7.5],
+            [1.2, 2.8, 11.0, 33.0],
+        ],
+    ),
+    (
+        4,
+        [
+            [16.0, 31.0, 59.0, 84.0],
+            [2.4, 4.8, 9.5, 14.0],
+            [2.7, 2.8, 3.0, 3.1],
+            [2.0, 2.1, 2.5, 2.8],
+            [0.64, 2.1, 13.0, 45.0],
+        ],
+    ),
+    (
+        6,
+        [
+            [16.0, 31.0, 60.0, 85.0],
+            [2.6, 5.2, 11.0, 16.0],
+            [0.23, 0.22, 0.21, 0.19],
+            [0.10, 0.10, 0.11, 0.11],
+            [0.23, 1.7, 14.0, 47.0],
+        ],
+    ),
+];
+
+fn check(table: Table, axes: &[[f64; 3]], mean: Mean, is_close: impl Fn(f64, f64) -> bool) {
     let mut faults = vec![];
-    for (order, want) in known {
-        let got = errors(order, &[":eq13", ":sh", &format!(":sh={}", 2 * order), ""]);
+    for (order, want) in table {
+        let got = errors(order, &[":eq13", ":sh", &format!(":sh={}", 2 * order), ""], axes, mean);
         for (got, want) in got.iter().zip(want) {
             println!("order {order}: {got:.3?}, known {want:?}");
-            for (got, want) in got.iter().zip(want) {
-                // Two digits as they are printed.
-                let unit = if want >= 10.0 {
-                    1.0
-                } else if want >= 1.0 {
-                    0.1
-                } else {
-                    0.01
-                };
-                if (got - want).abs() > 0.51 * unit {
-                    faults.push(format!("order {order}: {got} for {want}"));
-                }
-            }
+            let pairs = got.iter().zip(want).filter(|(got, want)| !is_close(**got, *want));
+            faults.extend(pairs.map(|(got, want)| format!("order {order}: {got} for {want}")));
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn lobes_err_by_what_is_said() {
+    // The pole counts once.
+    let axes = [&axes(&[10.0, 20.0, 30.0, 40.0, 50.0])[..], &[[0.0, 0.0, 1.0]]].concat();
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+    // Half a unit of the second digit.
+    check(MEANS, &axes, mean, |got, want| (got - want).abs() <= 0.51 * 10f64.powf(want.log10().floor() - 1.0));
+}
+
+/// The same by other lobes and another mean, as another program had it: within the eighth of a digit by which its lobes are
+/// known.
+#[test]
+fn lobes_err_by_what_was_found_before() {
+    let root_mean_square = |list: &[f64]| (list.iter().map(|x| x * x).sum::<f64>() / list.len() as f64).sqrt();
+    check(FOUND_BEFORE, &axes(&[0.0, 25.0, 50.0]), root_mean_square, |got, want| (got / want - 1.0).abs() <= 0.08);
 }
 
 #[test]
@@ -310,7 +369,7 @@ fn no_rotation_costs_more_than_the_best_known() {
 
 #[test]
 fn what_a_spectrum_says_of_the_angle() {
-    // Shears keep a plane's length bounded while half the angle times the frequency is below one: the norms of B₀.
+    // Shears turn a plane of a frequency only while half the angle times it is below one: the largest frequencies of B₀.
     for (order, known) in [(3, 3.3), (4, 4.8), (6, 7.8), (8, 10.0)] {
         let count = order * order;
         let mut x: Vec<f64> = signal(order, 3);
@@ -336,5 +395,4 @@ fn what_a_spectrum_says_of_the_angle() {
         println!("order {order}: {size}");
         assert!((size - known).abs() <= 0.06, "order {order}: {size}, not {known}");
     }
-    assert!(larger(1.0, 2.0) > 1.0);
 }

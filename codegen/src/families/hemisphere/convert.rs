@@ -33,7 +33,8 @@ pub static SH_TO_HSH: Family = Family {
     },
     shown: |order| {
         let spec = Spec::new(&SH_TO_HSH, order);
-        [spec.clone().both(), spec.of_factors([order + 2, order]).both()].concat()
+        let more = spec.clone().of_factors([order + 2, order]);
+        if order <= SHOWN { [spec.both(), more.both()].concat() } else { spec.both() }
     },
     ..OF_CONVERSIONS
 };
@@ -76,11 +77,15 @@ const TO_THE_SPHERE: Family = Family {
     ..OF_CONVERSIONS
 };
 
+/// Up to which order the catalogue has maps between two orders, and to the sphere.
+const SHOWN: usize = 6;
+
 /// The square map, and that from two orders less.
 fn shown(family: &'static Family, order: usize) -> Vec<Spec> {
     let spec = Spec::new(family, order);
     match order {
         2 | 3 => spec.both(),
+        _ if order > SHOWN => vec![],
         _ => [spec.clone().both(), spec.of_factors([order - 2, order]).both()].concat(),
     }
 }

@@ -3,21 +3,23 @@
 //! quaternion, and by one of three methods: shears of the generator for small angles, spherical harmonics for any, the
 //! stretched sphere's rotation to compare with.
 
-use crate::families::family::{Family, Measure, Proof, Spec};
+use crate::families::family::{Family, Job, Measure, Proof, Spec};
 use crate::families::hemisphere::evaluate::stretch;
 use crate::families::hemisphere::methods::{about_y, between_z, by_the_sphere, stretched_angle};
 use crate::families::hemisphere::shears::{self, WAYS, Way};
+use crate::families::hemisphere::table;
 use crate::families::hemisphere::{COMMON, in_words, signal};
 use crate::families::parts::params::{normal, quaternion};
 use crate::families::parts::phases::{Phase, phases, phases_of_normal, phases_of_quaternion};
 use crate::families::parts::small_angle::of_sine;
 use crate::families::parts::sums::inner;
 use crate::families::tilt;
+use crate::ir::eval::{Contraction, Program};
 use crate::ir::graph::Id;
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
 use crate::ir::listing::Listing;
 use crate::math::exact::Exact;
-use crate::math::hemisphere::{Below, SPHERICAL_ORDER};
+use crate::math::hemisphere::{self, Below, SPHERICAL_ORDER};
 
 /// The largest angle in degrees that the shears are meant for.
 pub const SHEARED_DEGREES: f64 = 10.0;
@@ -184,6 +186,43 @@ fn shown(family: &'static Family, order: usize) -> Vec<Spec> {
         4..=6 => spec.both(),
         _ => vec![],
     }
+}
+
+/// The matrix, by rows, that a spec's method turns about y by, by an angle in radians.
+pub fn matrix(spec: &Spec, below: Below, angle: f64) -> Vec<Vec<f64>> {
+    let order = spec.order;
+    if spec.family == &table::ROTATE_TABLE {
+        return hemisphere::about_y(order, below, angle);
+    }
+    let turn = Program::<f64>::new(&Listing::new(&y(spec, below)));
+    let parameter = match method(spec) {
+        Method::Shears => vec![angle],
+        _ => vec![angle.cos(), angle.sin()],
+    };
+    let column = |column: usize| {
+        let unit: Vec<f64> = (0..order * order).map(|place| f64::from(u8::from(place == column))).collect();
+        turn.run(&[&parameter, &unit], Contraction::Separate)
+    };
+    let columns: Vec<Vec<f64>> = (0..order * order).map(column).collect();
+    (0..order * order).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
+}
+
+/// What turns hemispherical coefficients, a kind of rotation given: every method that is worth weighing.
+pub fn candidates(job: Job, order: usize, below: Below) -> Vec<Spec> {
+    let family = match (job, below) {
+        (Job::Y, Below::Zero) => &Y_LOBE,
+        (Job::Y, Below::GoesOn) => &Y_RECORD,
+        (Job::Tilt, Below::Zero) => &TILT_LOBE,
+        (Job::Tilt, Below::GoesOn) => &TILT_RECORD,
+        (Job::Quaternion, Below::Zero) => &ROTATE_LOBE,
+        (Job::Quaternion, Below::GoesOn) => &ROTATE_RECORD,
+        (Job::Zyz, _) => return vec![Spec::new(&table::ROTATE_TABLE, order)],
+    };
+    let spec = Spec::new(family, order);
+    let more = order + 4;
+    let by_the_sphere = [SH.to_owned(), format!("{SH}={more}")];
+    let choices = by_the_sphere.iter().map(String::as_str).chain([EQUATION_13]);
+    std::iter::once(spec.clone()).chain(choices.map(|choice| spec.clone().choosing(choice))).collect()
 }
 
 /// The cheapest of the ways in which a kernel's shears can take their angle.

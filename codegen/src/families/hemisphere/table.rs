@@ -4,15 +4,11 @@
 
 use crate::families::family::{Family, Measure, Spec};
 use crate::families::hemisphere::methods::between_z;
-use crate::families::hemisphere::rotate::{Y_LOBE, Y_RECORD};
 use crate::families::hemisphere::{COMMON, signal};
 use crate::families::parts::phases::phases;
-use crate::ir::eval::Contraction;
-use crate::ir::eval::Program;
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
-use crate::ir::listing::Listing;
 use crate::math::exact::Exact;
-use crate::math::hemisphere::Below;
+use crate::math::hemisphere::{Below, about_y};
 use crate::math::index::coefficients;
 
 /// `hsh_rotate_table`.
@@ -47,19 +43,10 @@ pub fn places(order: usize) -> Vec<[usize; 2]> {
         .collect()
 }
 
-/// The entries of the matrix that turns about y by an angle in radians, as `hsh_rotate_table` takes them: C D E for records, C
-/// D Cᵀ for lobes, D of spherical order 16.
+/// The entries of the matrix that turns about y by an angle in radians, as `hsh_rotate_table` takes them.
 pub fn entries(order: usize, below: Below, beta: f64) -> Vec<f64> {
-    let family = if below == Below::Zero { &Y_LOBE } else { &Y_RECORD };
-    let turn = Program::<f64>::new(&Listing::new(&Spec::new(family, order).choosing("sh=16").kernel()));
-    let cs = [beta.cos(), beta.sin()];
-    let columns: Vec<Vec<f64>> = (0..order * order)
-        .map(|column| {
-            let unit: Vec<f64> = (0..order * order).map(|place| f64::from(u8::from(place == column))).collect();
-            turn.run(&[&cs, &unit], Contraction::Separate)
-        })
-        .collect();
-    places(order).into_iter().map(|[row, column]| columns[column][row]).collect()
+    let matrix = about_y(order, below, beta);
+    places(order).into_iter().map(|[row, column]| matrix[row][column]).collect()
 }
 
 fn kernel(order: usize) -> Kernel {
