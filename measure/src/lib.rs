@@ -9,6 +9,7 @@ pub mod costs;
 pub mod errors;
 pub mod factorisation;
 pub mod fronts;
+pub mod hemisphere;
 mod markdown;
 pub mod methods;
 pub mod numbers;
@@ -74,6 +75,7 @@ pub fn render(report: &Report) -> Vec<File> {
     let mut files = vec![File { name: "measure.json".to_owned(), text: report.to_json() }];
     files.extend(tables::files(report));
     files.extend(plots::files(report));
+    files.extend(hemisphere::pages::files(&report.hemisphere));
     files
 }
 

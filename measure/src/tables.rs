@@ -432,6 +432,13 @@ fn index(report: &Report) -> File {
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
         ("[factorisation](factorisation.md)", "Tables I and II of Nowrouzezahrai et al. 2012, ours beside"),
+        ("[irradiance_bases](irradiance_bases.md)", "bases of irradiance ranked; Figure 3 of Habel and Wimmer 2010"),
+        (
+            "[hemisphere_bases](hemisphere_bases.md)",
+            "what bases capture of lobes: Figures 4 and 5 of Gautron et al. 2004",
+        ),
+        ("[hemisphere_rotation](hemisphere_rotation.md)", "what rotations of hemispherical harmonics err by"),
+        ("[hemisphere_light](hemisphere_light.md)", "environment light in hemispherical harmonics"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];

@@ -1,5 +1,6 @@
 //! The docs are what is measured, and what is measured is what the papers' figures and the errors' laws say.
 
+mod hemisphere;
 mod stability;
 
 use std::path::Path;

@@ -1,0 +1,64 @@
+//! Functions on the hemisphere: which basis holds them best, and what their rotation errs by. Measured in f64 by quadrature,
+//! from the definitions of Habel and Wimmer 2010 and of Gautron et al. 2004, whose figures are made again.
+
+pub mod bases;
+pub mod captured;
+pub mod cost;
+pub mod grid;
+pub mod irradiance;
+pub mod light;
+pub mod matrix;
+pub mod pages;
+pub mod rotation;
+pub mod turn;
+
+use crate::Progress;
+use captured::Captured;
+use irradiance::{MapError, Rank};
+use light::Light;
+use rotation::Rotation;
+use serde::{Deserialize, Serialize};
+use zonal_codegen::environment::map::Map;
+
+/// All that is measured on the hemisphere.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hemisphere {
+    /// Bases of irradiance.
+    pub irradiance: Vec<Rank>,
+    /// The irradiance of the maps at order 3.
+    pub maps: Vec<MapError>,
+    /// The energy that bases capture of lobes.
+    pub captured: Vec<Captured>,
+    /// Rotations.
+    pub rotation: Rotation,
+    /// The light of environment maps.
+    pub light: Vec<Light>,
+}
+
+/// The maps that the project carries, by name.
+pub fn maps() -> Vec<(&'static str, Map)> {
+    let read = |path| {
+        let bytes = zonal_scenes::embedded(path).expect("it was listed");
+        let map = Map::from_bytes(path, bytes).expect("a map of the project can be read");
+        let name = path.rsplit('/').next().and_then(|file| file.split('_').next()).unwrap_or(path);
+        (name, map)
+    };
+    zonal_scenes::below("maps").filter(|path| path.ends_with(".hdr")).map(read).collect()
+}
+
+impl Hemisphere {
+    /// Measures everything.
+    pub fn measure(progress: &dyn Progress) -> Self {
+        let named = maps();
+        let errors = irradiance::maps(&named);
+        let maps: Vec<Map> = named.into_iter().map(|(_, map)| map).collect();
+        let projections: Vec<_> = maps.iter().map(|map| map.project(turn::SPHERE)).collect();
+        Self {
+            irradiance: irradiance::measure(progress),
+            maps: errors,
+            captured: captured::measure(progress),
+            rotation: rotation::measure(progress, &projections),
+            light: light::measure(progress, &maps),
+        }
+    }
+}
