@@ -439,6 +439,10 @@ fn index(report: &Report) -> File {
         ),
         ("[hemisphere_rotation](hemisphere_rotation.md)", "what rotations of hemispherical harmonics err by"),
         ("[hemisphere_light](hemisphere_light.md)", "environment light in hemispherical harmonics"),
+        (
+            "[hemisphere_reflectance](hemisphere_reflectance.md)",
+            "reflectances in hemispherical harmonics: Figure 6 and Table 1 of Gautron et al. 2004",
+        ),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];

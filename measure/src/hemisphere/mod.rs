@@ -10,14 +10,19 @@ pub mod light;
 pub mod matrix;
 pub mod pages;
 pub mod rotation;
+pub mod spheres;
+pub mod teapot;
 pub mod turn;
 
 use crate::Progress;
+use crate::raster::Raster;
 use captured::Captured;
 use irradiance::{MapError, Rank};
 use light::Light;
 use rotation::Rotation;
 use serde::{Deserialize, Serialize};
+use spheres::Sphere;
+use teapot::{Pixel, Teapot};
 use zonal_codegen::environment::map::Map;
 
 /// All that is measured on the hemisphere.
@@ -33,7 +38,19 @@ pub struct Hemisphere {
     pub rotation: Rotation,
     /// The light of environment maps.
     pub light: Vec<Light>,
+    /// One irradiance in each basis.
+    pub spheres: Vec<Sphere>,
+    /// Reflectances on a teapot.
+    pub teapots: Vec<Teapot>,
+    /// What a pixel costs under an environment map.
+    pub pixels: Vec<Pixel>,
+    /// The pictures, which no JSON holds.
+    #[serde(skip)]
+    pub pictures: Vec<Raster>,
 }
+
+/// The map whose sun stands at a grazing angle in Figure 4.
+pub const SUN: &str = "sunrise";
 
 /// The maps that the project carries, by name.
 pub fn maps() -> Vec<(&'static str, Map)> {
@@ -51,6 +68,9 @@ impl Hemisphere {
     pub fn measure(progress: &dyn Progress) -> Self {
         let named = maps();
         let errors = irradiance::maps(&named);
+        let (_, sunrise) = named.iter().find(|(name, _)| *name == SUN).expect("it is a map of the project");
+        let (spheres, picture) = spheres::measure(sunrise);
+        let (teapots, teapot) = teapot::measure(progress);
         let maps: Vec<Map> = named.into_iter().map(|(_, map)| map).collect();
         let projections: Vec<_> = maps.iter().map(|map| map.project(turn::SPHERE)).collect();
         Self {
@@ -59,6 +79,10 @@ impl Hemisphere {
             captured: captured::measure(progress),
             rotation: rotation::measure(progress, &projections),
             light: light::measure(progress, &maps),
+            spheres,
+            teapots,
+            pixels: teapot::pixels(),
+            pictures: vec![picture, teapot],
         }
     }
 }

@@ -1,12 +1,15 @@
 //! The tables and plots of what is measured on the hemisphere, and what becomes of the papers' claims.
 
-use super::Hemisphere;
 use super::captured::{Captured, LOBES, VIEWS};
 use super::irradiance::{FIGURE_3, KINDS, KINDS_IN_WORDS, Rank, SIGNALS};
 use super::light::{Light, ORDERS as LIGHT_ORDERS, SPHERES};
 use super::rotation::{Errors, FEW, FRAMES, LOBE_ANGLES, READ, RECORD_ANGLES, TABLED, WINDOW};
+use super::spheres::{LARGER, NAME as SPHERES_NAME, SUN, Sphere};
+use super::teapot::{DARK, NAME as TEAPOT_NAME, ORDER, Pixel, SIDE, SIZES, Teapot};
+use super::{Hemisphere, SUN as SUNNY};
 use crate::File;
 use crate::markdown::{file, short, table};
+use crate::papers::FRAMES as FRAMES_PRINTED;
 use crate::svg::{Axis, Panel, Picture, Series, Stroke, file as picture, key};
 
 /// A claim of a paper, whether it holds here, and by which figures.
@@ -158,6 +161,7 @@ fn irradiance(hemisphere: &Hemisphere) -> File {
     let verdict =
         |claim: Claim| vec![claim.claim.to_owned(), if claim.holds { "yes" } else { "no" }.to_owned(), claim.figures];
     let maps = hemisphere.maps.iter().map(|map| vec![map.map.clone(), percent(map.rms)]);
+    let sphere = |sphere: &Sphere| vec![sphere.basis.clone(), sphere.coefficients.to_string(), percent(sphere.rms)];
     let parts = [
         format!(
             "Which basis holds the irradiance of a surface best, for normals above its horizon: the squared error integrated \
@@ -187,6 +191,13 @@ fn irradiance(hemisphere: &Hemisphere) -> File {
         table(&["claim", "holds", "figures"], claims(hemisphere).into_iter().map(verdict)),
         "What order 3 leaves out of the irradiance of the maps, in rms terms over the whole sphere:".to_owned(),
         table(&["map", "per cent"], maps),
+        format!(
+            "## Figure 4 of Habel and Wimmer 2010\n\nThe irradiance of one surface of the map *{SUNNY}*, the sun {SUN}° from the \
+             normal, as spheres seen from above, the sun on the right: the truth, then each basis in the order of the table; \
+             below, {LARGER} times the absolute difference. White is the brightest irradiance; what is negative is blue.\n\n\
+             ![Irradiance in each basis]({SPHERES_NAME})"
+        ),
+        table(&["basis", "coefficients", "rms error, %"], hemisphere.spheres.iter().map(sphere)),
     ];
     file("irradiance_bases", "Bases of irradiance", &parts)
 }
@@ -401,6 +412,63 @@ fn light(hemisphere: &Hemisphere) -> File {
     file("hemisphere_light", "Environment light on the hemisphere", &parts)
 }
 
+fn reflectance(hemisphere: &Hemisphere) -> File {
+    let teapot = |teapot: &Teapot| {
+        let figures = [teapot.errors, teapot.premultiplied, teapot.negative, teapot.dark];
+        let figures = figures.map(|[hsh, sh]| format!("{} / {}", percent(hsh), percent(sh)));
+        let first = [format!("`{}`", teapot.reflectance), teapot.pixels.to_string()];
+        first.into_iter().chain(figures).chain(teapot.tables.iter().map(|error| percent(*error))).collect()
+    };
+    let sizes = SIZES.map(|side| format!("table of {side} × {side}"));
+    let columns: Vec<&str> = ["reflectance", "lit pixels", "error", "with the cosine", "negative", "seen to be"]
+        .into_iter()
+        .chain(sizes.iter().map(String::as_str))
+        .collect();
+    let pixel = |pixel: &Pixel| {
+        let sums = |[rotate, convert, sum]: [usize; 3]| {
+            let (hemisphere, sphere) = (rotate + convert + sum, rotate + sum);
+            let more = 100.0 * convert as f64 / sphere as f64;
+            [hemisphere.to_string(), sphere.to_string(), format!("{more:.1} %")]
+        };
+        let steps = pixel.steps.map(|count| count.to_string()).join(" + ");
+        let first = [pixel.order.to_string(), steps];
+        let frames = FRAMES_PRINTED.iter().find(|(order, _, _)| *order == pixel.order);
+        let fewer = frames.map_or_else(String::new, |(_, hsh, sh)| format!("{:.1} %", 100.0 * (1.0 - hsh / sh)));
+        let last = [pixel.bytes.to_string(), fewer];
+        first.into_iter().chain(sums(pixel.steps)).chain(sums(pixel.steps_rgb)).chain(last).collect()
+    };
+    let parts = [
+        format!(
+            "## Figure 6 of Gautron et al. 2004\n\nA teapot under one point light: from left to right the reflectance itself, \
+             in HSH and in SH of order {ORDER}; Phong's lobe of exponent 20 above, Ward's of roughness 0.2 and 0.5 below, its \
+             tangents around the teapot's axis. A pixel is Σ c(ω_o) B(ω_i) times the cosine (their equation 16), c from a table \
+             of {SIDE} × {SIDE} views on a paraboloid, interpolated from four texels. What is negative is blue; nothing \
+             throws shadows.\n\n![A teapot in two bases]({TEAPOT_NAME})"
+        ),
+        table(&columns, hemisphere.teapots.iter().map(teapot)),
+        format!(
+            "All in per cent, HSH / SH: the root of the mean square of the error over the lit pixels, relative to that of the \
+             analytic picture; the same where the coefficients are of the product with the cosine, as section 6.2 of the \
+             paper has it; the share of the lit pixels that are negative, and of those that are below −{} of a bright \
+             one; and what tables of three sizes add to HSH, against coefficients at the very view. A table of {SIDE} × \
+             {SIDE} holds {} bytes in f32.",
+            DARK,
+            4 * SIDE * SIDE * ORDER * ORDER
+        ),
+        "## Table 1 of Gautron et al. 2004\n\nThe paper gives frames a second; here is what a pixel takes under an environment \
+         map: the light is rotated to the frame of the surface, taken to the hemisphere by C (for HSH alone) and summed with \
+         the reflectance's coefficients. Operations for light of one channel, step by step and as sums, and for three; bytes \
+         that a pixel reads of the reflectance in f32, the same for both; and by how much fewer frames the paper had. With as \
+         many bands as here C adds more than the paper saw, and [takes half of the light wrong](hemisphere_light.md)."
+            .to_owned(),
+        table(
+            &["order", "rotate + C + sum", "HSH", "SH", "more", "HSH, RGB", "SH, RGB", "more", "bytes", "fewer frames"],
+            hemisphere.pixels.iter().map(pixel),
+        ),
+    ];
+    file("hemisphere_reflectance", "Reflectances on the hemisphere", &parts)
+}
+
 /// Every page and plot of the hemisphere.
 pub fn files(hemisphere: &Hemisphere) -> Vec<File> {
     vec![
@@ -412,5 +480,6 @@ pub fn files(hemisphere: &Hemisphere) -> Vec<File> {
         rotation(hemisphere),
         table_plot(hemisphere),
         light(hemisphere),
+        reflectance(hemisphere),
     ]
 }

@@ -358,6 +358,50 @@ fn methods_2_and_3_err_as_the_page_says() {
     assert_eq!(rotation.tables[0].bytes, 4 * 8 * 45);
 }
 
+/// Figure 4: the order of the bases is that of Figure 3, by their number of coefficients.
+#[test]
+fn one_irradiance_with_a_low_sun_ranks_the_bases_alike() {
+    let error = |name: &str| found().spheres.iter().find(|sphere| sphere.basis == name).unwrap().rms;
+    let ranked = ["SH, order 3", "H6", "Zernike, degrees to 2", "HSH, order 3", "H4", "Half-Life 2"];
+    assert!(ranked.windows(2).all(|pair| error(pair[0]) < 0.9 * error(pair[1])), "{:?}", found().spheres);
+    assert!((error("H4") / error("SH, order 2") - 1.0).abs() < 1e-3);
+    assert!(error("SH, order 3") > 0.03 && error("H6") < 0.1);
+}
+
+/// Figure 6: for Phong HSH is the better basis, as printed; for Ward it is not, and as good with the cosine within.
+#[test]
+fn teapots_err_and_ring_as_the_page_says() {
+    let [phong, ward] = &found().teapots[..] else { panic!("two reflectances") };
+    assert!(phong.pixels > 10_000);
+    assert!(phong.errors[0] < 0.4 * phong.errors[1] && phong.premultiplied[0] < 0.4 * phong.premultiplied[1]);
+    assert!(phong.dark[0] < 0.4 * phong.dark[1], "SH rings: {phong:?}");
+    assert!(ward.errors[0] > ward.errors[1] && ward.premultiplied[0] < 1.2 * ward.premultiplied[1], "{ward:?}");
+    for teapot in [phong, ward] {
+        // Both bases go below zero somewhere, and the table errs by less the larger it is.
+        assert!(teapot.negative.iter().all(|share| (0.1..0.7).contains(share)), "{teapot:?}");
+        assert!(teapot.tables.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{teapot:?}");
+        assert!(teapot.tables[1] < 0.05, "{teapot:?}");
+    }
+    for picture in &found().pictures {
+        let other = picture.pixels.iter().filter(|pixel| **pixel != zonal_measure::raster::GROUND).count();
+        assert!(5 * other > picture.pixels.len(), "{} shows something", picture.name);
+    }
+}
+
+/// Table 1: the step to the hemisphere is a part of all, and costs no byte.
+#[test]
+fn pixels_cost_a_conversion_more() {
+    let bytes: Vec<usize> = found().pixels.iter().map(|pixel| pixel.bytes).collect();
+    assert_eq!(bytes, [16, 36, 100, 256, 400]);
+    for pixel in &found().pixels {
+        let [rotate, convert, sum] = pixel.steps;
+        assert_eq!((sum, pixel.steps_rgb[2]), (pixel.order * pixel.order, 3 * pixel.order * pixel.order));
+        assert!((sum..rotate).contains(&convert), "{pixel:?}");
+        // C has an entry for each pair of bands with equal m at most.
+        assert!(convert <= pixel.order * (2 * pixel.order * pixel.order + 1) / 3, "{pixel:?}");
+    }
+}
+
 #[test]
 fn light_needs_twice_the_bands() {
     for order in [2, 3, 4, 5, 6, 8, 10] {
