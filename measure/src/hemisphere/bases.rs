@@ -1,5 +1,5 @@
 //! Bases of functions on the upper hemisphere, in f64 and as their papers define them, to be compared: no kernel is made
-//! from these, and none of them shares code with one. All but the spherical harmonics are orthonormal there.
+//! from these, and none of them shares code with one. All but the spherical harmonics and the cube are orthonormal there.
 //!
 //! | basis | source |
 //! |---|---|
@@ -9,6 +9,7 @@
 //! | [`ZERNIKE`] | Koenderink et al. 1996: the disc's polynomials at r = √2 sin(θ/2), so that r² = 1 − z and areas are kept |
 //! | [`H`] | Habel and Wimmer 2010, equations 8 to 13 |
 //! | [`HALF_LIFE`] | Habel and Wimmer 2010, equations 1 and 2 |
+//! | [`CUBE`] | McTaggart 2004: the squares of x, y and z, each apart for either sign; not orthonormal |
 
 use std::f64::consts::PI;
 use zonal_codegen::environment::harmonics;
@@ -103,6 +104,17 @@ pub static HALF_LIFE: Basis = Basis {
             norm * (-a * x + b * y + c),
             norm * ((2.0 / 3f64).sqrt() * x + c),
         ]);
+    },
+};
+
+/// The ambient cube of Half-Life 2: of its six faces the five that are seen from above the horizon.
+pub static CUBE: Basis = Basis {
+    name: "Ambient cube",
+    count: |_| 5,
+    values: |_, [x, y, z], values| {
+        let either = |x: f64| if x > 0.0 { [x * x, 0.0] } else { [0.0, x * x] };
+        let ([east, west], [north, south]) = (either(x), either(y));
+        values[..5].copy_from_slice(&[east, west, north, south, z * z]);
     },
 };
 

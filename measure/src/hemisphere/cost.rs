@@ -1,5 +1,5 @@
 //! What the evaluation of a basis costs and how it rounds: of kernels by the names of their specs, where they exist, and of
-//! Zernike's polynomials, which have none, as the shortest code known here.
+//! Zernike's polynomials and the ambient cube, which have none, as the shortest code known here.
 
 use crate::significant;
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,26 @@ pub fn of_spec(spec: &str) -> Option<Evaluation> {
 /// Of Zernike's polynomials of the degrees to 1 or to 2, their constants within the coefficients.
 pub fn of_zernike(degree: usize) -> Evaluation {
     of(&zernike(degree))
+}
+
+/// Of the ambient cube: six numbers, of which three are chosen by signs.
+pub fn of_cube() -> Evaluation {
+    let mut builder = Builder::new();
+    let dir = builder.param("dir", Shape::Array(3), Domain::Direction, "a direction");
+    let c = builder.param("c", Shape::Array(6), Domain::Signal, "the faces towards +x, −x, +y, −y, +z and −z");
+    let g = &mut builder.graph;
+    let zero = g.constant(Exact::zero());
+    let mut value = None;
+    for (axis, faces) in c.chunks(2).enumerate() {
+        let square = g.mul(dir[axis], dir[axis]);
+        let face = g.select_less(zero, dir[axis], faces[0], faces[1]);
+        value = Some(match value {
+            None => g.mul(square, face),
+            Some(sum) => g.mul_add(square, face, sum),
+        });
+    }
+    let value = value.expect("a direction has three axes");
+    of(&builder.finish(vec![value], Shape::Scalar, "the sum"))
 }
 
 fn of(kernel: &Kernel) -> Evaluation {

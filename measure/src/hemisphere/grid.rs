@@ -1,6 +1,7 @@
 //! Nodes and weights on the sphere, on the upper hemisphere and on what of it is left above the horizon after a turn; the
-//! smooth seeded turns that signals are seen in.
+//! seeded frames that signals are seen in.
 
+use super::bases::SH;
 use std::f64::consts::PI;
 use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::samples::{Random, matrix_of};
@@ -72,4 +73,17 @@ pub fn local(frame: &[[f64; 3]; 3], direction: [f64; 3]) -> [f64; 3] {
 /// A direction of a frame in the world.
 pub fn global(frame: &[[f64; 3]; 3], direction: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| (0..3).map(|axis| frame[axis][i] * direction[axis]).sum())
+}
+
+/// What is seen of a light in a frame, both in spherical harmonics, by nodes that are exact for products of two of its order.
+pub fn seen(nodes: &[Node], light: &[f64], frame: &[[f64; 3]; 3]) -> Vec<f64> {
+    let order = light.len().isqrt();
+    let mut sums = vec![0.0; light.len()];
+    for (direction, weight) in nodes {
+        let there = SH.at(order, global(frame, *direction));
+        let radiance: f64 = light.iter().zip(there).map(|(c, y)| c * y).sum();
+        let here = SH.at(order, *direction);
+        sums.iter_mut().zip(here).for_each(|(sum, y)| *sum += weight * radiance * y);
+    }
+    sums
 }

@@ -1,9 +1,9 @@
 //! How well bases hold the irradiance of a surface: the integral over the upper hemisphere of the squared error, the measure
 //! of Habel and Wimmer 2010 (equation 16), over seeded random irradiances of four kinds; their Figure 3 over ten thousand.
 
-use super::bases::{Basis, H, HALF_LIFE, HSH, SH, ZERNIKE};
+use super::bases::{Basis, CUBE, H, HALF_LIFE, HSH, SH, ZERNIKE};
 use super::cost::{self, Evaluation};
-use super::grid::{Node, hemisphere};
+use super::grid::{Node, frames, hemisphere, seen, sphere};
 use super::matrix::Matrix;
 use crate::{Progress, each, significant};
 use serde::{Deserialize, Serialize};
@@ -32,6 +32,8 @@ const ORDER: usize = 13;
 /// The bands over the whole sphere that a basis may be made from.
 const WHOLE: usize = 5;
 const RINGS: usize = 24;
+/// How many frames each map is seen in.
+pub const FRAMES: usize = 48;
 const SEED: u64 = 0x1bad;
 /// Signals that one task draws.
 const TASK: usize = 250;
@@ -61,6 +63,8 @@ enum Code {
     Spec(&'static str),
     /// Zernike's polynomials to a degree.
     Zernike(usize),
+    /// The ambient cube.
+    Cube,
 }
 
 const fn fit(name: &'static str, (basis, order, from): (&'static Basis, usize, From), evaluation: Code) -> Fit {
@@ -68,7 +72,8 @@ const fn fit(name: &'static str, (basis, order, from): (&'static Basis, usize, F
 }
 
 /// What is compared, in the order of docs/MATH.md's ranking, and the kernel that evaluates it.
-static FITS: [Fit; 13] = [
+// Names a family: these evaluate the bases.
+static FITS: [Fit; 14] = [
     fit("SH, order 3, least squares", (&SH, 3, From::LeastSquares), Code::Spec("eval:3")),
     fit("SH, order 3, of the whole sphere", (&SH, 3, From::Sphere(3)), Code::Spec("eval:3")),
     fit("H6", (&H, 3, From::Hemisphere), Code::Spec("h6_eval")),
@@ -82,6 +87,7 @@ static FITS: [Fit; 13] = [
     fit("SH, order 2, of the whole sphere", (&SH, 2, From::Sphere(2)), Code::Spec("eval:2")),
     fit("Zernike, degrees to 1", (&ZERNIKE, 2, From::Hemisphere), Code::Zernike(1)),
     fit("Half-Life 2", (&HALF_LIFE, 1, From::Hemisphere), Code::Spec("hl2_eval")),
+    fit("Ambient cube, least squares", (&CUBE, 1, From::LeastSquares), Code::Cube),
 ];
 
 /// A basis and what it errs by.
@@ -97,6 +103,8 @@ pub struct Rank {
     pub figure_3: f64,
     /// The mean root of that error.
     pub rms: f64,
+    /// For each map the mean root of its error in seeded frames, relative to the irradiance's.
+    pub maps: Vec<f64>,
     /// What its evaluation costs, where there is a kernel of it.
     pub evaluation: Option<Evaluation>,
 }
@@ -299,9 +307,25 @@ fn sums(bench: &Bench, kind: usize, seed: u64, count: usize) -> Sums {
     sums
 }
 
+/// The mean root of the error of each basis over frames of a map, relative to its irradiance in the frame.
+fn of_map(bench: &Bench, name: &str, map: &Map) -> Vec<f64> {
+    let luminance = |[r, g, b]: &[f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let light: Vec<f64> = map.project(ORDER).irradiance().coefficients.iter().map(luminance).collect();
+    let nodes = sphere(ORDER + 1);
+    let seed = name.bytes().fold(SEED, |seed, byte| 31 * seed + u64::from(byte));
+    let mut sums = vec![0.0; FITS.len()];
+    for frame in frames(seed, FRAMES) {
+        let signal = Signal { lights: vec![], harmonics: seen(&nodes, &light, &frame) };
+        let (square, errors) = bench.errors(&signal);
+        sums.iter_mut().zip(errors).for_each(|(sum, error)| *sum += (error / square).sqrt() / FRAMES as f64);
+    }
+    sums
+}
+
 /// Every basis.
-pub fn measure(progress: &dyn Progress) -> Vec<Rank> {
+pub fn measure(progress: &dyn Progress, maps: &[(&str, Map)]) -> Vec<Rank> {
     let bench = Bench::new();
+    let lights = each(progress, "irradiance of maps", maps, |(name, map)| of_map(&bench, name, map));
     // The ranking's signals of each kind, then those of Figure 3, with seeds of their own.
     let parts = |count: usize, first: u64| {
         (0..KINDS.len())
@@ -325,9 +349,11 @@ pub fn measure(progress: &dyn Progress) -> Vec<Rank> {
             errors: std::array::from_fn(error),
             figure_3: mean(1),
             rms: mean(2),
+            maps: lights.iter().map(|errors| significant(errors[place])).collect(),
             evaluation: match fit.evaluation {
                 Code::Spec(spec) => cost::of_spec(spec),
                 Code::Zernike(degree) => Some(cost::of_zernike(degree)),
+                Code::Cube => Some(cost::of_cube()),
             },
         }
     };

@@ -71,10 +71,11 @@ impl Hemisphere {
         let (_, sunrise) = named.iter().find(|(name, _)| *name == SUN).expect("it is a map of the project");
         let (spheres, picture) = spheres::measure(sunrise);
         let (teapots, teapot) = teapot::measure(progress);
+        let ranks = irradiance::measure(progress, &named);
         let maps: Vec<Map> = named.into_iter().map(|(_, map)| map).collect();
         let projections: Vec<_> = maps.iter().map(|map| map.project(turn::SPHERE)).collect();
         Self {
-            irradiance: irradiance::measure(progress),
+            irradiance: ranks,
             maps: errors,
             captured: captured::measure(progress),
             rotation: rotation::measure(progress, &projections),

@@ -2,7 +2,7 @@
 //! which go on there. The three methods of Gautron et al. 2004, section 4, with the generators and the extension beside.
 
 use super::bases::{HSH, SH};
-use super::grid::{Node, about_y, frames, global, hemisphere, sphere};
+use super::grid::{about_y, frames, hemisphere, seen, sphere};
 use super::matrix::{Matrix, norm, relative};
 use super::turn::{SPHERE, conversion, derivative, extension, lf3, stretched, turned, without_digon, y_rotation};
 use crate::{Progress, each, significant};
@@ -141,19 +141,6 @@ fn lobes(progress: &dyn Progress, tilts: &[f64], angles: &[f64]) -> Vec<Case> {
         after: by_angle[1..].iter().map(|sums| After { coefficients: sums[i].clone(), whole: None }).collect(),
     };
     (0..axes.len()).map(case).collect()
-}
-
-/// What is seen of a light in a frame, in spherical harmonics.
-fn seen(nodes: &[Node], light: &[f64], frame: &[[f64; 3]; 3]) -> Vec<f64> {
-    let order = light.len().isqrt();
-    let mut sums = vec![0.0; light.len()];
-    for (direction, weight) in nodes {
-        let there = SH.at(order, global(frame, *direction));
-        let radiance: f64 = light.iter().zip(there).map(|(c, y)| c * y).sum();
-        let here = SH.at(order, *direction);
-        sums.iter_mut().zip(here).for_each(|(sum, y)| *sum += weight * radiance * y);
-    }
-    sums
 }
 
 /// The maps' luminance with its window, in frames of each seed: by seed the signals of all maps.

@@ -153,9 +153,28 @@ fn the_claims_of_figure_3_hold_but_for_the_last() {
     assert!(rank("H6").figure_3 < 0.9 * rank("Zernike, degrees to 2").figure_3);
     assert!(rank("Zernike, degrees to 1").figure_3 < 0.6 * rank("Half-Life 2").figure_3);
     assert!(rank("SH, order 3, of the whole sphere").rms > 0.04);
-    // Irradiance of order 3 in rms terms, of eight maps; other code found 1.4 to 6.7 % but for the studio.
-    let maps: Vec<f64> = found().maps.iter().map(|map| map.rms).collect();
-    assert!(maps.len() == 8 && maps.iter().all(|rms| (0.013..0.08).contains(rms)), "{maps:?}");
+}
+
+/// Per cent that bases err by on the eight maps above the horizon in rms terms, as other code found: from 1.6 to 9.5 for SH
+/// of order 3, and over all maps 5.6, 10.9, 17.9, 29.5 and 49.4.
+#[test]
+fn maps_are_held_as_well_as_other_code_found() {
+    let maps = &rank("SH, order 3, of the whole sphere").maps;
+    let (least, most) = (maps.iter().copied().fold(1.0, f64::min), maps.iter().copied().fold(0.0, f64::max));
+    assert!(maps.len() == 8 && (0.011..0.018).contains(&least) && (0.085..0.1).contains(&most), "{maps:?}");
+    for (name, wanted) in [
+        ("SH, order 3, of the whole sphere", 0.056),
+        ("H6", 0.109),
+        ("H4", 0.179),
+        ("SH, order 2, of the whole sphere", 0.295),
+        ("Half-Life 2", 0.494),
+    ] {
+        let mean = rank(name).maps.iter().sum::<f64>() / 8.0;
+        // That is the root of a mean square, this the mean of roots, which is smaller.
+        assert!((0.8 * wanted..1.05 * wanted).contains(&mean), "{name}: {mean}, there {wanted}");
+    }
+    // Over the whole sphere, where nothing depends on frames.
+    assert!(found().maps.iter().all(|map| (0.013..0.08).contains(&map.rms)), "{:?}", found().maps);
 }
 
 #[test]
@@ -163,6 +182,9 @@ fn evaluations_cost_what_their_kernels_do() {
     let cost = |name: &str| rank(name).evaluation.clone().unwrap();
     let zernike = cost("Zernike, degrees to 2");
     assert_eq!((zernike.operations, zernike.operations_rgb, zernike.special), (11, 21, 1));
+    // Three squares, three choices and three products of a channel.
+    let cube = cost("Ambient cube, least squares");
+    assert_eq!((cube.operations, cube.operations_rgb, cube.special), (9, 21, 0));
     for rank in &found().irradiance {
         if let Some(cost) = &rank.evaluation {
             assert!((1e-8..1e-6).contains(&cost.f32), "{}: {cost:?}", rank.basis);
