@@ -9,11 +9,13 @@ pub mod costs;
 pub mod errors;
 pub mod factorisation;
 pub mod fronts;
+pub mod hemisphere;
 mod markdown;
 pub mod methods;
 pub mod numbers;
 pub mod papers;
 pub mod plots;
+pub mod raster;
 pub mod report;
 pub mod ringing;
 pub mod rounding;
@@ -70,16 +72,17 @@ pub struct File {
     pub text: String,
 }
 
-/// Every file that a report makes, itself among them.
+/// Every file of text that a report makes, itself among them.
 pub fn render(report: &Report) -> Vec<File> {
     let mut files = vec![File { name: "measure.json".to_owned(), text: report.to_json() }];
     files.extend(tables::files(report));
     files.extend(plots::files(report));
+    files.extend(hemisphere::pages::files(&report.hemisphere));
     files
 }
 
 /// What is stale in a folder of tables and plots, given a fresh report: figures that changed, times apart, bounds that are
-/// no longer what is proven, and files that are not what the folder's own figures make.
+/// no longer what is proven, files that are not what the folder's own figures make, and pictures that are not the report's.
 pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     let path = folder.join("measure.json");
     let fault = |error: &dyn std::fmt::Display| vec![format!("{}: {error}", path.display())];
@@ -94,5 +97,6 @@ pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     let differs = |file: &File| std::fs::read_to_string(folder.join(&file.name)).map_or(true, |text| text != file.text);
     let files = render(&old).into_iter().filter(differs).map(|file| format!("{} does not show its figures", file.name));
     let bounds = bounds::stale(old.bounds.as_deref().unwrap_or_default());
-    old.differences(fresh).into_iter().chain(files).chain(bounds).collect()
+    let pictures = fresh.hemisphere.pictures.iter().filter_map(|picture| picture.stale(folder));
+    old.differences(fresh).into_iter().chain(files).chain(bounds).chain(pictures).collect()
 }

@@ -1,5 +1,10 @@
 //! What Nowrouzezahrai, Simari and Fiume (2012), "Sparse Zonal Harmonic Factorization for Efficient SH Rotation",
-//! print: data to compare with, and what is wrong in it (docs/MATH.md#errata-of-the-papers).
+//! print: data to compare with, and what is wrong in it (docs/MATH.md#errata-of-the-papers). And Table 1 of Gautron,
+//! Křivánek, Pattanaik and Bouatouch (2004), "A Novel Hemispherical Basis for Accurate and Efficient Rendering".
+
+/// Table 1 of Gautron et al. 2004: an order, and frames a second in HSH and in SH.
+pub const FRAMES: [(usize, f64, f64); 5] =
+    [(2, 220.0, 223.0), (3, 138.0, 160.0), (5, 26.2, 29.0), (8, 3.1, 3.28), (10, 1.6, 1.73)];
 
 /// Table I: the percentage of zeros in Â of the bands from 2 on.
 pub const SPARSITY: [usize; 17] = [64, 67, 62, 53, 49, 46, 42, 39, 38, 38, 37, 37, 36, 36, 36, 35, 35];

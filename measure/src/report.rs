@@ -5,6 +5,7 @@ use crate::costs::Costs;
 use crate::errors::Curve;
 use crate::factorisation::Factorisation;
 use crate::fronts::{Front, Plan};
+use crate::hemisphere::Hemisphere;
 use crate::ringing::Ringing;
 use crate::rounding::Rounding;
 use crate::stability::Stability;
@@ -42,6 +43,8 @@ pub struct Report {
     pub bounds: Option<Vec<Bounds>>,
     /// The extremes.
     pub stability: Stability,
+    /// Bases of the hemisphere and rotations on it.
+    pub hemisphere: Hemisphere,
     /// How long kernels took where they were last timed.
     pub timing: Option<Timing>,
 }
@@ -61,6 +64,7 @@ impl Report {
             ringing: ringing::measure(progress),
             bounds: None,
             stability: Stability::measure(progress),
+            hemisphere: Hemisphere::measure(progress),
             timing: None,
         }
     }

@@ -433,6 +433,17 @@ fn index(report: &Report) -> File {
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
         ("[factorisation](factorisation.md)", "Tables I and II of Nowrouzezahrai et al. 2012, ours beside"),
         ("[ringing](ringing.md)", "what is done against ringing, and how far it errs on eight maps"),
+        ("[irradiance_bases](irradiance_bases.md)", "bases of irradiance ranked; Figure 3 of Habel and Wimmer 2010"),
+        (
+            "[hemisphere_bases](hemisphere_bases.md)",
+            "what bases capture of lobes: Figures 4 and 5 of Gautron et al. 2004",
+        ),
+        ("[hemisphere_rotation](hemisphere_rotation.md)", "what rotations of hemispherical harmonics err by"),
+        ("[hemisphere_light](hemisphere_light.md)", "environment light in hemispherical harmonics"),
+        (
+            "[hemisphere_reflectance](hemisphere_reflectance.md)",
+            "reflectances in hemispherical harmonics: Figure 6 and Table 1 of Gautron et al. 2004",
+        ),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];

@@ -1,5 +1,6 @@
 //! The docs are what is measured, and what is measured is what the papers' figures and the errors' laws say.
 
+mod hemisphere;
 mod stability;
 
 use std::path::Path;
@@ -34,7 +35,8 @@ fn the_docs_are_not_stale() {
         found.len(),
         found.join("\n")
     );
-    let names: Vec<String> = render(fresh()).into_iter().map(|file| file.name).collect();
+    let pictures = fresh().hemisphere.pictures.iter().map(|picture| picture.name.clone());
+    let names: Vec<String> = render(fresh()).into_iter().map(|file| file.name).chain(pictures).collect();
     for entry in std::fs::read_dir(&folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         assert!(names.contains(&name), "{name} is made by nothing");
