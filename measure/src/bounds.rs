@@ -129,7 +129,7 @@ impl<T: Number> Number for Lanes<T> {
 fn ranges(measure: Measure, order: usize, count: usize) -> Vec<Range<usize>> {
     match measure {
         Measure::Bands | Measure::Added | Measure::Through(_) => (0..order).map(|l| l * l..(l + 1) * (l + 1)).collect(),
-        Measure::Product => std::iter::once(0..count).collect(),
+        Measure::Product | Measure::Norm => std::iter::once(0..count).collect(),
         _ => (0..count).map(|i| i..i + 1).collect(),
     }
 }
@@ -170,6 +170,8 @@ impl<'a> Runner<'a> {
     fn worst(&self, seed: u64, count: usize) -> [f64; 2] {
         let inputs = samples::inputs(&self.listing.params, seed, count, None);
         let measure = self.spec.family.measure;
+        // Signals have the same norm in every sample.
+        let size = inputs.first().map_or(1.0, |input| measure.size(&self.listing.params, input));
         let mut worst = [0.0f64; 2];
         for some in inputs.chunks(LANES) {
             // A last, short group repeats its first input.
@@ -200,7 +202,7 @@ impl<'a> Runner<'a> {
                 }
             }
         }
-        worst
+        worst.map(|error| error / size)
     }
 }
 

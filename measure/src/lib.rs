@@ -15,6 +15,7 @@ pub mod numbers;
 pub mod papers;
 pub mod plots;
 pub mod report;
+pub mod ringing;
 pub mod rounding;
 pub mod stability;
 pub mod svg;

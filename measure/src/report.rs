@@ -5,10 +5,11 @@ use crate::costs::Costs;
 use crate::errors::Curve;
 use crate::factorisation::Factorisation;
 use crate::fronts::{Front, Plan};
+use crate::ringing::Ringing;
 use crate::rounding::Rounding;
 use crate::stability::Stability;
 use crate::timing::Timing;
-use crate::{Progress, costs, errors, factorisation, fronts, rounding};
+use crate::{Progress, costs, errors, factorisation, fronts, ringing, rounding};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use zonal_codegen::families::Spec;
@@ -33,6 +34,9 @@ pub struct Report {
     pub plans: Vec<Plan>,
     /// The lobe sets of the zonal factorisation.
     pub factorisation: Factorisation,
+    /// What is done against ringing, and how far it errs.
+    #[serde(default)]
+    pub ringing: Vec<Ringing>,
     /// The proven rounding bounds beside what was measured last.
     #[serde(default)]
     pub bounds: Option<Vec<Bounds>>,
@@ -54,6 +58,7 @@ impl Report {
             fronts,
             plans,
             factorisation: factorisation::measure(progress),
+            ringing: ringing::measure(progress),
             bounds: None,
             stability: Stability::measure(progress),
             timing: None,

@@ -432,6 +432,7 @@ fn index(report: &Report) -> File {
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
         ("[factorisation](factorisation.md)", "Tables I and II of Nowrouzezahrai et al. 2012, ours beside"),
+        ("[ringing](ringing.md)", "what is done against ringing, and how far it errs on eight maps"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];
@@ -463,6 +464,7 @@ pub fn files(report: &Report) -> Vec<File> {
         proven(report),
         crate::stability::report::tables(&report.stability),
         factorisation(report),
+        crate::ringing::table(&report.ringing),
         timing(report),
     ]
 }

@@ -3,7 +3,8 @@
 use crate::families::family::{Family, Group, Looped, Measure, Spec};
 use crate::families::loops;
 use crate::families::parts::columns::{self, BandScale, Columns, Scaled, Sectoral};
-use crate::families::parts::params::direction;
+use crate::families::parts::once::once;
+use crate::families::parts::params::{direction, signal};
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
@@ -35,6 +36,7 @@ pub static BASIS: Family = Family {
 /// `eval`.
 pub static EVAL: Family = Family {
     name: "eval",
+    method: "nested",
     stem: "eval",
     group: Group::Evaluate,
     what: |spec| {
@@ -51,6 +53,36 @@ pub static EVAL: Family = Family {
         }
         specs
     },
+    ..Family::PLAIN
+};
+
+/// `eval:n:once`.
+pub static EVAL_ONCE: Family = Family {
+    name: "eval",
+    method: "once",
+    stem: "eval_once",
+    usual: |_, _| false,
+    group: Group::Evaluate,
+    orders: 2..=3,
+    outside: |order| {
+        let help = format!("leave `once` out, as in `eval:{order}`");
+        [format!("a sum is done at once at the orders 2 and 3, not at order {order}"), help]
+    },
+    what: |spec| {
+        format!(
+            "The sum of c_i y_i(dir) over the harmonics of order {}, for one channel in the fewest operations; channels share none of them.",
+            spec.order
+        )
+    },
+    kernel: |spec| {
+        let mut builder = Builder::new();
+        let dir = direction(&mut builder);
+        let c = signal(&mut builder, spec.order);
+        let sum = once(&mut builder.graph, [dir[0], dir[1], dir[2]], &c, columns::orthonormal);
+        builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
+    },
+    measure: Measure::Whole,
+    shown: |order| Spec::only(&EVAL_ONCE, order).into_iter().collect(),
     ..Family::PLAIN
 };
 

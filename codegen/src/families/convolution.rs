@@ -1,14 +1,12 @@
 //! Convolution with a zonal function, which multiplies each band by a number (docs/MATH.md#zonal-functions), and the
 //! clamped cosine's, which makes irradiance of radiance (docs/MATH.md#the-clamped-cosine).
 
-use crate::families::basis;
-use crate::families::family::{Acts, Family, Group, Measure, Spec};
+use crate::families::family::{Acts, Family, Group, Spec};
 use crate::families::parts::columns;
-use crate::families::parts::params::{direction, signal};
+use crate::families::parts::params::signal;
 use crate::families::parts::zonal::cosine_lobe;
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
-use crate::math::exact::Exact;
 
 /// The orders that the catalogue has: those of DirectXMath.
 const SHOWN: std::ops::RangeInclusive<usize> = 2..=6;
@@ -53,23 +51,6 @@ pub static CONVOLVE_COSINE: Family = Family {
     ..Family::PLAIN
 };
 
-/// `irradiance`.
-pub static IRRADIANCE: Family = Family {
-    name: "irradiance",
-    stem: "irradiance",
-    group: Group::Light,
-    measure: Measure::Whole,
-    what: |spec| {
-        format!(
-            "The irradiance of a surface that faces a direction, from the coefficients of the radiance of order {}: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface sends out.",
-            spec.order
-        )
-    },
-    kernel: |spec| irradiance(spec.order),
-    shown: |order| shown(&IRRADIANCE, order),
-    ..Family::PLAIN
-};
-
 fn shown(family: &'static Family, order: usize) -> Vec<Spec> {
     if SHOWN.contains(&order) { Spec::new(family, order).both() } else { vec![] }
 }
@@ -83,21 +64,4 @@ fn convolve(order: usize) -> Kernel {
     let factors: Vec<_> = zonal.iter().enumerate().map(|(l, &g_l)| g.scale(&columns::zonal(l), g_l)).collect();
     let out = c.iter().enumerate().map(|(place, &c)| g.mul(c, factors[place.isqrt()])).collect();
     builder.finish(out, Shape::Array(order * order), "the convolved coefficients")
-}
-
-/// The clamped cosine's factor where a band has one, else one: the odd bands above 1 are left out, but what they share with
-/// others is not.
-fn lobe_or_one(l: usize) -> Exact {
-    let factor = cosine_lobe(l);
-    if factor.is_zero() { Exact::one() } else { factor }
-}
-
-fn irradiance(order: usize) -> Kernel {
-    let mut builder = Builder::new();
-    let dir = direction(&mut builder);
-    let c = signal(&mut builder, order);
-    let places: Vec<Option<usize>> =
-        (0..order * order).map(|place| (!cosine_lobe(place.isqrt()).is_zero()).then_some(place)).collect();
-    let sum = basis::sum(&mut builder.graph, &dir, &c, &places, lobe_or_one);
-    builder.finish(vec![sum], Shape::Scalar, "the irradiance")
 }

@@ -241,10 +241,15 @@ pub struct Family {
     pub acts: Acts,
     /// How its error is proven.
     pub proof: Proof,
+    /// The choices of which nothing is proven.
+    pub unproven: &'static [&'static str],
     /// The largest y angle in radians, if it does not take every angle.
     pub max_angle: fn(&Spec) -> Option<f64>,
     /// What the planner may take it for, at an order and for one channel or three.
     pub does: fn(usize, bool) -> Vec<Does>,
+    /// Where among its results a direction begins that turns with the coefficients that it is found of; none where all that
+    /// is found does.
+    pub direction: Option<usize>,
     /// The function that its results are the zonal coefficients of, where they are those of one.
     pub zonal: Option<ZonalFunction>,
     /// The non-zero entries of its sparse matrix in the bands from 2 on, where that is what its papers count.
@@ -281,8 +286,10 @@ impl Family {
         measure: Measure::Bands,
         acts: Acts::Turns,
         proof: Proof::Auto,
+        unproven: &[],
         max_angle: |spec| spec.is_approximate().then(small_angle),
         does: |_, _| vec![],
+        direction: None,
         zonal: None,
         nonzeros: None,
         shown: |_| vec![],
@@ -371,6 +378,11 @@ impl Spec {
         Self { order, family, methods, bands, rgb: false, form, half: false, factors: None, chosen: vec![] }
     }
 
+    /// The spec of a family of one order, where that is this one.
+    pub fn only(family: &'static Family, order: usize) -> Option<Self> {
+        family.orders.contains(&order).then(|| Self::new(family, order))
+    }
+
     /// The spec for three channels.
     #[must_use]
     pub fn rgb(mut self) -> Self {
@@ -411,32 +423,6 @@ impl Spec {
     pub fn of_factors(self, orders: [usize; 2]) -> Self {
         let factors = (orders != [self.order; 2]).then_some(orders);
         Self { factors, ..self }
-    }
-
-    /// The spec with another choice of the family's.
-    ///
-    /// # Panics
-    ///
-    /// If the family has no such choice.
-    #[must_use]
-    pub fn choosing(mut self, choice: &str) -> Self {
-        let lists = self.family.choices;
-        let list = lists.iter().find(|list| list.contains(&choice)).expect("the family has the choice");
-        self.chosen.retain(|chosen| !list.contains(chosen));
-        self.chosen.extend(list.iter().filter(|name| **name == choice));
-        let place = |name: &&str| lists.iter().position(|list| list.contains(name));
-        self.chosen.sort_by_key(place);
-        self
-    }
-
-    /// Returns whether it chooses this.
-    pub fn has(&self, choice: &str) -> bool {
-        self.chosen.contains(&choice)
-    }
-
-    /// Returns the spec of another family of the same order and choices.
-    pub fn sibling(&self, family: &'static Family) -> Self {
-        Self { chosen: self.chosen.clone(), ..Self::new(family, self.order) }
     }
 
     /// Returns the orders of the two factors of a product, or of what is converted and of the result.

@@ -18,6 +18,7 @@ const SHOWN: std::ops::RangeInclusive<usize> = 2..=6;
 pub static DOMINANT: Family = Family {
     name: "dominant",
     stem: "dominant",
+    direction: Some(0),
     group: Group::Light,
     half: false,
     measure: Measure::Absolute,
@@ -42,6 +43,7 @@ pub static DOMINANT: Family = Family {
 pub static LIGHT_FIT: Family = Family {
     name: "light_fit",
     stem: "light_fit",
+    direction: Some(0),
     group: Group::Light,
     half: false,
     measure: Measure::Absolute,

@@ -19,13 +19,15 @@ pub enum Group {
     Light,
     /// Products of functions.
     Multiply,
+    /// Irradiance over the upper hemisphere, and what keeps it from ringing.
+    Irradiance,
     /// Hemispherical harmonics.
     Hemisphere,
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Evaluate,
         Self::Rotate,
         Self::Tilt,
@@ -34,6 +36,7 @@ impl Group {
         Self::Piece,
         Self::Light,
         Self::Multiply,
+        Self::Irradiance,
         Self::Hemisphere,
     ];
 
@@ -48,6 +51,7 @@ impl Group {
             Self::Piece => "pieces",
             Self::Light => "lighting",
             Self::Multiply => "products",
+            Self::Irradiance => "irradiances",
             Self::Hemisphere => "hemispheres",
         }
     }
@@ -63,6 +67,7 @@ impl Group {
             Self::Piece => "what rotations are made of, about one axis",
             Self::Light => "zonal functions, convolution with them, lights",
             Self::Multiply => "products of functions on the sphere",
+            Self::Irradiance => "irradiance, its bases on the upper hemisphere, what keeps it from ringing",
             Self::Hemisphere => "hemispherical harmonics: the basis, sums over it, conversions, rotations",
         }
     }

@@ -8,7 +8,7 @@ use crate::families::family::{Acts, Family, Group, Measure, Spec};
 use crate::families::parts::bivariate;
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::phases::{Phase, turn};
-use crate::families::parts::polynomial::Polynomial;
+use crate::families::parts::polynomial::{Polynomial, Powers};
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::{Builder, Kernel, Shape};
@@ -18,6 +18,9 @@ use crate::math::tables;
 
 /// The largest order at which the powers of two coordinates replace those of x + iy.
 pub const MAX_FLOOR_ORDER: usize = 8;
+
+/// The largest order at which f32 errs by not more than may be lost to an evaluation: the error doubles with each order.
+pub const MAX_EXACT_ORDER: usize = 6;
 
 /// The axes that may be the linear one in the place of z, as a spec chooses them.
 pub const AXES: &[&str] = &["x", "y"];
@@ -34,7 +37,8 @@ pub static EVAL_MONOMIAL: Family = Family {
         let order = spec.order;
         let growth = match order <= MAX_FLOOR_ORDER {
             true => format!(
-                " For directions of unit length alone. The error in f32 doubles with each order: from order 7 on `eval:{order}` is the more exact."
+                " For directions of unit length alone. The error in f32 doubles with each order: from order {} on `eval` is the more exact.",
+                MAX_EXACT_ORDER + 1
             ),
             false => String::new(),
         };
@@ -43,7 +47,7 @@ pub static EVAL_MONOMIAL: Family = Family {
         )
     },
     kernel: |spec| match spec.order <= MAX_FLOOR_ORDER {
-        true => floor(spec),
+        true => Monomials::new(spec, |_| true).sum("Σ c_i y_i(dir)"),
         false => columns(spec.order),
     },
     measure: Measure::Whole,
@@ -66,22 +70,13 @@ pub static TO_MONOMIAL: Family = Family {
         )
     },
     kernel: |spec| match spec.order <= MAX_FLOOR_ORDER {
-        true => to_floor(spec, |_| Exact::one()),
+        true => Monomials::new(spec, |_| true).conversion(|_| Exact::one()),
         false => to_columns(spec.order),
     },
     acts: Acts::Mixes,
     shown: |order| Spec::new(&TO_MONOMIAL, order).both(),
     ..Family::PLAIN
 };
-
-/// Which axes x, y, z are the two free coordinates and the linear one.
-fn axes(spec: &Spec) -> [usize; 3] {
-    match (spec.has("x"), spec.has("y")) {
-        (true, _) => [1, 2, 0],
-        (_, true) => [0, 2, 1],
-        _ => [0, 1, 2],
-    }
-}
 
 fn axis_fault(spec: &Spec) -> Option<[String; 2]> {
     let chosen = AXES.iter().find(|axis| spec.has(axis))?;
@@ -91,41 +86,68 @@ fn axis_fault(spec: &Spec) -> Option<[String; 2]> {
     })
 }
 
-/// What the coefficients of a spec's monomials are.
-pub fn layout(spec: &Spec) -> String {
-    let [a, b, linear] = axes(spec).map(|axis| ["x", "y", "z"][axis]);
-    format!(
-        "of the monomials by degree d from index d^2 on: {b}^d, {a} {b}^(d-1), ..., {a}^d, then {linear} times those of degree d-1"
-    )
+/// The monomials of a spec's axes, of some degrees.
+pub struct Monomials {
+    order: usize,
+    /// Which axes x, y, z are the two free coordinates and the linear one.
+    axes: [usize; 3],
+    powers: Vec<Powers>,
+    /// What their coefficients are.
+    layout: String,
 }
 
-/// The kernel of a sum of all monomials of an order, from their coefficients.
-pub fn floor(spec: &Spec) -> Kernel {
-    let mut builder = Builder::new();
-    let dir = direction(&mut builder);
-    let doc = format!("the coefficients {}", layout(spec));
-    let c = builder.param("c", Shape::Array(spec.order * spec.order), Domain::Signal, doc);
-    let at = axes(spec).map(|axis| dir[axis]);
-    let sum = bivariate::sum(&mut builder.graph, at, &bivariate::monomials(spec.order), &c);
-    builder.finish(vec![sum], Shape::Scalar, "Σ c_i y_i(dir)")
-}
+impl Monomials {
+    /// Those of the degrees that are there.
+    pub fn new(spec: &Spec, is_there: impl Fn(usize) -> bool) -> Self {
+        let axes = match (spec.has("x"), spec.has("y")) {
+            (true, _) => [1, 2, 0],
+            (_, true) => [0, 2, 1],
+            _ => [0, 1, 2],
+        };
+        let [a, b, linear] = axes.map(|axis| ["x", "y", "z"][axis]);
+        let degrees: Vec<usize> = (0..spec.order).filter(|&d| is_there(d)).collect();
+        let which = match degrees.len() == spec.order {
+            true => "by degree d, from index d^2 on".to_owned(),
+            false => {
+                let degrees: Vec<String> = degrees.iter().map(usize::to_string).collect();
+                format!("of the degrees d = {}, one after the other", degrees.join(", "))
+            }
+        };
+        let layout = format!(
+            "the coefficients of the monomials {which}: {b}^d, {a} {b}^(d-1), ..., {a}^d, then {linear} times those of degree d-1"
+        );
+        let all = bivariate::monomials(spec.order);
+        let powers = all.into_iter().filter(|powers| degrees.contains(&powers.iter().sum())).collect();
+        Self { order: spec.order, axes, powers, layout }
+    }
 
-/// The kernel that makes the coefficients of [`floor`] of those of harmonics, each band scaled.
-pub fn to_floor(spec: &Spec, scale: impl Fn(usize) -> Exact) -> Kernel {
-    let mut builder = Builder::new();
-    let c = signal(&mut builder, spec.order);
-    let mut place = [0; 3];
-    axes(spec).iter().enumerate().for_each(|(at, &axis)| place[axis] = at);
-    let square = bivariate::on_the_sphere();
-    let functions: Vec<(Id, Polynomial)> = coefficients(spec.order)
-        .zip(&c)
-        .map(|((l, m), &c)| {
-            let harmonic = Polynomial::harmonic(l, m, &Exact::one(), [Exact::zero(), Exact::one()]);
-            (c, bivariate::reduced(&harmonic.scaled(&scale(l)).renamed(place), &square))
-        })
-        .collect();
-    let out = bivariate::converted(&mut builder.graph, &functions, &bivariate::monomials(spec.order));
-    builder.finish(out, Shape::Array(spec.order * spec.order), format!("the coefficients {}", layout(spec)))
+    /// The kernel of their sum at a direction.
+    pub fn sum(&self, result: &str) -> Kernel {
+        let mut builder = Builder::new();
+        let dir = direction(&mut builder);
+        let c = builder.param("c", Shape::Array(self.powers.len()), Domain::Signal, self.layout.clone());
+        let at = self.axes.map(|axis| dir[axis]);
+        let sum = bivariate::sum(&mut builder.graph, at, &self.powers, &c);
+        builder.finish(vec![sum], Shape::Scalar, result)
+    }
+
+    /// The kernel that makes their coefficients of those of harmonics, each band scaled.
+    pub fn conversion(&self, scale: fn(usize) -> Exact) -> Kernel {
+        let mut builder = Builder::new();
+        let c = signal(&mut builder, self.order);
+        let mut place = [0; 3];
+        self.axes.iter().enumerate().for_each(|(at, &axis)| place[axis] = at);
+        let square = bivariate::on_the_sphere();
+        let functions: Vec<(Id, Polynomial)> = coefficients(self.order)
+            .zip(&c)
+            .map(|((l, m), &c)| {
+                let harmonic = Polynomial::harmonic(l, m, &Exact::one(), [Exact::zero(), Exact::one()]);
+                (c, bivariate::reduced(&harmonic.scaled(&scale(l)).renamed(place), &square))
+            })
+            .collect();
+        let out = bivariate::converted(&mut builder.graph, &functions, &self.powers);
+        builder.finish(out, Shape::Array(self.powers.len()), self.layout.clone())
+    }
 }
 
 const COLUMNS: &str = "of z^(l−|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m";

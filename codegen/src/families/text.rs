@@ -1,11 +1,12 @@
 //! Specs as text, `rotate:5:zxzxz:rgb`: read, written, and refused with what to do.
 
 use crate::families::all::ALL;
-use crate::families::factors;
 use crate::families::family::{
     ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
 };
+use crate::families::hint::hint;
 use crate::families::parts::small_angle::SmallAngle;
+use crate::families::{choices, factors};
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
@@ -132,6 +133,9 @@ impl Spec {
                 None => name += &format!("_{choice}"),
             }
         }
+        if name.ends_with(|last: char| last.is_ascii_digit()) {
+            name += "_form";
+        }
         if self.rgb {
             name += "_rgb";
         }
@@ -194,49 +198,10 @@ impl fmt::Display for Spec {
     }
 }
 
-fn suggest<'a>(got: &str, known: &[&'a str]) -> Option<&'a str> {
-    let distance = |a: &str, b: &str| -> usize {
-        let b: Vec<char> = b.chars().collect();
-        let mut row: Vec<usize> = (0..=b.len()).collect();
-        for (i, x) in a.chars().enumerate() {
-            let mut before = row[0];
-            row[0] = i + 1;
-            for (j, y) in b.iter().enumerate() {
-                let change = before + usize::from(x != *y);
-                before = row[j + 1];
-                row[j + 1] = change.min(row[j] + 1).min(before + 1);
-            }
-        }
-        row[b.len()]
-    };
-    let best = known.iter().min_by_key(|name| distance(got, name))?;
-    let longer = known.iter().find(|name| got.len() >= 3 && name.contains(got));
-    let shorter = known.iter().filter(|name| name.len() >= 3 && got.starts_with(**name)).max_by_key(|name| name.len());
-    match distance(got, best) {
-        0 | 1 => Some(*best),
-        // A word of which more than half is wrong was not mistyped.
-        near @ (2 | 3) if near <= got.chars().count().div_ceil(2) => Some(*longer.unwrap_or(best)),
-        _ => longer.or(shorter).copied(),
-    }
-}
-
-/// "did you mean …", or the list of what is known.
-pub(crate) fn hint(got: &str, known: &[&str]) -> String {
-    match suggest(got, known) {
-        Some(name) => format!("did you mean `{name}`?"),
-        None => format!("known are {}", known.join(", ")),
-    }
-}
-
-/// The lists that specs of a name choose from.
-fn choices_of(name: &str) -> &'static [&'static [&'static str]] {
-    ALL.iter().find(|family| family.name == name).map_or(&[], |family| family.choices)
-}
-
 /// The options that some family of a name takes.
 fn option_names(name: &str) -> Vec<&'static str> {
     let any = |takes: fn(&Family) -> bool| ALL.iter().any(|family| family.name == name && takes(family));
-    let mut options: Vec<&str> = choices_of(name).concat();
+    let mut options: Vec<&str> = choices::of_name(name).concat();
     if any(|family| family.has_signal()) {
         options.push("rgb");
     }
@@ -403,7 +368,6 @@ impl FromStr for Spec {
         let factors = factors.filter(|both| !converts || *both != [order; 2]);
         let mut spec = Self { methods, factors, ..Self::new(family, order) };
         let known = method_names(head.text);
-        let choices = choices_of(head.text);
         let mut is_open = !known.is_empty();
         for option in options {
             match option.text {
@@ -414,13 +378,8 @@ impl FromStr for Spec {
                 _ if option.text.starts_with("bands=") => {
                     spec.bands = parse_bands(option, &option.text["bands=".len()..], order)?;
                 }
-                name if choices.concat().contains(&name) => {
-                    let list = choices.iter().find(|list| list.contains(&name)).expect("is in one of them");
-                    if let Some(other) = list.iter().find(|other| spec.has(other)) {
-                        let message = format!("`{other}` and `{name}` exclude each other");
-                        return Err(option.error(message, "leave one out"));
-                    }
-                    spec = spec.choosing(name);
+                name if choices::of_name(head.text).concat().contains(&name) => {
+                    spec = spec.also(name).map_err(|[message, help]| option.error(message, help))?;
                 }
                 name if is_open => {
                     if !known.contains(&first_of(option)) {

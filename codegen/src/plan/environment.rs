@@ -6,8 +6,8 @@ use super::text::{capital, percent};
 use crate::emit::Constants;
 use crate::environment::{Lamps, Negative};
 // Names a family: evaluation is what an environment's coefficients are for.
-use crate::families::basis;
 use crate::families::family::Spec;
+use crate::families::{basis, monomial};
 use crate::math::convention::{Convention, Places, ZONAL};
 use crate::promise::law;
 use crate::reflectance::requirement::{Requirement, Room};
@@ -157,6 +157,27 @@ impl EnvironmentPlan {
         let specs = [eval(self.order, &self.bands), eval(self.max_order, &all)];
         self.operations = specs.map(|spec| spec.code().cost(3).total);
         self.coefficients = [self.values.len(), self.max_order * self.max_order];
+    }
+
+    /// What an evaluation takes of coefficients that are turned into monomials first, in a sentence, or why they are not to be.
+    pub(super) fn in_monomials(&self) -> Option<String> {
+        let order = self.order;
+        // Names a family: monomials are the other way to evaluate.
+        let family = &monomial::EVAL_MONOMIAL;
+        if self.bands.len() != order || !(*family.orders.start()..=monomial::MAX_FLOOR_ORDER).contains(&order) {
+            return None;
+        }
+        let operations = Spec::new(family, order).rgb().code().cost(3).total;
+        Some(match order <= monomial::MAX_EXACT_ORDER {
+            true => {
+                format!("Turned once by `to_monomial:{order}`, they are evaluated in RGB by {operations} operations")
+            }
+            false => format!(
+                "Monomials would take {operations} operations in RGB, and err by more in f32: from order {} on harmonics are to be \
+                 evaluated as they are",
+                monomial::MAX_EXACT_ORDER + 1
+            ),
+        })
     }
 
     /// What a method that turns this light or its reflectance adds to the error of what is seen, by its law, where it errs

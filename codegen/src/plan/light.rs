@@ -146,6 +146,7 @@ impl EnvironmentPlan {
                 self.max_order
             ));
         }
+        reasons.extend(self.in_monomials());
         reasons
     }
 

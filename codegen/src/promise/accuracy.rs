@@ -6,7 +6,7 @@ use crate::families::axis;
 use crate::families::family::{AngleAs, MAX_ORDER, Measure, Spec};
 use crate::ir::code::Code;
 use crate::ir::eval::{Contraction, Number, Program};
-use crate::ir::kernel::Kernel;
+use crate::ir::kernel::{Kernel, Param};
 use crate::ir::listing::Listing;
 use crate::math::half::Half;
 use crate::math::linear::spectral_norm;
@@ -92,23 +92,16 @@ impl Measure {
 impl Measure {
     /// Returns what an error in it is divided by, for inputs: the norms of the factors of a product, one squared where both
     /// are the same; the norm of the signal where it is no bands of norm one; else one.
-    pub fn size(self, code: &Code, input: &[Vec<f64>]) -> f64 {
+    pub fn size(self, params: &[Param], input: &[Vec<f64>]) -> f64 {
+        let given = || params.iter().zip(input).filter(|(param, _)| param.domain.is_coefficients());
+        let mut norms = given().map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt());
         match self {
-            Self::Product => norms(code, input),
-            Self::Norm => {
-                let signals = code.params().iter().zip(input).filter(|(param, _)| param.domain.is_signal());
-                signals.flat_map(|(_, list)| list).map(|x| x * x).sum::<f64>().sqrt()
-            }
+            Self::Product if given().count() == 1 => norms.map(|norm| norm * norm).sum(),
+            Self::Product => norms.product(),
+            Self::Norm => norms.next().unwrap_or(1.0),
             _ => 1.0,
         }
     }
-}
-
-/// The norms of a product's factors, one squared where both are the same.
-fn norms(code: &Code, input: &[Vec<f64>]) -> f64 {
-    let factors = code.params().iter().zip(input).filter(|(param, _)| param.domain.is_coefficients());
-    let norms: Vec<f64> = factors.map(|(_, list)| list.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
-    if let [norm] = norms[..] { norm * norm } else { norms.iter().product() }
 }
 
 /// The larger of two numbers, or NaN if one is.
@@ -130,7 +123,7 @@ pub fn rounding<T: Number>(spec: &Spec, code: &Code, seed: u64, count: usize, co
             let got: Vec<f64> = narrow.run(&narrow_input, contraction).iter().map(|x| x.to_f64()).collect();
             let want = wide.run(&wide_input, contraction);
             let error = measure.error(&meaning.apply(got), &meaning.apply(want), spec.order);
-            error / measure.size(code, input)
+            error / measure.size(code.params(), input)
         })
         .fold(0.0, larger)
 }

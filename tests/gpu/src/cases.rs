@@ -221,7 +221,7 @@ impl Cases {
         }
         let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
         let is_one = matches!(family.measure, Measure::Product | Measure::Norm);
-        let norms = is_one.then(|| family.measure.size(&built.code, &samples[0]));
+        let norms = is_one.then(|| family.measure.size(params, &samples[0]));
         Self { count, inputs, wanted, result: shape.len(), channels, by_band, norms, flushed }
     }
 

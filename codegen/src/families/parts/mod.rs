@@ -4,6 +4,7 @@
 pub mod bands;
 pub mod bivariate;
 pub mod columns;
+pub mod once;
 pub mod orthogonal;
 pub mod params;
 pub mod phases;

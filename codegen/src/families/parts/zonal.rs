@@ -151,7 +151,7 @@ impl Gaussian {
 }
 
 /// 1 / ln 2, by ln 2 = 2 Σ 1 / ((2k + 1) 3^(2k + 1)), to 150 bits: an exponent of which f64 holds 53.
-fn log2_e() -> Exact {
+pub fn log2_e() -> Exact {
     let ninth = Exact::ratio(1, 9);
     let (mut power, mut sum) = (Exact::ratio(2, 3), Exact::zero());
     for k in 0..48 {

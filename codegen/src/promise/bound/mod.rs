@@ -101,7 +101,7 @@ fn prove_within(spec: &Spec, listing: &Listing, max_angle: Option<f64>) -> Optio
         return None;
     }
     let prover = Prover::new(spec, listing, max_angle)?;
-    match (spec.family.proof, spec.family.measure) {
+    match (spec.proof(), spec.family.measure) {
         (Proof::Nothing, _) => None,
         (Proof::Lobes, _) => Bound::of(&prover.turned_lobes()?, true),
         (Proof::Auto, Measure::Absolute) => prover.scalars(&listing.outputs).and_then(|both| Bound::of(&[both], false)),
