@@ -15,6 +15,7 @@ pub mod fitted;
 pub mod group;
 pub mod hbasis;
 pub mod hemisphere;
+pub mod hint;
 pub mod irradiance;
 pub mod lifted;
 pub mod lights;

@@ -1,6 +1,6 @@
 //! Conventions and axes as people write them, in a scene or on the command line.
 
-use crate::families::text::hint;
+use crate::families::hint::hint;
 use crate::fault::Fault;
 use crate::math::convention::{self, Axes, Convention, Holds};
 use crate::scene::wanted::Light;

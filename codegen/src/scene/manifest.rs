@@ -2,7 +2,7 @@
 
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::{Job, MAX_ORDER, MIN_ORDER};
-use crate::families::text::hint;
+use crate::families::hint::hint;
 use crate::files;
 use crate::input;
 use crate::math::convention::{Convention, ZONAL};

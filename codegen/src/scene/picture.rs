@@ -3,7 +3,8 @@
 
 // Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
-use crate::families::text::{hint, usual};
+use crate::families::hint::hint;
+use crate::families::text::usual;
 use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
 use crate::reflectance::brdf::Brdf;

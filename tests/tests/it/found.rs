@@ -1,13 +1,44 @@
-//! Two properties of `properties.rs`, of families whose results are no signal: that zonal coefficients are those of the
-//! function that the record has, and that what is found of a signal turns with it.
+//! Three properties of `properties.rs`, of families whose results are no signal: that zonal coefficients are those of the
+//! function that the record has, that what is found of a signal turns with it, and that a basis turns about z as its
+//! coefficients do.
 
 use crate::properties::{COUNT, ROUNDING, Tried, difference, ensure};
 use zonal_codegen::families::Spec;
-use zonal_codegen::ir::kernel::{Domain, Param};
+use zonal_codegen::ir::kernel::{Domain, Param, Shape};
+use zonal_codegen::math::index::index;
 use zonal_codegen::math::quadrature::gauss_legendre;
 use zonal_codegen::promise::samples::{Random, inputs, matrix_of};
 use zonal_tests::turns::{Sphere, apply};
 use zonal_tests::{Runner, norm};
+
+/// The n² values at a direction are those at another one about z, each pair of m and −m turned by m times the angle: of bases of
+/// the sphere and of the hemisphere alike.
+pub(crate) fn a_basis_turns_about_z(spec: &Spec) -> Tried {
+    let (code, order) = (spec.code(), spec.order);
+    let is_basis = matches!(code.params(), [Param { domain: Domain::Direction, .. }]);
+    if !is_basis || code.result().0 != Shape::Array(order * order) {
+        return Ok(false);
+    }
+    let runner = Runner::<f64>::new(spec);
+    let (cos, sin) = (0.6, 0.8);
+    for input in inputs(code.params(), 79, COUNT, None) {
+        let [x, y, z] = input[0][..] else { panic!("a direction has three numbers") };
+        let (values, got) = (runner.run(&input), runner.run(&[vec![cos * x - sin * y, sin * x + cos * y, z]]));
+        let mut want = values.clone();
+        let mut multiple = (cos, sin);
+        for m in 1..order as isize {
+            for l in m as usize..order {
+                let [plus, minus] = [m, -m].map(|m| index(l, m));
+                want[plus] = multiple.0 * values[plus] - multiple.1 * values[minus];
+                want[minus] = multiple.0 * values[minus] + multiple.1 * values[plus];
+            }
+            multiple = (multiple.0 * cos - multiple.1 * sin, multiple.0 * sin + multiple.1 * cos);
+        }
+        let error = difference(&got, &want);
+        ensure(error <= ROUNDING * norm(&want), || format!("{error:e} off at {input:?}"))?;
+    }
+    Ok(true)
+}
 
 /// The zonal coefficients are the integrals of the function that the record has, times the harmonics of m = 0 as Legendre's
 /// recurrence gives them.

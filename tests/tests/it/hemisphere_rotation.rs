@@ -5,11 +5,15 @@ use crate::hemisphere::hemisphere;
 use serde_json::Value;
 use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+use zonal_codegen::families::hemisphere::rotate::matrix;
 use zonal_codegen::families::hemisphere::table::{entries, places};
 use zonal_codegen::generate::build;
 use zonal_codegen::math::hemisphere::{Below, about_y, generator};
 use zonal_codegen::math::index::{coefficients, index};
+use zonal_codegen::plan::Plan;
+use zonal_codegen::promise::hemisphere::Trials;
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::scene::{Maps, Scene};
 use zonal_tests::{Runner, golden, norm, numbers, quaternion_of_angles, spec};
 
 const BOTH: [(&str, Below); 2] = [("lobe", Below::Zero), ("record", Below::GoesOn)];
@@ -394,5 +398,80 @@ fn what_a_spectrum_says_of_the_angle() {
         }
         println!("order {order}: {size}");
         assert!((size - known).abs() <= 0.06, "order {order}: {size}, not {known}");
+    }
+}
+
+/// A scene's `[[rotation]]` on the hemisphere.
+fn planned(kind: &str, rest: &str) -> Result<Plan, String> {
+    let text = format!("name = \"turn\"\n[[rotation]]\nkind = \"{kind}\"\n{rest}\n");
+    let scene = Scene::parse("turn.toml", &text, Maps::Embedded(&[])).map_err(|error| error.to_string())?;
+    Plan::new(&scene).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_plan_chooses_by_what_the_signal_is() {
+    let chosen =
+        |kind: &str, rest: &str| planned(kind, rest).unwrap_or_else(|error| panic!("{error}")).kernels.remove(0);
+    let rest = |of: &str, order: usize, angle: f64, error: f64| {
+        format!("order = {order}\nhemisphere = \"{of}\"\nmax_angle = {angle}\nmax_error = {error}")
+    };
+    // Within its domain the shears are the cheapest that keep three per cent of a lobe; beyond, more bands are.
+    let small = chosen("tilt", &rest("lobe", 4, 10.0, 0.03));
+    assert_eq!(small.row.spec, "hsh_tilt_lobe:4");
+    assert!((0.015..0.025).contains(&small.method_error.expect("is predicted")), "{:?}", small.method_error);
+    let large = chosen("quaternion", &rest("lobe", 4, 30.0, 0.03));
+    assert_eq!(large.row.spec, "hsh_rotate_lobe:4:sh");
+    let barred = large.rivals.iter().find(|rival| rival.spec == "hsh_rotate_lobe:4").expect("is weighed");
+    assert!(!barred.admissible && barred.verdict.contains("takes up to 10 degrees"), "{}", barred.verdict);
+    // What is nearest to the pole is all that equation 13 turns rightly.
+    assert!(large.rivals.iter().any(|rival| rival.spec.ends_with(":eq13") && !rival.admissible));
+    // A record errs by what nobody knows below the horizon, whatever turns it.
+    let record = chosen("y", &rest("record", 3, 5.0, 0.1));
+    assert_eq!(record.row.spec, "hsh_y_record:3");
+    let error = planned("y", &rest("record", 3, 5.0, 0.01)).expect_err("nothing keeps a per cent of a record");
+    assert!(error.contains("no method keeps an error of 0.01") && error.contains("allow 0.0"), "{error}");
+    let text = planned("zyz", &rest("record", 3, 45.0, 0.6)).expect("a table takes any angle").to_string();
+    assert!(text.contains("`hsh_rotate_table:3`") && text.contains("radiance as it is expected"), "{text}");
+}
+
+#[test]
+fn a_plan_on_the_hemisphere_refuses_what_it_has_not() {
+    for (rest, said) in [
+        ("order = 12\nhemisphere = \"lobe\"\nmax_angle = 5\nmax_error = 0.1", "orders 2 to 10"),
+        ("order = 4\nhemisphere = \"lobe\"\nmax_angle = 5\nmax_error = 0.1\nnorm = \"max\"", "norm of its own"),
+        ("order = 4\nhemisphere = \"sphere\"\nmax_angle = 5\nmax_error = 0.1", "lobe"),
+        ("order = \"environment\"\nhemisphere = \"lobe\"\nmax_angle = 5\nmax_error = 0.1", "environment"),
+        ("order = 4\nhemisphere = \"lobe\"\nmax_angle = 5\nmax_error = 0.1\nprecision = \"f16\"", "f16"),
+    ] {
+        let error = planned("y", rest).expect_err(rest);
+        assert!(error.contains(said), "{rest}: {error}");
+    }
+}
+
+/// The errors that a plan predicts of lobes are those of the table, of another quadrature; those of records grow with the
+/// angle, about linearly, and what is not turned errs most.
+#[test]
+fn a_plan_s_errors_are_those_that_are_measured() {
+    let angle = f64::to_radians(10.0);
+    let of = |text: &str, below: Below, angle: f64| {
+        let spec = spec(text);
+        Trials::new(spec.order, below, angle).error(&matrix(&spec, below, angle))
+    };
+    for (order, want) in MEANS.map(|(order, table)| (order, table.map(|row| row[1] / 100.0))) {
+        for (method, want) in [(":eq13", want[1]), (":sh", want[2]), ("", want[4])] {
+            let got = of(&format!("hsh_y_lobe:{order}{method}"), Below::Zero, angle);
+            assert!((got / want - 1.0).abs() <= 0.06, "{order}{method}: {got} for {want}");
+        }
+    }
+    for order in [3, 4, 6] {
+        let [small, large] =
+            [5.0, 10.0].map(|degrees| of(&format!("hsh_y_record:{order}"), Below::GoesOn, f64::to_radians(degrees)));
+        println!("a record of order {order}: {small}, {large}");
+        assert!((1.6..2.4).contains(&(large / small)), "order {order}: {small}, {large}");
+        let table = of(&format!("hsh_rotate_table:{order}"), Below::GoesOn, angle);
+        assert!(table <= large * 1.02, "order {order}: the best extension errs least: {table}, {large}");
+        let still: Vec<Vec<f64>> =
+            (0..order * order).map(|i| (0..order * order).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+        assert!(Trials::new(order, Below::GoesOn, angle).error(&still) > large, "order {order}");
     }
 }

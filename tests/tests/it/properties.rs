@@ -42,7 +42,7 @@ pub(crate) type Tried = Result<bool, String>;
 type Property = fn(&Spec) -> Tried;
 
 /// All properties, each with its name.
-pub(crate) const PROPERTIES: [(&str, Property); 12] = [
+pub(crate) const PROPERTIES: [(&str, Property); 13] = [
     ("finite", is_finite),
     ("linear", is_linear),
     ("bands", bands_do_not_mix),
@@ -55,6 +55,7 @@ pub(crate) const PROPERTIES: [(&str, Property); 12] = [
     ("half", f16_errs_by_its_roundoff),
     ("zonal", found::it_is_the_function_that_it_says),
     ("found", found::what_is_found_turns_with_the_signal),
+    ("basis", found::a_basis_turns_about_z),
 ];
 
 /// What every kernel has, whatever it does.
