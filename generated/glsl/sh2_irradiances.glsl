@@ -97,7 +97,8 @@ ZONAL_HIGHP vec3 sh2_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 
 // `h4_basis`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere (Habel and
 // Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
-// means of normals are to be given as they are. Below the horizon the polynomials go on.
+// means of normals are to be given as they are. Below the horizon the polynomials go on and err by
+// more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 3 (2 mul, 0 add, 1 fma); 3 constants, 3 live values.
@@ -118,7 +119,8 @@ ZONAL_HIGHP float[4] h4_basis(ZONAL_HIGHP vec3 dir) {
 
 // `h4_basis:normalised`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere
 // (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
-// unit; a zero one stays zero. Below the horizon the polynomials go on.
+// unit; a zero one stays zero. Below the horizon the polynomials go on and err by more: clamp the
+// result, not the normal.
 // dir: the normal, which is made a unit.
 // Returns H_i(dir).
 // Operations: 9 (5 mul, 0 add, 4 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
@@ -141,7 +143,7 @@ ZONAL_HIGHP float[4] h4_basis_normalised(ZONAL_HIGHP vec3 dir) {
 
 // `h4_eval`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored (Habel
 // and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
-// the horizon the polynomials go on.
+// the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -159,7 +161,7 @@ ZONAL_HIGHP float h4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 
 // `h4_eval:normalised`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are
 // stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
-// the polynomials go on.
+// the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -179,7 +181,7 @@ ZONAL_HIGHP float h4_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] 
 
 // `h4_eval:rgb`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored
 // (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
-// are. Below the horizon the polynomials go on.
+// are. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -197,7 +199,7 @@ ZONAL_HIGHP vec3 h4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
 
 // `h4_eval:normalised:rgb`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they
 // are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
-// horizon the polynomials go on.
+// horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -257,7 +259,8 @@ ZONAL_HIGHP vec3[4] h4_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
 
 // `h4_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h4_to_monomial`
 // or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
-// given as they are. Below the horizon the polynomials go on.
+// given as they are. Below the horizon the polynomials go on and err by more: clamp the result, not
+// the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
@@ -274,7 +277,8 @@ ZONAL_HIGHP float h4_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c)
 
 // `h4_eval_monomial:rgb`: The sum of the H-basis from the coefficients of monomials that
 // `h4_to_monomial` or a conversion with `:monomial` makes. The normal need not be a unit: means of
-// normals are to be given as they are. Below the horizon the polynomials go on.
+// normals are to be given as they are. Below the horizon the polynomials go on and err by more: clamp
+// the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
@@ -291,7 +295,7 @@ ZONAL_HIGHP vec3 h4_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] 
 
 // `h4_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
 // `h4_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-// zero. Below the horizon the polynomials go on.
+// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
@@ -310,7 +314,7 @@ ZONAL_HIGHP float h4_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 
 // `h4_eval_monomial:normalised:rgb`: The sum of the H-basis from the coefficients of monomials that
 // `h4_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-// zero. Below the horizon the polynomials go on.
+// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
@@ -330,7 +334,8 @@ ZONAL_HIGHP vec3 h4_eval_monomial_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // `hl2_basis`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with (-1/sqrt6,
 // -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart 2004; Habel
 // and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal need not be a unit: means of
-// normals are to be given as they are. Below the horizon the polynomials go on.
+// normals are to be given as they are. Below the horizon the polynomials go on and err by more: clamp
+// the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns the values of the basis.
 // Operations: 5 (1 mul, 0 add, 4 fma); 4 constants, 3 live values.
@@ -353,7 +358,8 @@ ZONAL_HIGHP float[3] hl2_basis(ZONAL_HIGHP vec3 dir) {
 // `hl2_basis:normalised`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with
 // (-1/sqrt6, -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart
 // 2004; Habel and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal is made a unit; a zero
-// one stays zero. Below the horizon the polynomials go on.
+// one stays zero. Below the horizon the polynomials go on and err by more: clamp the result, not the
+// normal.
 // dir: the normal, which is made a unit.
 // Returns the values of the basis.
 // Operations: 11 (4 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
@@ -378,7 +384,8 @@ ZONAL_HIGHP float[3] hl2_basis_normalised(ZONAL_HIGHP vec3 dir) {
 }
 
 // `hl2_eval`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The normal need not
-// be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on.
+// be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on and
+// err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
@@ -397,8 +404,8 @@ ZONAL_HIGHP float hl2_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
 }
 
 // `hl2_eval:rgb`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The normal need
-// not be a unit: means of normals are to be given as they are. Below the horizon the polynomials go
-// on.
+// not be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on
+// and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
@@ -417,7 +424,8 @@ ZONAL_HIGHP vec3 hl2_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
 }
 
 // `hl2_eval:normalised`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The
-// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and err by
+// more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
@@ -440,7 +448,8 @@ ZONAL_HIGHP float hl2_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3]
 }
 
 // `hl2_eval:normalised:rgb`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The
-// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and err by
+// more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
@@ -548,7 +557,7 @@ ZONAL_HIGHP vec3[3] hl2_to_vector_rgb(ZONAL_HIGHP vec3[3] c) {
 
 // `hl2_eval_vector`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes. The normal
 // need not be a unit: means of normals are to be given as they are. Below the horizon the polynomials
-// go on.
+// go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
@@ -565,7 +574,7 @@ ZONAL_HIGHP float hl2_eval_vector(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) 
 
 // `hl2_eval_vector:rgb`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes. The
 // normal need not be a unit: means of normals are to be given as they are. Below the horizon the
-// polynomials go on.
+// polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
@@ -581,7 +590,8 @@ ZONAL_HIGHP vec3 hl2_eval_vector_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c
 }
 
 // `hl2_eval_vector:normalised`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes.
-// The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+// The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and err by
+// more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
@@ -599,7 +609,8 @@ ZONAL_HIGHP float hl2_eval_vector_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP f
 }
 
 // `hl2_eval_vector:normalised:rgb`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector`
-// makes. The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+// makes. The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and
+// err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).

@@ -111,7 +111,8 @@ ZONAL_HIGHP vec3 sh3_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 
 // `h6_basis`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere (Habel and
 // Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
-// means of normals are to be given as they are. Below the horizon the polynomials go on.
+// means of normals are to be given as they are. Below the horizon the polynomials go on and err by
+// more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 8 (6 mul, 0 add, 2 fma); 5 constants, 5 live values.
@@ -134,7 +135,8 @@ ZONAL_HIGHP float[6] h6_basis(ZONAL_HIGHP vec3 dir) {
 
 // `h6_basis:normalised`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere
 // (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
-// unit; a zero one stays zero. Below the horizon the polynomials go on.
+// unit; a zero one stays zero. Below the horizon the polynomials go on and err by more: clamp the
+// result, not the normal.
 // dir: the normal, which is made a unit.
 // Returns H_i(dir).
 // Operations: 14 (9 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 5 constants, 6 live
@@ -161,7 +163,7 @@ ZONAL_HIGHP float[6] h6_basis_normalised(ZONAL_HIGHP vec3 dir) {
 
 // `h6_eval`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored (Habel
 // and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
-// the horizon the polynomials go on.
+// the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -180,7 +182,7 @@ ZONAL_HIGHP float h6_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
 
 // `h6_eval:normalised`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are
 // stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
-// the polynomials go on.
+// the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -203,7 +205,7 @@ ZONAL_HIGHP float h6_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] 
 
 // `h6_eval:rgb`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored
 // (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
-// are. Below the horizon the polynomials go on.
+// are. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -222,7 +224,7 @@ ZONAL_HIGHP vec3 h6_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
 
 // `h6_eval:normalised:rgb`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they
 // are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
-// horizon the polynomials go on.
+// horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
@@ -288,7 +290,8 @@ ZONAL_HIGHP vec3[6] h6_to_monomial_rgb(ZONAL_HIGHP vec3[6] c) {
 
 // `h6_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h6_to_monomial`
 // or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
-// given as they are. Below the horizon the polynomials go on.
+// given as they are. Below the horizon the polynomials go on and err by more: clamp the result, not
+// the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
@@ -306,7 +309,7 @@ ZONAL_HIGHP float h6_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c)
 
 // `h6_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
 // `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-// zero. Below the horizon the polynomials go on.
+// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
@@ -328,7 +331,8 @@ ZONAL_HIGHP float h6_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 
 // `h6_eval_monomial:rgb`: The sum of the H-basis from the coefficients of monomials that
 // `h6_to_monomial` or a conversion with `:monomial` makes. The normal need not be a unit: means of
-// normals are to be given as they are. Below the horizon the polynomials go on.
+// normals are to be given as they are. Below the horizon the polynomials go on and err by more: clamp
+// the result, not the normal.
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
@@ -346,7 +350,7 @@ ZONAL_HIGHP vec3 h6_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] 
 
 // `h6_eval_monomial:normalised:rgb`: The sum of the H-basis from the coefficients of monomials that
 // `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-// zero. Below the horizon the polynomials go on.
+// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 // dir: the normal, which is made a unit.
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).

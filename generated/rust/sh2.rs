@@ -1421,6 +1421,24 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
     convolve_cosine::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
+/// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
+/// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+/// - Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
+    t0
+}
+
 /// `irradiance:2:nested`: The irradiance of a surface that faces a direction, from the coefficients of
 /// the radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it,
 /// it is what a white surface sends out.
@@ -1443,24 +1461,6 @@ pub fn irradiance_nested<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
 #[inline(always)]
 pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
     irradiance_nested::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
-}
-
-/// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
-/// what a white surface sends out.
-///
-/// - dir: the direction, of unit length.
-/// - c: the coefficients, index l(l+1)+m.
-/// - Returns the irradiance.
-/// - Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
-/// - Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
-///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   2.3e-7).
-#[allow(clippy::all, clippy::excessive_precision)]
-#[inline(always)]
-pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
-    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
-    t0
 }
 
 /// `light_directional:2`: Adds a directional light to coefficients of order 2: light is the irradiance
@@ -2260,7 +2260,8 @@ pub fn irradiance_prepared_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] 
 
 /// `h4_basis`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere (Habel and
 /// Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
-/// means of normals are to be given as they are. Below the horizon the polynomials go on.
+/// means of normals are to be given as they are. Below the horizon the polynomials go on and err by
+/// more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - Returns H_i(dir).
@@ -2280,7 +2281,8 @@ pub fn h4_basis<T: Real>(dir: [T; 3]) -> [T; 4] {
 
 /// `h4_basis:normalised`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere
 /// (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
-/// unit; a zero one stays zero. Below the horizon the polynomials go on.
+/// unit; a zero one stays zero. Below the horizon the polynomials go on and err by more: clamp the
+/// result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - Returns H_i(dir).
@@ -2302,7 +2304,7 @@ pub fn h4_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 4] {
 
 /// `h4_eval`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored (Habel
 /// and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
-/// the horizon the polynomials go on.
+/// the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -2319,7 +2321,7 @@ pub fn h4_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
 
 /// `h4_eval:normalised`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are
 /// stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
-/// the polynomials go on.
+/// the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -2338,7 +2340,7 @@ pub fn h4_eval_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
 
 /// `h4_eval:shared`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored
 /// (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
-/// are. Below the horizon the polynomials go on.
+/// are. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -2361,7 +2363,7 @@ pub fn h4_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 
 /// `h4_eval:shared:normalised`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they
 /// are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
-/// horizon the polynomials go on.
+/// horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -2411,7 +2413,8 @@ pub fn h4_to_monomial_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 
 /// `h4_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h4_to_monomial`
 /// or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
-/// given as they are. Below the horizon the polynomials go on.
+/// given as they are. Below the horizon the polynomials go on and err by more: clamp the result, not
+/// the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the coefficients of 1, y, z, x.
@@ -2433,7 +2436,7 @@ pub fn h4_eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 
 /// `h4_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
 /// `h4_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-/// zero. Below the horizon the polynomials go on.
+/// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the coefficients of 1, y, z, x.
@@ -2458,7 +2461,8 @@ pub fn h4_eval_monomial_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) ->
 /// `hl2_basis`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with (-1/sqrt6,
 /// -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart 2004; Habel
 /// and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal need not be a unit: means of
-/// normals are to be given as they are. Below the horizon the polynomials go on.
+/// normals are to be given as they are. Below the horizon the polynomials go on and err by more: clamp
+/// the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - Returns the values of the basis.
@@ -2480,7 +2484,8 @@ pub fn hl2_basis<T: Real>(dir: [T; 3]) -> [T; 3] {
 /// `hl2_basis:normalised`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with
 /// (-1/sqrt6, -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart
 /// 2004; Habel and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal is made a unit; a zero
-/// one stays zero. Below the horizon the polynomials go on.
+/// one stays zero. Below the horizon the polynomials go on and err by more: clamp the result, not the
+/// normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - Returns the values of the basis.
@@ -2504,7 +2509,8 @@ pub fn hl2_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 3] {
 }
 
 /// `hl2_eval`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The normal need not
-/// be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on.
+/// be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on and
+/// err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the three coefficients of the Half-Life 2 basis.
@@ -2528,7 +2534,8 @@ pub fn hl2_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
 }
 
 /// `hl2_eval:normalised`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The
-/// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+/// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and err by
+/// more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the three coefficients of the Half-Life 2 basis.
@@ -2609,7 +2616,7 @@ pub fn hl2_to_vector_rgb<T: Real>(c: &[[T; 3]; 3]) -> [[T; 3]; 3] {
 
 /// `hl2_eval_vector`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes. The normal
 /// need not be a unit: means of normals are to be given as they are. Below the horizon the polynomials
-/// go on.
+/// go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the vector whose scalar product with a normal is the irradiance.
@@ -2630,7 +2637,8 @@ pub fn hl2_eval_vector_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
 }
 
 /// `hl2_eval_vector:normalised`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes.
-/// The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+/// The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on and err by
+/// more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the vector whose scalar product with a normal is the irradiance.

@@ -2023,6 +2023,27 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
     convolve_cosine::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
+/// `irradiance:3`: The irradiance of a surface that faces a direction, from the coefficients of the
+/// radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+/// - Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.5e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
+    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
+    let t1 = c[8] * T::lit(0.5);
+    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
+    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(0.8580855308097834), t0);
+    t3
+}
+
 /// `irradiance:3:nested`: The irradiance of a surface that faces a direction, from the coefficients of
 /// the radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it,
 /// it is what a white surface sends out.
@@ -2050,27 +2071,6 @@ pub fn irradiance_nested<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
 #[inline(always)]
 pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] {
     irradiance_nested::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
-}
-
-/// `irradiance:3`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 3: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
-/// what a white surface sends out.
-///
-/// - dir: the direction, of unit length.
-/// - c: the coefficients, index l(l+1)+m.
-/// - Returns the irradiance.
-/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
-/// - Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   2.5e-7).
-#[allow(clippy::all, clippy::excessive_precision)]
-#[inline(always)]
-pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 9]) -> V {
-    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
-    let t1 = c[8] * T::lit(0.5);
-    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
-    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(0.8580855308097834), t0);
-    t3
 }
 
 /// `light_directional:3`: Adds a directional light to coefficients of order 3: light is the irradiance
@@ -3345,7 +3345,8 @@ pub fn irradiance_prepared_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 9]) -> [T; 3] 
 
 /// `h6_basis`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere (Habel and
 /// Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
-/// means of normals are to be given as they are. Below the horizon the polynomials go on.
+/// means of normals are to be given as they are. Below the horizon the polynomials go on and err by
+/// more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - Returns H_i(dir).
@@ -3367,7 +3368,8 @@ pub fn h6_basis<T: Real>(dir: [T; 3]) -> [T; 6] {
 
 /// `h6_basis:normalised`: The H-basis of 6 functions at a normal, orthonormal over the upper hemisphere
 /// (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
-/// unit; a zero one stays zero. Below the horizon the polynomials go on.
+/// unit; a zero one stays zero. Below the horizon the polynomials go on and err by more: clamp the
+/// result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - Returns H_i(dir).
@@ -3393,7 +3395,7 @@ pub fn h6_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 6] {
 
 /// `h6_eval`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored (Habel
 /// and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
-/// the horizon the polynomials go on.
+/// the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -3412,7 +3414,7 @@ pub fn h6_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
 
 /// `h6_eval:normalised`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are
 /// stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
-/// the polynomials go on.
+/// the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -3435,7 +3437,7 @@ pub fn h6_eval_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
 
 /// `h6_eval:shared`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they are stored
 /// (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
-/// are. Below the horizon the polynomials go on.
+/// are. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -3459,7 +3461,7 @@ pub fn h6_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
 
 /// `h6_eval:shared:normalised`: The sum of c_i H_i(dir) over H6, the H-basis, from coefficients as they
 /// are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
-/// horizon the polynomials go on.
+/// horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
@@ -3514,7 +3516,8 @@ pub fn h6_to_monomial_rgb<T: Real>(c: &[[T; 3]; 6]) -> [[T; 3]; 6] {
 
 /// `h6_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h6_to_monomial`
 /// or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
-/// given as they are. Below the horizon the polynomials go on.
+/// given as they are. Below the horizon the polynomials go on and err by more: clamp the result, not
+/// the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
@@ -3531,7 +3534,7 @@ pub fn h6_eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6]) -> V {
 
 /// `h6_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
 /// `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-/// zero. Below the horizon the polynomials go on.
+/// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
@@ -3552,7 +3555,8 @@ pub fn h6_eval_monomial_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 6
 
 /// `h6_eval_monomial:shared`: The sum of the H-basis from the coefficients of monomials that
 /// `h6_to_monomial` or a conversion with `:monomial` makes. The normal need not be a unit: means of
-/// normals are to be given as they are. Below the horizon the polynomials go on.
+/// normals are to be given as they are. Below the horizon the polynomials go on and err by more: clamp
+/// the result, not the normal.
 ///
 /// - dir: the normal, or a mean of unit normals, which is taken as it is.
 /// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.
@@ -3575,7 +3579,7 @@ pub fn h6_eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 6]) -> [T; 3] {
 
 /// `h6_eval_monomial:shared:normalised`: The sum of the H-basis from the coefficients of monomials that
 /// `h6_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
-/// zero. Below the horizon the polynomials go on.
+/// zero. Below the horizon the polynomials go on and err by more: clamp the result, not the normal.
 ///
 /// - dir: the normal, which is made a unit.
 /// - c: the coefficients of 1, y, z, x, xy, x^2-y^2.

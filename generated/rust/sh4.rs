@@ -3310,6 +3310,27 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 16] {
     convolve_cosine::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
+/// `irradiance:4`: The irradiance of a surface that faces a direction, from the coefficients of the
+/// radiance of order 4: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out. Band 3 is not read: irradiance has none.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+/// - Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.4e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
+    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
+    let t1 = c[8] * T::lit(0.5);
+    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
+    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(0.8580855308097834), t0);
+    t3
+}
+
 /// `irradiance:4:nested`: The irradiance of a surface that faces a direction, from the coefficients of
 /// the radiance of order 4: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it,
 /// it is what a white surface sends out. Band 3 is not read: irradiance has none.
@@ -3337,27 +3358,6 @@ pub fn irradiance_nested<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
 #[inline(always)]
 pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 16]) -> [T; 3] {
     irradiance_nested::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
-}
-
-/// `irradiance:4`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 4: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
-/// what a white surface sends out. Band 3 is not read: irradiance has none.
-///
-/// - dir: the direction, of unit length.
-/// - c: the coefficients, index l(l+1)+m.
-/// - Returns the irradiance.
-/// - Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
-/// - Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
-///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   2.4e-7).
-#[allow(clippy::all, clippy::excessive_precision)]
-#[inline(always)]
-pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 16]) -> V {
-    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
-    let t1 = c[8] * T::lit(0.5);
-    let t2 = c[6].fms(T::lit(0.8660254037844386), t1).fms(dir[2], c[7] * dir[0]).fma(dir[2], c[6].fnma(T::lit(0.28867513459481287), t1));
-    let t3 = c[8].fnma(dir[1], c[4].fms(dir[0], c[5] * dir[2])).fma(dir[1], t2).fma(T::lit(0.8580855308097834), t0);
-    t3
 }
 
 /// `light_directional:4`: Adds a directional light to coefficients of order 4: light is the irradiance
