@@ -12,8 +12,10 @@ use zonal_codegen::environment::map::Map;
 
 /// The hemispherical orders.
 pub const ORDERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 10];
-/// The numbers of bands of the sphere that an order is made from, and how they are written.
-pub const SPHERES: [(&str, fn(usize) -> usize); 3] = [("n", |n| n), ("n + 2", |n| n + 2), ("2n", |n| 2 * n)];
+/// A number of bands of the sphere by the hemispherical order, as it is written and as it is.
+pub type Bands = (&'static str, fn(order: usize) -> usize);
+/// The numbers of bands of the sphere that an order is made from.
+pub const SPHERES: [Bands; 3] = [("n", |n| n), ("n + 2", |n| n + 2), ("2n", |n| 2 * n)];
 
 const LARGEST: [usize; 2] = [10, 20];
 const SEED: u64 = 0x11e7;
