@@ -135,44 +135,66 @@ ZONAL_HIGHP vec3 sh2_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
     return t0;
 }
 
-// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
-// `to_monomial:2` makes.
+// `eval:2:once`: The sum of c_i y_i(dir) over the harmonics of order 2, for one channel in the fewest
+// operations; channels share none of them.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients, index l(l+1)+m.
+// Returns sum c_i y_i(dir).
+// Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+// Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, each band of norm one, for dir
+//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     7.3e-8).
+ZONAL_HIGHP float sh2_eval_once(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    return 0.48860252 * (c[2] * dir.z - c[3] * dir.x - c[1] * dir.y) + 0.2820948 * c[0];
+}
+
+// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
+// `to_monomial:2` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:2` is the more exact.
+// dir: the direction, of unit length.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     1.8e-7).
+//     1.6e-7).
 ZONAL_HIGHP float sh2_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
+    return c[0] + c[1] * dir.y + c[2] * dir.x + c[3] * dir.z;
 }
 
 // `eval_monomial:2:rgb`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients
-// that `to_monomial:2` makes.
+// that `to_monomial:2` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:2` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     1.8e-7).
+//     1.6e-7).
 ZONAL_HIGHP vec3 sh2_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
+    return c[0] + c[1] * dir.y + c[2] * dir.x + c[3] * dir.z;
 }
 
 // `to_monomial:2`: From the coefficients of the harmonics of order 2 to those of the monomials that
 // `eval_monomial:2` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
@@ -184,15 +206,16 @@ ZONAL_HIGHP float[4] sh2_to_monomial(ZONAL_HIGHP float[4] c) {
     return float[4](
         0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
-        -(0.48860252 * c[3])
+        -(0.48860252 * c[3]),
+        0.48860252 * c[2]
     );
 }
 
 // `to_monomial:2:rgb`: From the coefficients of the harmonics of order 2 to those of the monomials
 // that `eval_monomial:2` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
@@ -204,8 +227,8 @@ ZONAL_HIGHP vec3[4] sh2_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
     return vec3[4](
         0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
-        -(0.48860252 * c[3])
+        -(0.48860252 * c[3]),
+        0.48860252 * c[2]
     );
 }
 

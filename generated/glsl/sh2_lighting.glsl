@@ -246,28 +246,9 @@ ZONAL_HIGHP vec3[4] sh2_convolve_cosine_rgb(ZONAL_HIGHP vec3[4] c) {
     );
 }
 
-// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
-// dir: the direction, of unit length.
-// c: the coefficients, index l(l+1)+m.
-// Returns the irradiance.
-// Operations: 7 (4 mul, 0 add, 3 fma); 2 constants, 2 live values.
-// Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, each band of norm one, for dir
-//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     2.2e-7).
-ZONAL_HIGHP float sh2_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
-#ifdef GL_ES
-    precision highp float;
-    precision highp int;
-#endif
-    float t0 = 1.0233268 * dir.z * c[2] + 0.88622695 * c[0] - 1.0233268 * dir.x * c[3] - 1.0233268 * dir.y * c[1];
-    return t0;
-}
-
 // `irradiance:2:rgb`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
@@ -282,6 +263,24 @@ ZONAL_HIGHP vec3 sh2_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c)
 #endif
     vec3 t0 = 1.0233268 * dir.z * c[2] + 0.88622695 * c[0] - 1.0233268 * dir.x * c[3] - 1.0233268 * dir.y * c[1];
     return t0;
+}
+
+// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
+// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
+// dir: the direction, of unit length.
+// c: the coefficients, index l(l+1)+m.
+// Returns the irradiance.
+// Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+// Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
+//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     2.3e-7).
+ZONAL_HIGHP float sh2_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    return 1.0233268 * (c[2] * dir.z - c[3] * dir.x - c[1] * dir.y) + 0.88622695 * c[0];
 }
 
 // `light_directional:2`: Adds a directional light to coefficients of order 2: light is the irradiance

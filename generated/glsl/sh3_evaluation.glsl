@@ -151,91 +151,117 @@ ZONAL_HIGHP vec3 sh3_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
     return t4 + c[4] * (dir.x * t3);
 }
 
-// `eval_monomial:3`: The sum of c_i y_i(dir) over the harmonics of order 3, from the coefficients that
-// `to_monomial:3` makes.
+// `eval:3:once`: The sum of c_i y_i(dir) over the harmonics of order 3, for one channel in the fewest
+// operations; channels share none of them.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients, index l(l+1)+m.
 // Returns sum c_i y_i(dir).
-// Operations: 12 (2 mul, 1 add, 9 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+// Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     3.9e-7).
+//     1.3e-7).
+ZONAL_HIGHP float sh3_eval_once(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    float t0 = 0.5 * c[8];
+    float t1 = t0 - 0.28867513 * c[6] + ((0.8660254 * c[6] - t0) * dir.z - c[7] * dir.x) * dir.z + (c[4] * dir.x - c[5] * dir.z - c[8] * dir.y) * dir.y;
+    float t2 = 0.48860252 * (c[2] * dir.z - c[3] * dir.x - c[1] * dir.y) + 0.2820948 * c[0] + 1.0925485 * t1;
+    return t2;
+}
+
+// `eval_monomial:3`: The sum of c_i y_i(dir) over the harmonics of order 3, from the coefficients that
+// `to_monomial:3` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:3` is the more exact.
+// dir: the direction, of unit length.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
+// Returns sum c_i y_i(dir).
+// Operations: 8 (0 mul, 0 add, 8 fma); 0 constants, 2 live values.
+// Error: f32 rounding at most 9e-7 of the norm of the coefficients, each band of norm one, for dir of
+//     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     2.9e-7).
 ZONAL_HIGHP float sh3_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = c[0] + (c[2] + c[6] * dir.z) * dir.z + (c[3] + c[7] * dir.z) * dir.x + (c[1] + c[5] * dir.z) * dir.y;
-    float t1 = dir.x * dir.y;
-    return t0 + c[8] * (dir.x * dir.x - dir.y * dir.y) + c[4] * (t1 + t1);
+    float t0 = c[0] + (c[1] + c[4] * dir.y) * dir.y + (c[2] + c[5] * dir.y + c[6] * dir.x) * dir.x + (c[3] + c[7] * dir.y + c[8] * dir.x) * dir.z;
+    return t0;
 }
 
 // `eval_monomial:3:rgb`: The sum of c_i y_i(dir) over the harmonics of order 3, from the coefficients
-// that `to_monomial:3` makes.
+// that `to_monomial:3` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:3` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 28 (2 mul, 1 add, 25 fma); 0 constants, 2 live values.
-// Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, each band of norm one, for dir
-//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     3.9e-7).
+// Operations: 24 (0 mul, 0 add, 24 fma); 0 constants, 2 live values.
+// Error: f32 rounding at most 9e-7 of the norm of the coefficients, each band of norm one, for dir of
+//     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     2.9e-7).
 ZONAL_HIGHP vec3 sh3_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    vec3 t0 = c[0] + (c[2] + c[6] * dir.z) * dir.z + (c[3] + c[7] * dir.z) * dir.x + (c[1] + c[5] * dir.z) * dir.y;
-    float t1 = dir.x * dir.y;
-    return t0 + c[8] * (dir.x * dir.x - dir.y * dir.y) + c[4] * (t1 + t1);
+    vec3 t0 = c[0] + (c[1] + c[4] * dir.y) * dir.y + (c[2] + c[5] * dir.y + c[6] * dir.x) * dir.x + (c[3] + c[7] * dir.y + c[8] * dir.x) * dir.z;
+    return t0;
 }
 
 // `to_monomial:3`: From the coefficients of the harmonics of order 3 to those of the monomials that
 // `eval_monomial:3` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 10 (9 mul, 0 add, 1 fma); 6 constants, 9 live values.
-// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 11 (8 mul, 0 add, 3 fma); 6 constants, 9 live values.
+// Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 ZONAL_HIGHP float[9] sh3_to_monomial(ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    float t0 = 0.54627424 * c[8];
     return float[9](
-        0.2820948 * c[0] - 0.31539157 * c[6],
+        0.63078314 * c[6] + 0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
         -(0.48860252 * c[3]),
-        0.54627424 * c[4],
+        0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6]),
+        1.0925485 * c[4],
+        t0 - 0.9461747 * c[6],
         -(1.0925485 * c[5]),
-        0.9461747 * c[6],
-        -(1.0925485 * c[7]),
-        0.54627424 * c[8]
+        -(1.0925485 * c[7])
     );
 }
 
 // `to_monomial:3:rgb`: From the coefficients of the harmonics of order 3 to those of the monomials
 // that `eval_monomial:3` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 30 (27 mul, 0 add, 3 fma); 6 constants, 9 live values.
-// Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 33 (24 mul, 0 add, 9 fma); 6 constants, 9 live values.
+// Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 ZONAL_HIGHP vec3[9] sh3_to_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    vec3 t0 = 0.54627424 * c[8];
     return vec3[9](
-        0.2820948 * c[0] - 0.31539157 * c[6],
+        0.63078314 * c[6] + 0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
         -(0.48860252 * c[3]),
-        0.54627424 * c[4],
+        0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6]),
+        1.0925485 * c[4],
+        t0 - 0.9461747 * c[6],
         -(1.0925485 * c[5]),
-        0.9461747 * c[6],
-        -(1.0925485 * c[7]),
-        0.54627424 * c[8]
+        -(1.0925485 * c[7])
     );
 }
 

@@ -269,134 +269,146 @@ ZONAL_HIGHP vec3 sh5_bands_0_1_2_4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP ve
 }
 
 // `eval_monomial:5`: The sum of c_i y_i(dir) over the harmonics of order 5, from the coefficients that
-// `to_monomial:5` makes.
+// `to_monomial:5` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:5` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 36 (6 mul, 1 add, 29 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 24 (0 mul, 0 add, 24 fma); 0 constants, 4 live values.
+// Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     4.3e-7).
+//     2.6e-7).
 ZONAL_HIGHP float sh5_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = c[0] + (c[2] + (c[6] + (c[12] + c[20] * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + c[21] * dir.z) * dir.z) * dir.z) * dir.x;
-    float t1 = dir.x * dir.x - dir.y * dir.y;
-    float t2 = t0 + (c[1] + (c[5] + (c[11] + c[19] * dir.z) * dir.z) * dir.z) * dir.y + (c[8] + (c[14] + c[22] * dir.z) * dir.z) * t1;
-    float t3 = dir.x * dir.y;
-    float t4 = t3 + t3;
-    float t5 = dir.x * t1 - dir.y * t4;
-    float t6 = dir.y * t1 + dir.x * t4;
-    float t7 = t2 + (c[4] + (c[10] + c[18] * dir.z) * dir.z) * t4 + (c[15] + c[23] * dir.z) * t5 + (c[9] + c[17] * dir.z) * t6;
-    return t7 + c[24] * (dir.x * t5 - dir.y * t6) + c[16] * (dir.y * t5 + dir.x * t6);
+    float t0 = c[2] + (c[5] + (c[10] + c[17] * dir.y) * dir.y) * dir.y + (c[6] + (c[11] + c[18] * dir.y) * dir.y + (c[12] + c[19] * dir.y + c[20] * dir.x) * dir.x) * dir.x;
+    float t1 = c[3] + (c[7] + (c[13] + c[21] * dir.y) * dir.y) * dir.y + (c[8] + (c[14] + c[22] * dir.y) * dir.y + (c[15] + c[23] * dir.y + c[24] * dir.x) * dir.x) * dir.x;
+    float t2 = c[0] + (c[1] + (c[4] + (c[9] + c[16] * dir.y) * dir.y) * dir.y) * dir.y + t0 * dir.x + t1 * dir.z;
+    return t2;
 }
 
 // `eval_monomial:5:rgb`: The sum of c_i y_i(dir) over the harmonics of order 5, from the coefficients
-// that `to_monomial:5` makes.
+// that `to_monomial:5` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:5` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 84 (6 mul, 1 add, 77 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 4.1e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 72 (0 mul, 0 add, 72 fma); 0 constants, 4 live values.
+// Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     4.3e-7).
+//     2.6e-7).
 ZONAL_HIGHP vec3 sh5_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    vec3 t0 = c[0] + (c[2] + (c[6] + (c[12] + c[20] * dir.z) * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + (c[13] + c[21] * dir.z) * dir.z) * dir.z) * dir.x;
-    float t1 = dir.x * dir.x - dir.y * dir.y;
-    vec3 t2 = t0 + (c[1] + (c[5] + (c[11] + c[19] * dir.z) * dir.z) * dir.z) * dir.y + (c[8] + (c[14] + c[22] * dir.z) * dir.z) * t1;
-    float t3 = dir.x * dir.y;
-    float t4 = t3 + t3;
-    float t5 = dir.x * t1 - dir.y * t4;
-    float t6 = dir.y * t1 + dir.x * t4;
-    vec3 t7 = t2 + (c[4] + (c[10] + c[18] * dir.z) * dir.z) * t4 + (c[15] + c[23] * dir.z) * t5 + (c[9] + c[17] * dir.z) * t6;
-    return t7 + c[24] * (dir.x * t5 - dir.y * t6) + c[16] * (dir.y * t5 + dir.x * t6);
+    vec3 t0 = c[2] + (c[5] + (c[10] + c[17] * dir.y) * dir.y) * dir.y + (c[6] + (c[11] + c[18] * dir.y) * dir.y + (c[12] + c[19] * dir.y + c[20] * dir.x) * dir.x) * dir.x;
+    vec3 t1 = c[3] + (c[7] + (c[13] + c[21] * dir.y) * dir.y) * dir.y + (c[8] + (c[14] + c[22] * dir.y) * dir.y + (c[15] + c[23] * dir.y + c[24] * dir.x) * dir.x) * dir.x;
+    vec3 t2 = c[0] + (c[1] + (c[4] + (c[9] + c[16] * dir.y) * dir.y) * dir.y) * dir.y + t0 * dir.x + t1 * dir.z;
+    return t2;
 }
 
 // `to_monomial:5`: From the coefficients of the harmonics of order 5 to those of the monomials that
 // `eval_monomial:5` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 35 (25 mul, 0 add, 10 fma); 21 constants, 25 live values.
-// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 48 (17 mul, 0 add, 31 fma); 28 constants, 25 live values.
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 5.3e-7).
 ZONAL_HIGHP float[25] sh5_to_monomial(ZONAL_HIGHP float[25] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    float t0 = 0.54627424 * c[8];
+    float t1 = 2.285229 * c[11];
+    float t2 = 2.285229 * c[13];
+    float t3 = 1.4453057 * c[14];
+    float t4 = 3.3116114 * c[22];
+    float t5 = 6.623223 * c[18];
+    float t6 = 4.683326 * c[19];
+    float t7 = 4.683326 * c[21];
     return float[25](
-        0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.48860252 * c[1],
-        0.48860252 * c[2] - 1.119529 * c[12],
-        0.4570458 * c[13] - 0.48860252 * c[3],
-        0.54627424 * c[4] - 0.47308734 * c[18],
-        2.0071397 * c[19] - 1.0925485 * c[5],
-        0.9461747 * c[6] - 3.1735663 * c[20],
-        2.0071397 * c[21] - 1.0925485 * c[7],
-        0.54627424 * c[8] - 0.47308734 * c[22],
-        -(0.5900436 * c[9]),
-        1.4453057 * c[10],
-        -(2.285229 * c[11]),
-        1.8658817 * c[12],
-        -(2.285229 * c[13]),
-        1.4453057 * c[14],
-        -(0.5900436 * c[15]),
-        0.6258357 * c[16],
-        -(1.7701308 * c[17]),
-        3.3116114 * c[18],
-        -(4.683326 * c[19]),
-        3.7024941 * c[20],
-        -(4.683326 * c[21]),
-        3.3116114 * c[22],
-        -(1.7701308 * c[23]),
-        0.6258357 * c[24]
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20],
+        -(1.8281832 * c[11] + 0.48860252 * c[1]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3]),
+        0.7463527 * c[12] + 0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22]),
+        5.677048 * c[18] + 1.0925485 * c[4],
+        t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22],
+        -(2.676186 * c[19] + 1.0925485 * c[5]),
+        -(2.676186 * c[21] + 1.0925485 * c[7]),
+        t1 + 0.5900436 * c[9],
+        t2 + 1.7701308 * c[15],
+        t1 - 1.7701308 * c[9],
+        t2 - 0.5900436 * c[15],
+        -(t3 + 1.8658817 * c[12]),
+        2.8906114 * c[10],
+        t3 - 1.8658817 * c[12],
+        t4 + 3.7024941 * c[20] + 0.6258357 * c[24],
+        -(t5 + 2.5033429 * c[16]),
+        7.4049883 * c[20] - 3.7550144 * c[24],
+        2.5033429 * c[16] - t5,
+        3.7024941 * c[20] - t4 + 0.6258357 * c[24],
+        t6 + 1.7701308 * c[17],
+        t7 + 5.3103924 * c[23],
+        t6 - 5.3103924 * c[17],
+        t7 - 1.7701308 * c[23]
     );
 }
 
 // `to_monomial:5:rgb`: From the coefficients of the harmonics of order 5 to those of the monomials
 // that `eval_monomial:5` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 105 (75 mul, 0 add, 30 fma); 21 constants, 25 live values.
-// Error: f32 rounding at most 6.4e-7 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 144 (51 mul, 0 add, 93 fma); 28 constants, 25 live values.
+// Error: f32 rounding at most 1.7e-6 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 5.3e-7).
 ZONAL_HIGHP vec3[25] sh5_to_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    vec3 t0 = 0.54627424 * c[8];
+    vec3 t1 = 2.285229 * c[11];
+    vec3 t2 = 2.285229 * c[13];
+    vec3 t3 = 1.4453057 * c[14];
+    vec3 t4 = 3.3116114 * c[22];
+    vec3 t5 = 6.623223 * c[18];
+    vec3 t6 = 4.683326 * c[19];
+    vec3 t7 = 4.683326 * c[21];
     return vec3[25](
-        0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.48860252 * c[1],
-        0.48860252 * c[2] - 1.119529 * c[12],
-        0.4570458 * c[13] - 0.48860252 * c[3],
-        0.54627424 * c[4] - 0.47308734 * c[18],
-        2.0071397 * c[19] - 1.0925485 * c[5],
-        0.9461747 * c[6] - 3.1735663 * c[20],
-        2.0071397 * c[21] - 1.0925485 * c[7],
-        0.54627424 * c[8] - 0.47308734 * c[22],
-        -(0.5900436 * c[9]),
-        1.4453057 * c[10],
-        -(2.285229 * c[11]),
-        1.8658817 * c[12],
-        -(2.285229 * c[13]),
-        1.4453057 * c[14],
-        -(0.5900436 * c[15]),
-        0.6258357 * c[16],
-        -(1.7701308 * c[17]),
-        3.3116114 * c[18],
-        -(4.683326 * c[19]),
-        3.7024941 * c[20],
-        -(4.683326 * c[21]),
-        3.3116114 * c[22],
-        -(1.7701308 * c[23]),
-        0.6258357 * c[24]
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20],
+        -(1.8281832 * c[11] + 0.48860252 * c[1]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3]),
+        0.7463527 * c[12] + 0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22]),
+        5.677048 * c[18] + 1.0925485 * c[4],
+        t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22],
+        -(2.676186 * c[19] + 1.0925485 * c[5]),
+        -(2.676186 * c[21] + 1.0925485 * c[7]),
+        t1 + 0.5900436 * c[9],
+        t2 + 1.7701308 * c[15],
+        t1 - 1.7701308 * c[9],
+        t2 - 0.5900436 * c[15],
+        -(t3 + 1.8658817 * c[12]),
+        2.8906114 * c[10],
+        t3 - 1.8658817 * c[12],
+        t4 + 3.7024941 * c[20] + 0.6258357 * c[24],
+        -(t5 + 2.5033429 * c[16]),
+        7.4049883 * c[20] - 3.7550144 * c[24],
+        2.5033429 * c[16] - t5,
+        3.7024941 * c[20] - t4 + 0.6258357 * c[24],
+        t6 + 1.7701308 * c[17],
+        t7 + 5.3103924 * c[23],
+        t6 - 5.3103924 * c[17],
+        t7 - 1.7701308 * c[23]
     );
 }
 

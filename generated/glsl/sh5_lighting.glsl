@@ -371,8 +371,8 @@ ZONAL_HIGHP vec3[25] sh5_convolve_cosine_rgb(ZONAL_HIGHP vec3[25] c) {
 }
 
 // `irradiance:5`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
@@ -403,8 +403,8 @@ ZONAL_HIGHP float sh5_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) 
 }
 
 // `irradiance:5:rgb`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.

@@ -251,164 +251,178 @@ ZONAL_HIGHP vec3 sh6_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
 }
 
 // `eval_monomial:6`: The sum of c_i y_i(dir) over the harmonics of order 6, from the coefficients that
-// `to_monomial:6` makes.
+// `to_monomial:6` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:6` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 51 (8 mul, 1 add, 42 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 35 (0 mul, 0 add, 35 fma); 0 constants, 5 live values.
+// Error: f32 rounding at most 3.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     5.1e-7).
+//     3.1e-7).
 ZONAL_HIGHP float sh6_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    float t0 = c[0] + (c[2] + (c[6] + (c[12] + (c[20] + c[30] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    float t1 = t0 + (c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.z) * dir.z) * dir.z) * dir.z) * dir.x + (c[1] + (c[5] + (c[11] + (c[19] + c[29] * dir.z) * dir.z) * dir.z) * dir.z) * dir.y;
-    float t2 = dir.x * dir.x - dir.y * dir.y;
-    float t3 = dir.x * dir.y;
-    float t4 = t3 + t3;
-    float t5 = t1 + (c[8] + (c[14] + (c[22] + c[32] * dir.z) * dir.z) * dir.z) * t2 + (c[4] + (c[10] + (c[18] + c[28] * dir.z) * dir.z) * dir.z) * t4;
-    float t6 = dir.x * t2 - dir.y * t4;
-    float t7 = dir.y * t2 + dir.x * t4;
-    float t8 = t5 + (c[15] + (c[23] + c[33] * dir.z) * dir.z) * t6 + (c[9] + (c[17] + c[27] * dir.z) * dir.z) * t7;
-    float t9 = dir.x * t6 - dir.y * t7;
-    float t10 = dir.y * t6 + dir.x * t7;
-    float t11 = t8 + (c[24] + c[34] * dir.z) * t9 + (c[16] + c[26] * dir.z) * t10 + c[35] * (dir.x * t9 - dir.y * t10);
-    return t11 + c[25] * (dir.y * t9 + dir.x * t10);
+    float t0 = c[0] + (c[1] + (c[4] + (c[9] + (c[16] + c[25] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    float t1 = c[12] + (c[19] + c[28] * dir.y) * dir.y + (c[20] + c[29] * dir.y + c[30] * dir.x) * dir.x;
+    float t2 = c[2] + (c[5] + (c[10] + (c[17] + c[26] * dir.y) * dir.y) * dir.y) * dir.y + (c[6] + (c[11] + (c[18] + c[27] * dir.y) * dir.y) * dir.y + t1 * dir.x) * dir.x;
+    float t3 = c[15] + (c[23] + c[33] * dir.y) * dir.y + (c[24] + c[34] * dir.y + c[35] * dir.x) * dir.x;
+    float t4 = c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.y) * dir.y) * dir.y) * dir.y + (c[8] + (c[14] + (c[22] + c[32] * dir.y) * dir.y) * dir.y + t3 * dir.x) * dir.x;
+    return t0 + t2 * dir.x + t4 * dir.z;
 }
 
 // `eval_monomial:6:rgb`: The sum of c_i y_i(dir) over the harmonics of order 6, from the coefficients
-// that `to_monomial:6` makes.
+// that `to_monomial:6` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:6` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 121 (8 mul, 1 add, 112 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 6.1e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 105 (0 mul, 0 add, 105 fma); 0 constants, 5 live values.
+// Error: f32 rounding at most 3.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     5.1e-7).
+//     3.1e-7).
 ZONAL_HIGHP vec3 sh6_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
-    vec3 t0 = c[0] + (c[2] + (c[6] + (c[12] + (c[20] + c[30] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    vec3 t1 = t0 + (c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.z) * dir.z) * dir.z) * dir.z) * dir.x + (c[1] + (c[5] + (c[11] + (c[19] + c[29] * dir.z) * dir.z) * dir.z) * dir.z) * dir.y;
-    float t2 = dir.x * dir.x - dir.y * dir.y;
-    float t3 = dir.x * dir.y;
-    float t4 = t3 + t3;
-    vec3 t5 = t1 + (c[8] + (c[14] + (c[22] + c[32] * dir.z) * dir.z) * dir.z) * t2 + (c[4] + (c[10] + (c[18] + c[28] * dir.z) * dir.z) * dir.z) * t4;
-    float t6 = dir.x * t2 - dir.y * t4;
-    float t7 = dir.y * t2 + dir.x * t4;
-    vec3 t8 = t5 + (c[15] + (c[23] + c[33] * dir.z) * dir.z) * t6 + (c[9] + (c[17] + c[27] * dir.z) * dir.z) * t7;
-    float t9 = dir.x * t6 - dir.y * t7;
-    float t10 = dir.y * t6 + dir.x * t7;
-    vec3 t11 = t8 + (c[24] + c[34] * dir.z) * t9 + (c[16] + c[26] * dir.z) * t10 + c[35] * (dir.x * t9 - dir.y * t10);
-    return t11 + c[25] * (dir.y * t9 + dir.x * t10);
+    vec3 t0 = c[0] + (c[1] + (c[4] + (c[9] + (c[16] + c[25] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    vec3 t1 = c[12] + (c[19] + c[28] * dir.y) * dir.y + (c[20] + c[29] * dir.y + c[30] * dir.x) * dir.x;
+    vec3 t2 = c[2] + (c[5] + (c[10] + (c[17] + c[26] * dir.y) * dir.y) * dir.y) * dir.y + (c[6] + (c[11] + (c[18] + c[27] * dir.y) * dir.y) * dir.y + t1 * dir.x) * dir.x;
+    vec3 t3 = c[15] + (c[23] + c[33] * dir.y) * dir.y + (c[24] + c[34] * dir.y + c[35] * dir.x) * dir.x;
+    vec3 t4 = c[3] + (c[7] + (c[13] + (c[21] + c[31] * dir.y) * dir.y) * dir.y) * dir.y + (c[8] + (c[14] + (c[22] + c[32] * dir.y) * dir.y) * dir.y + t3 * dir.x) * dir.x;
+    return t0 + t2 * dir.x + t4 * dir.z;
 }
 
 // `to_monomial:6`: From the coefficients of the harmonics of order 6 to those of the monomials that
 // `eval_monomial:6` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 56 (36 mul, 0 add, 20 fma); 33 constants, 36 live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 91 (25 mul, 0 add, 66 fma); 51 constants, 36 live values.
+// Error: f32 rounding at most 5.9e-6 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 1.8e-6).
 ZONAL_HIGHP float[36] sh6_to_monomial(ZONAL_HIGHP float[36] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    float t0 = 0.54627424 * c[8];
+    float t1 = 2.285229 * c[11];
+    float t2 = 2.285229 * c[13];
+    float t3 = 1.4453057 * c[14];
+    float t4 = 3.3116114 * c[22];
+    float t5 = 6.623223 * c[18];
+    float t6 = 4.683326 * c[19];
+    float t7 = 4.683326 * c[21];
+    float t8 = 9.51188 * c[31];
+    float t9 = 7.190305 * c[32];
+    float t10 = 14.38061 * c[28];
     return float[36](
-        0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
-        1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2],
-        0.4570458 * c[13] - 0.45294666 * c[31] - 0.48860252 * c[3],
-        0.54627424 * c[4] - 0.47308734 * c[18],
-        2.0071397 * c[19] - 1.0925485 * c[5],
-        0.9461747 * c[6] - 3.1735663 * c[20],
-        2.0071397 * c[21] - 1.0925485 * c[7],
-        0.54627424 * c[8] - 0.47308734 * c[22],
-        0.4892383 * c[27] - 0.5900436 * c[9],
-        1.4453057 * c[10] - 2.3967683 * c[28],
-        6.3412533 * c[29] - 2.285229 * c[11],
-        1.8658817 * c[12] - 8.1865225 * c[30],
-        6.3412533 * c[31] - 2.285229 * c[13],
-        1.4453057 * c[14] - 2.3967683 * c[32],
-        0.4892383 * c[33] - 0.5900436 * c[15],
-        0.6258357 * c[16],
-        -(1.7701308 * c[17]),
-        3.3116114 * c[18],
-        -(4.683326 * c[19]),
-        3.7024941 * c[20],
-        -(4.683326 * c[21]),
-        3.3116114 * c[22],
-        -(1.7701308 * c[23]),
-        0.6258357 * c[24],
-        -(0.6563821 * c[25]),
-        2.0756624 * c[26],
-        -(4.403145 * c[27]),
-        7.190305 * c[28],
-        -(9.51188 * c[29]),
-        7.3678703 * c[30],
-        -(9.51188 * c[31]),
-        7.190305 * c[32],
-        -(4.403145 * c[33]),
-        2.0756624 * c[34],
-        -(0.6563821 * c[35])
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20],
+        -(1.8281832 * c[11] + 0.48860252 * c[1] + 3.6235733 * c[29]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3] + 3.6235733 * c[31]),
+        0.7463527 * c[12] + 0.48860252 * c[2] + 0.9356026 * c[30],
+        -(t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22]),
+        5.677048 * c[18] + 1.0925485 * c[4],
+        t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22],
+        -(2.676186 * c[19] + 1.0925485 * c[5]),
+        -(2.676186 * c[21] + 1.0925485 * c[7]),
+        t1 + 0.5900436 * c[9] + 3.9139063 * c[27] + 12.682507 * c[29],
+        t2 + 1.7701308 * c[15] + 12.682507 * c[31] + 11.741719 * c[33],
+        t1 - 1.7701308 * c[9] - 11.741719 * c[27] + 12.682507 * c[29],
+        t2 - 0.5900436 * c[15] + 12.682507 * c[31] - 3.9139063 * c[33],
+        -(t3 + 1.8658817 * c[12] + 6.549218 * c[30] + 4.7935367 * c[32]),
+        9.587073 * c[28] + 2.8906114 * c[10],
+        t3 - 1.8658817 * c[12] - 6.549218 * c[30] + 4.7935367 * c[32],
+        t4 + 3.7024941 * c[20] + 0.6258357 * c[24],
+        -(t5 + 2.5033429 * c[16]),
+        7.4049883 * c[20] - 3.7550144 * c[24],
+        2.5033429 * c[16] - t5,
+        3.7024941 * c[20] - t4 + 0.6258357 * c[24],
+        t6 + 1.7701308 * c[17],
+        t7 + 5.3103924 * c[23],
+        t6 - 5.3103924 * c[17],
+        t7 - 1.7701308 * c[23],
+        -(4.403145 * c[27] + 0.6563821 * c[25] + 9.51188 * c[29]),
+        -(t8 + 13.2094345 * c[33] + 3.2819102 * c[35]),
+        8.80629 * c[27] + 6.5638204 * c[25] - 19.02376 * c[29],
+        6.5638204 * c[35] - (8.80629 * c[33] + 19.02376 * c[31]),
+        13.2094345 * c[27] - 3.2819102 * c[25] - 9.51188 * c[29],
+        4.403145 * c[33] - t8 - 0.6563821 * c[35],
+        t9 + 7.3678703 * c[30] + 2.0756624 * c[34],
+        -(t10 + 8.3026495 * c[26]),
+        14.735741 * c[30] - 12.453974 * c[34],
+        8.3026495 * c[26] - t10,
+        7.3678703 * c[30] - t9 + 2.0756624 * c[34]
     );
 }
 
 // `to_monomial:6:rgb`: From the coefficients of the harmonics of order 6 to those of the monomials
 // that `eval_monomial:6` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 168 (108 mul, 0 add, 60 fma); 33 constants, 36 live values.
-// Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 4.6e-7).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 273 (75 mul, 0 add, 198 fma); 51 constants, 36 live values.
+// Error: f32 rounding at most 5.9e-6 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 1.8e-6).
 ZONAL_HIGHP vec3[36] sh6_to_monomial_rgb(ZONAL_HIGHP vec3[36] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
 #endif
+    vec3 t0 = 0.54627424 * c[8];
+    vec3 t1 = 2.285229 * c[11];
+    vec3 t2 = 2.285229 * c[13];
+    vec3 t3 = 1.4453057 * c[14];
+    vec3 t4 = 3.3116114 * c[22];
+    vec3 t5 = 6.623223 * c[18];
+    vec3 t6 = 4.683326 * c[19];
+    vec3 t7 = 4.683326 * c[21];
+    vec3 t8 = 9.51188 * c[31];
+    vec3 t9 = 7.190305 * c[32];
+    vec3 t10 = 14.38061 * c[28];
     return vec3[36](
-        0.31735665 * c[20] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
-        1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2],
-        0.4570458 * c[13] - 0.45294666 * c[31] - 0.48860252 * c[3],
-        0.54627424 * c[4] - 0.47308734 * c[18],
-        2.0071397 * c[19] - 1.0925485 * c[5],
-        0.9461747 * c[6] - 3.1735663 * c[20],
-        2.0071397 * c[21] - 1.0925485 * c[7],
-        0.54627424 * c[8] - 0.47308734 * c[22],
-        0.4892383 * c[27] - 0.5900436 * c[9],
-        1.4453057 * c[10] - 2.3967683 * c[28],
-        6.3412533 * c[29] - 2.285229 * c[11],
-        1.8658817 * c[12] - 8.1865225 * c[30],
-        6.3412533 * c[31] - 2.285229 * c[13],
-        1.4453057 * c[14] - 2.3967683 * c[32],
-        0.4892383 * c[33] - 0.5900436 * c[15],
-        0.6258357 * c[16],
-        -(1.7701308 * c[17]),
-        3.3116114 * c[18],
-        -(4.683326 * c[19]),
-        3.7024941 * c[20],
-        -(4.683326 * c[21]),
-        3.3116114 * c[22],
-        -(1.7701308 * c[23]),
-        0.6258357 * c[24],
-        -(0.6563821 * c[25]),
-        2.0756624 * c[26],
-        -(4.403145 * c[27]),
-        7.190305 * c[28],
-        -(9.51188 * c[29]),
-        7.3678703 * c[30],
-        -(9.51188 * c[31]),
-        7.190305 * c[32],
-        -(4.403145 * c[33]),
-        2.0756624 * c[34],
-        -(0.6563821 * c[35])
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20],
+        -(1.8281832 * c[11] + 0.48860252 * c[1] + 3.6235733 * c[29]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3] + 3.6235733 * c[31]),
+        0.7463527 * c[12] + 0.48860252 * c[2] + 0.9356026 * c[30],
+        -(t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22]),
+        5.677048 * c[18] + 1.0925485 * c[4],
+        t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22],
+        -(2.676186 * c[19] + 1.0925485 * c[5]),
+        -(2.676186 * c[21] + 1.0925485 * c[7]),
+        t1 + 0.5900436 * c[9] + 3.9139063 * c[27] + 12.682507 * c[29],
+        t2 + 1.7701308 * c[15] + 12.682507 * c[31] + 11.741719 * c[33],
+        t1 - 1.7701308 * c[9] - 11.741719 * c[27] + 12.682507 * c[29],
+        t2 - 0.5900436 * c[15] + 12.682507 * c[31] - 3.9139063 * c[33],
+        -(t3 + 1.8658817 * c[12] + 6.549218 * c[30] + 4.7935367 * c[32]),
+        9.587073 * c[28] + 2.8906114 * c[10],
+        t3 - 1.8658817 * c[12] - 6.549218 * c[30] + 4.7935367 * c[32],
+        t4 + 3.7024941 * c[20] + 0.6258357 * c[24],
+        -(t5 + 2.5033429 * c[16]),
+        7.4049883 * c[20] - 3.7550144 * c[24],
+        2.5033429 * c[16] - t5,
+        3.7024941 * c[20] - t4 + 0.6258357 * c[24],
+        t6 + 1.7701308 * c[17],
+        t7 + 5.3103924 * c[23],
+        t6 - 5.3103924 * c[17],
+        t7 - 1.7701308 * c[23],
+        -(4.403145 * c[27] + 0.6563821 * c[25] + 9.51188 * c[29]),
+        -(t8 + 13.2094345 * c[33] + 3.2819102 * c[35]),
+        8.80629 * c[27] + 6.5638204 * c[25] - 19.02376 * c[29],
+        6.5638204 * c[35] - (8.80629 * c[33] + 19.02376 * c[31]),
+        13.2094345 * c[27] - 3.2819102 * c[25] - 9.51188 * c[29],
+        4.403145 * c[33] - t8 - 0.6563821 * c[35],
+        t9 + 7.3678703 * c[30] + 2.0756624 * c[34],
+        -(t10 + 8.3026495 * c[26]),
+        14.735741 * c[30] - 12.453974 * c[34],
+        8.3026495 * c[26] - t10,
+        7.3678703 * c[30] - t9 + 2.0756624 * c[34]
     );
 }
 

@@ -429,8 +429,8 @@ ZONAL_HIGHP vec3[36] sh6_convolve_cosine_rgb(ZONAL_HIGHP vec3[36] c) {
 }
 
 // `irradiance:6`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
@@ -461,8 +461,8 @@ ZONAL_HIGHP float sh6_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) 
 }
 
 // `irradiance:6:rgb`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.

@@ -115,20 +115,39 @@ pub fn eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
     eval::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
 }
 
-/// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
-/// `to_monomial:2` makes.
+/// `eval:2:once`: The sum of c_i y_i(dir) over the harmonics of order 2, for one channel in the fewest
+/// operations; channels share none of them.
 ///
 /// - dir: the direction, of unit length.
-/// - c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns sum c_i y_i(dir).
+/// - Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+/// - Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   7.3e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn eval_once<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = c[0].fma(T::lit(0.28209479177387814), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(0.4886025119029199));
+    t0
+}
+
+/// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
+/// `to_monomial:2` makes. For directions of unit length alone. The error in f32 doubles with each
+/// order: from order 7 on `eval:2` is the more exact.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
 /// - Returns sum c_i y_i(dir).
 /// - Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
 /// - Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 ///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-///   1.8e-7).
+///   1.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
-    c[1].fma(dir[1], c[3].fma(dir[0], c[2].fma(dir[2], c[0])))
+    c[3].fma(dir[2], c[2].fma(dir[0], c[1].fma(dir[1], c[0])))
 }
 
 /// [`eval_monomial`] of three channels that share the parameters, as plain arrays.
@@ -141,7 +160,8 @@ pub fn eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
 /// `eval_monomial:2` takes; done once, when they are stored.
 ///
 /// - c: the coefficients, index l(l+1)+m.
-/// - Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
 /// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 /// - Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 ///   arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
@@ -151,8 +171,8 @@ pub fn to_monomial<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
     [
         c[0] * T::lit(0.28209479177387814),
         -(c[1] * T::lit(0.4886025119029199)),
-        c[2] * T::lit(0.4886025119029199),
         -(c[3] * T::lit(0.4886025119029199)),
+        c[2] * T::lit(0.4886025119029199),
     ]
 }
 
@@ -1401,9 +1421,9 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
     convolve_cosine::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 
-/// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
-/// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-/// sends out.
+/// `irradiance:2:nested`: The irradiance of a surface that faces a direction, from the coefficients of
+/// the radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it,
+/// it is what a white surface sends out.
 ///
 /// - dir: the direction, of unit length.
 /// - c: the coefficients, index l(l+1)+m.
@@ -1414,15 +1434,33 @@ pub fn convolve_cosine_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 ///   2.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+pub fn irradiance_nested<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
     let t0 = c[3].fnma(T::lit(1.0233267079464885) * dir[0], c[0].fma(T::lit(0.886226925452758), c[2] * (T::lit(1.0233267079464885) * dir[2])));
     c[1].fnma(T::lit(1.0233267079464885) * dir[1], t0)
 }
 
-/// [`irradiance`] of three channels that share the parameters, as plain arrays.
+/// [`irradiance_nested`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
 pub fn irradiance_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
-    irradiance::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+    irradiance_nested::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `irradiance:2`: The irradiance of a surface that faces a direction, from the coefficients of the
+/// radiance of order 2: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+/// what a white surface sends out.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+/// - Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+///   2.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = c[0].fma(T::lit(0.886226925452758), c[1].fnma(dir[1], c[2].fms(dir[2], c[3] * dir[0])) * T::lit(1.0233267079464885));
+    t0
 }
 
 /// `light_directional:2`: Adds a directional light to coefficients of order 2: light is the irradiance
@@ -2168,5 +2206,731 @@ pub fn axis_angles<T: Real>(dir: [T; 3]) -> [[T; 2]; 3] {
         [dir[2], t3],
         [T::lit(0.5) * (t3 * t3), dir[2] * t3],
     ]
+}
+
+/// `to_irradiance:2`: From the coefficients of radiance of order 2 to those of monomials of the
+/// irradiance, which `:over_pi` divides by pi, as `irradiance_prepared:2` takes them; done once, when
+/// they are stored.
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ...,
+///   x^d, then z times those of degree d-1.
+/// - Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+/// - Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn to_irradiance<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0] * T::lit(0.886226925452758),
+        -(c[1] * T::lit(1.0233267079464885)),
+        -(c[3] * T::lit(1.0233267079464885)),
+        c[2] * T::lit(1.0233267079464885),
+    ]
+}
+
+/// [`to_irradiance`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn to_irradiance_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    to_irradiance::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `irradiance_prepared:2`: The irradiance of a surface that faces a direction, from the coefficients
+/// that `to_irradiance:2` makes, of which `:over_pi` divides them by pi. For directions of unit length
+/// alone.
+///
+/// - dir: the direction, of unit length.
+/// - c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+///   then z times those of degree d-1.
+/// - Returns the irradiance.
+/// - Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for dir of unit length (proven
+///   for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn irradiance_prepared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    c[3].fma(dir[2], c[2].fma(dir[0], c[1].fma(dir[1], c[0])))
+}
+
+/// [`irradiance_prepared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn irradiance_prepared_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    irradiance_prepared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h4_basis`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere (Habel and
+/// Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal need not be a unit:
+/// means of normals are to be given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - Returns H_i(dir).
+/// - Operations: 3 (2 mul, 0 add, 1 fma); 3 constants, 3 live values.
+/// - Error: f32 rounding at most 2.4e-7 of one, for every dir of at most unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_basis<T: Real>(dir: [T; 3]) -> [T; 4] {
+    [
+        T::lit(0.3989422804014327),
+        -(T::lit(0.690988298942671) * dir[1]),
+        T::lit(1.381976597885342).fms(dir[2], T::lit(0.690988298942671)),
+        -(T::lit(0.690988298942671) * dir[0]),
+    ]
+}
+
+/// `h4_basis:normalised`: The H-basis of 4 functions at a normal, orthonormal over the upper hemisphere
+/// (Habel and Wimmer 2010, eq. 10): irradiance by the normal in tangent space. The normal is made a
+/// unit; a zero one stays zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - Returns H_i(dir).
+/// - Operations: 9 (5 mul, 0 add, 4 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
+///   worst of 256 measured, 2.6e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 4] {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    [
+        T::lit(0.3989422804014327),
+        -(T::lit(0.690988298942671) * (dir[1] * t0)),
+        T::lit(1.381976597885342).fms(dir[2] * t0, T::lit(0.690988298942671)),
+        -(T::lit(0.690988298942671) * (dir[0] * t0)),
+    ]
+}
+
+/// `h4_eval`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored (Habel
+/// and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they are. Below
+/// the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 6 (2 mul, 0 add, 4 fma); 4 constants, 2 live values.
+/// - Error: f32 rounding at most 8.4e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = c[1].fnma(dir[1], c[2].fms(T::lit(2.0).fms(dir[2], T::lit(1.0)), c[3] * dir[0])) * T::lit(0.690988298942671);
+    c[0].fma(T::lit(0.3989422804014327), t0)
+}
+
+/// `h4_eval:normalised`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are
+/// stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the horizon
+/// the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 12 (5 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = c[1].fnma(dir[1] * t0, c[2].fms(T::lit(2.0).fms(dir[2] * t0, T::lit(1.0)), c[3] * (dir[0] * t0)));
+    c[0].fma(T::lit(0.3989422804014327), t1 * T::lit(0.690988298942671))
+}
+
+/// `h4_eval:shared`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they are stored
+/// (Habel and Wimmer 2010). The normal need not be a unit: means of normals are to be given as they
+/// are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 7 (3 mul, 0 add, 4 fma); 3 constants, 2 live values.
+/// - Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval_shared<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = c[2].fma(T::lit(1.381976597885342).fms(dir[2], T::lit(0.690988298942671)), c[0].fms(T::lit(0.3989422804014327), c[1] * (T::lit(0.690988298942671) * dir[1])));
+    c[3].fnma(T::lit(0.690988298942671) * dir[0], t0)
+}
+
+/// [`h4_eval_shared`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h4_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    h4_eval_shared::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h4_eval:shared:normalised`: The sum of c_i H_i(dir) over H4, the H-basis, from coefficients as they
+/// are stored (Habel and Wimmer 2010). The normal is made a unit; a zero one stays zero. Below the
+/// horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 13 (6 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval_shared_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = c[2].fma(T::lit(1.381976597885342).fms(dir[2] * t0, T::lit(0.690988298942671)), c[0].fms(T::lit(0.3989422804014327), c[1] * (T::lit(0.690988298942671) * (dir[1] * t0))));
+    c[3].fnma(T::lit(0.690988298942671) * (dir[0] * t0), t1)
+}
+
+/// [`h4_eval_shared_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h4_eval_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    h4_eval_shared_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h4_to_monomial`: From coefficients of the H-basis to those of the monomials that `h4_eval_monomial`
+/// takes; done once, when they are stored.
+///
+/// - c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Returns the coefficients of 1, y, z, x.
+/// - Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+/// - Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_to_monomial<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0].fms(T::lit(0.3989422804014327), c[2] * T::lit(0.690988298942671)),
+        -(c[1] * T::lit(0.690988298942671)),
+        c[2] * T::lit(1.381976597885342),
+        -(c[3] * T::lit(0.690988298942671)),
+    ]
+}
+
+/// [`h4_to_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h4_to_monomial_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    h4_to_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `h4_eval_monomial`: The sum of the H-basis from the coefficients of monomials that `h4_to_monomial`
+/// or a conversion with `:monomial` makes. The normal need not be a unit: means of normals are to be
+/// given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the coefficients of 1, y, z, x.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 3.4e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    c[3].fma(dir[0], c[2].fma(dir[2], c[1].fma(dir[1], c[0])))
+}
+
+/// [`h4_eval_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h4_eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    h4_eval_monomial::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `h4_eval_monomial:normalised`: The sum of the H-basis from the coefficients of monomials that
+/// `h4_to_monomial` or a conversion with `:monomial` makes. The normal is made a unit; a zero one stays
+/// zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the coefficients of 1, y, z, x.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 9 (3 mul, 0 add, 6 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 1.4e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn h4_eval_monomial_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    c[3].fma(dir[0] * t0, c[2].fma(dir[2] * t0, c[1].fma(dir[1] * t0, c[0])))
+}
+
+/// [`h4_eval_monomial_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn h4_eval_monomial_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    h4_eval_monomial_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hl2_basis`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with (-1/sqrt6,
+/// -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart 2004; Habel
+/// and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal need not be a unit: means of
+/// normals are to be given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - Returns the values of the basis.
+/// - Operations: 5 (1 mul, 0 add, 4 fma); 4 constants, 3 live values.
+/// - Error: f32 rounding at most 1.4e-7 of one, for every dir of at most unit length (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_basis<T: Real>(dir: [T; 3]) -> [T; 3] {
+    let t0 = T::lit(0.3989422804014327) * dir[2];
+    let t1 = T::lit(0.28209479177387814).fnma(dir[0], t0);
+    [
+        T::lit(0.4886025119029199).fnma(dir[1], t1),
+        T::lit(0.4886025119029199).fma(dir[1], t1),
+        T::lit(0.5641895835477563).fma(dir[0], t0),
+    ]
+}
+
+/// `hl2_basis:normalised`: The Half-Life 2 basis at a normal: sqrt(3/2pi) times the cosines with
+/// (-1/sqrt6, -1/sqrt2, 1/sqrt3), (-1/sqrt6, 1/sqrt2, 1/sqrt3) and (sqrt(2/3), 0, 1/sqrt3) (McTaggart
+/// 2004; Habel and Wimmer 2010, eqs. 1 and 2). No cosine is clamped. The normal is made a unit; a zero
+/// one stays zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - Returns the values of the basis.
+/// - Operations: 11 (4 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
+///   values.
+/// - Error: f32 rounding at most 3.6e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
+///   worst of 256 measured, 1.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_basis_normalised<T: Real>(dir: [T; 3]) -> [T; 3] {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = T::lit(0.3989422804014327) * (dir[2] * t0);
+    let t2 = dir[0] * t0;
+    let t3 = T::lit(0.28209479177387814).fnma(t2, t1);
+    let t4 = dir[1] * t0;
+    [
+        T::lit(0.4886025119029199).fnma(t4, t3),
+        T::lit(0.4886025119029199).fma(t4, t3),
+        T::lit(0.5641895835477563).fma(t2, t1),
+    ]
+}
+
+/// `hl2_eval`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The normal need not
+/// be a unit: means of normals are to be given as they are. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the three coefficients of the Half-Life 2 basis.
+/// - Returns sum c_i b_i(dir).
+/// - Operations: 8 (2 mul, 0 add, 6 fma); 4 constants, 3 live values.
+/// - Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 3]) -> V {
+    let t0 = T::lit(0.3989422804014327) * dir[2];
+    let t1 = T::lit(0.28209479177387814).fnma(dir[0], t0);
+    let t2 = c[0].fma(T::lit(0.4886025119029199).fnma(dir[1], t1), c[1] * T::lit(0.4886025119029199).fma(dir[1], t1));
+    c[2].fma(T::lit(0.5641895835477563).fma(dir[0], t0), t2)
+}
+
+/// [`hl2_eval`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
+    hl2_eval::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hl2_eval:normalised`: The sum of c_i b_i(dir) over the Half-Life 2 basis (McTaggart 2004). The
+/// normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the three coefficients of the Half-Life 2 basis.
+/// - Returns sum c_i b_i(dir).
+/// - Operations: 14 (5 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
+///   values.
+/// - Error: f32 rounding at most 4.3e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 1.5e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_eval_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 3]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    let t1 = T::lit(0.3989422804014327) * (dir[2] * t0);
+    let t2 = dir[0] * t0;
+    let t3 = T::lit(0.28209479177387814).fnma(t2, t1);
+    let t4 = dir[1] * t0;
+    let t5 = c[0].fma(T::lit(0.4886025119029199).fnma(t4, t3), c[1] * T::lit(0.4886025119029199).fma(t4, t3));
+    c[2].fma(T::lit(0.5641895835477563).fma(t2, t1), t5)
+}
+
+/// [`hl2_eval_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_eval_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
+    hl2_eval_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hl2_to_h4`: From coefficients of the Half-Life 2 basis to those of the same function in H4: exact,
+/// since it is linear in the normal (Habel and Wimmer 2010).
+///
+/// - c: the three coefficients of the Half-Life 2 basis.
+/// - Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
+/// - Operations: 8 (4 mul, 3 add, 1 fma); 5 constants, 5 live values.
+/// - Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_to_h4_coefficients<T: Real, V: Signal<T>>(c: &[V; 3]) -> [V; 4] {
+    let t0 = c[0] + c[1];
+    let t1 = c[2] + t0;
+    [
+        t1 * T::lit(0.5),
+        (c[0] - c[1]) * T::lit(0.7071067811865476),
+        t1 * T::lit(0.28867513459481287),
+        t0.fms(T::lit(0.408248290463863), c[2] * T::lit(0.816496580927726)),
+    ]
+}
+
+/// [`hl2_to_h4_coefficients`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_to_h4_coefficients_rgb<T: Real>(c: &[[T; 3]; 3]) -> [[T; 3]; 4] {
+    hl2_to_h4_coefficients::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `hl2_to_vector`: From coefficients of the Half-Life 2 basis to the vector that `hl2_eval_vector`
+/// takes, the directional occlusion of engines; done once, when they are stored.
+///
+/// - c: the three coefficients of the Half-Life 2 basis.
+/// - Returns the vector whose scalar product with a normal is the irradiance.
+/// - Operations: 7 (3 mul, 3 add, 1 fma); 4 constants, 3 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.4e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_to_vector<T: Real, V: Signal<T>>(c: &[V; 3]) -> [V; 3] {
+    let t0 = c[0] + c[1];
+    [
+        c[2].fms(T::lit(0.5641895835477563), t0 * T::lit(0.28209479177387814)),
+        (c[1] - c[0]) * T::lit(0.4886025119029199),
+        (c[2] + t0) * T::lit(0.3989422804014327),
+    ]
+}
+
+/// [`hl2_to_vector`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_to_vector_rgb<T: Real>(c: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    hl2_to_vector::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `hl2_eval_vector`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes. The normal
+/// need not be a unit: means of normals are to be given as they are. Below the horizon the polynomials
+/// go on.
+///
+/// - dir: the normal, or a mean of unit normals, which is taken as it is.
+/// - c: the vector whose scalar product with a normal is the irradiance.
+/// - Returns sum c_i b_i(dir).
+/// - Operations: 3 (1 mul, 0 add, 2 fma); 0 constants, 1 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every dir of at most unit
+///   length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_eval_vector<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 3]) -> V {
+    c[2].fma(dir[2], c[0].fma(dir[0], c[1] * dir[1]))
+}
+
+/// [`hl2_eval_vector`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_eval_vector_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
+    hl2_eval_vector::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hl2_eval_vector:normalised`: The Half-Life 2 basis' sum from the vector that `hl2_to_vector` makes.
+/// The normal is made a unit; a zero one stays zero. Below the horizon the polynomials go on.
+///
+/// - dir: the normal, which is made a unit.
+/// - c: the vector whose scalar product with a normal is the irradiance.
+/// - Returns sum c_i b_i(dir).
+/// - Operations: 9 (4 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
+///   values.
+/// - Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
+///   0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hl2_eval_vector_normalised<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 3]) -> V {
+    let t0 = T::rsqrt(dir[2].fma(dir[2], dir[1].fma(dir[1], dir[0].fma(dir[0], T::TINY))));
+    c[2].fma(dir[2] * t0, c[0].fma(dir[0] * t0, c[1] * (dir[1] * t0)))
+}
+
+/// [`hl2_eval_vector_normalised`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hl2_eval_vector_normalised_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 3]) -> [T; 3] {
+    hl2_eval_vector_normalised::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `window:2`: Blurs a signal of order 2: band l times exp(-mu l (l+1)), the diffusion of heat on the
+/// sphere. It keeps what is positive so far up as the bands go.
+///
+/// - mu: how wide it is, not negative; 0 changes nothing.
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the windowed coefficients.
+/// - Operations: 4 (4 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 3 live values.
+/// - Error: f32 rounding at most 2.2e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
+///   256 measured, 7.1e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn window<T: Real, V: Signal<T>>(mu: T, c: &[V; 4]) -> [V; 4] {
+    let t0 = T::exp2(-(T::lit(2.8853900817779268) * mu));
+    [
+        c[0],
+        c[1] * t0,
+        c[2] * t0,
+        c[3] * t0,
+    ]
+}
+
+/// [`window`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn window_rgb<T: Real>(mu: T, c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    window::<T, Channels<T, 3>>(mu, &c.map(Channels)).map(|v| v.0)
+}
+
+/// `eval_geomerics`: Irradiance by the normal from the four coefficients of irradiance of one channel,
+/// as if of a light and an ambient (Geomerics 2015): never negative where band 0 is positive, and not
+/// linear in the coefficients. H4 from radiance of order 3 errs as little with as many numbers, by
+/// three operations.
+///
+/// - dir: the direction, of unit length.
+/// - c: the four coefficients of the irradiance of one channel, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 22 (9 mul, 1 add, 9 fma, 3 min, max or select) and 5 special (reciprocal, inverse
+///   square root, logarithm, power of two); 6 constants, 5 live values.
+/// - Error: f32 rounding at most 7.6e-7 of one, for dir of unit length, for c with each band of norm
+///   one (3 times the worst of 256 measured, 2.6e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn eval_geomerics<T: Real>(dir: [T; 3], c: &[T; 4]) -> T {
+    let t0 = c[2].fma(c[2], c[1].fma(c[1], c[3].fma(c[3], T::TINY)));
+    let t1 = T::rsqrt(t0);
+    let t2 = T::min(T::recip(T::max(c[0], T::TINY)) * (T::lit(0.8660254037844386) * (t0 * t1)), T::lit(1.0));
+    let t3 = T::max(T::lit(0.5).fma(t1 * dir[2].fms(c[2], dir[0].fma(c[3], dir[1] * c[1])), T::lit(0.5)), T::TINY);
+    let t4 = T::exp2(T::lit(2.0).fma(t2, T::lit(1.0)) * T::log2(t3)).fma(T::lit(4.0) * t2, T::lit(2.0).fms(T::recip(T::lit(1.0) + t2), T::lit(1.0)));
+    t4 * (T::lit(0.28209479177387814) * c[0])
+}
+
+/// `eval_zh3`: Irradiance by the normal from the four coefficients of irradiance of one channel, with a
+/// zonal band 2 about the direction of band 1 that is guessed of both (Roughton et al. 2024): not
+/// linear in the coefficients, and it may be negative.
+///
+/// - dir: the direction, of unit length.
+/// - c: the four coefficients of the irradiance of one channel, index l(l+1)+m.
+/// - Returns the irradiance.
+/// - Operations: 17 (6 mul, 0 add, 9 fma, 2 min, max or select) and 2 inverse square roots or
+///   reciprocals; 6 constants, 5 live values.
+/// - Error: f32 rounding at most 3.4e-7 of one, for dir of unit length, for c with each band of norm
+///   one (3 times the worst of 256 measured, 1.2e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn eval_zh3_hallucinated<T: Real>(dir: [T; 3], c: &[T; 4]) -> T {
+    let t0 = dir[2].fms(c[2], dir[0].fma(c[3], dir[1] * c[1]));
+    let t1 = c[2].fma(c[2], c[1].fma(c[1], c[3].fma(c[3], T::TINY)));
+    let t2 = T::rsqrt(t1);
+    let t3 = t1 * t2;
+    let t4 = T::lit(0.1064446532727255).fma(T::min(t3 * T::recip(T::max(c[0], T::TINY)), T::lit(1.1547005383792515)), T::lit(0.0094617469575756));
+    let t5 = t4.fma(T::lit(3.0).fms(t2 * (t0 * t0), t3), T::lit(0.28209479177387814).fma(c[0], T::lit(0.4886025119029199) * t0));
+    t5
+}
+
+/// `hsh_basis:2`: The hemispherical harmonics of order 2 at a direction (Gautron et al. 2004, without
+/// their singularity at the pole). A direction below the horizon gets what the horizon has: (-1)^l
+/// sqrt((2l+1)/(2 pi)) for m = 0, zero for the others.
+///
+/// - dir: the direction, of unit length; its z is taken as at least 1e-36.
+/// - Returns H_lm(dir), bands ascending, m from -l to l.
+/// - Operations: 7 (4 mul, 1 add, 1 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
+///   4 constants, 3 live values.
+/// - Error: f32 rounding at most 2.6e-7 of one, for dir of unit length (3 times the worst of 256
+///   measured, 8.4e-8; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_basis<T: Real>(dir: [T; 3]) -> [T; 4] {
+    let t0 = T::max(dir[2], T::lit(1e-36));
+    let t1 = T::lit(1.381976597885342) * t0;
+    let t2 = T::rsqrt(t0.fma(t0, t0)) * t1;
+    [
+        T::lit(0.3989422804014327),
+        -(dir[1] * t2),
+        t1 - T::lit(0.690988298942671),
+        -(dir[0] * t2),
+    ]
+}
+
+/// `hsh_eval:2`: The sum of c_i H_i(dir) over the hemispherical harmonics of order 2, without storing
+/// them. A direction below the horizon gets what the horizon has: (-1)^l sqrt((2l+1)/(2 pi)) for m = 0,
+/// zero for the others.
+///
+/// - dir: the direction, of unit length; its z is taken as at least 1e-36.
+/// - c: the hemispherical coefficients, index l(l+1)+m.
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 11 (5 mul, 1 add, 4 fma, 1 min, max or select) and 1 inverse square root or
+///   reciprocal; 4 constants, 3 live values.
+/// - Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_eval<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = T::max(dir[2], T::lit(1e-36));
+    let t1 = T::lit(1.381976597885342) * t0;
+    let t2 = T::rsqrt(t0.fma(t0, t0)) * t1;
+    let t3 = c[3].fnma(dir[0] * t2, c[0].fma(T::lit(0.3989422804014327), c[2] * (t1 - T::lit(0.690988298942671))));
+    c[1].fnma(dir[1] * t2, t3)
+}
+
+/// [`hsh_eval`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hsh_eval_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    hsh_eval::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hsh_eval_monomial:2`: The sum of c_i H_i(dir) over the hemispherical harmonics of order 2, from the
+/// coefficients that `hsh_to_monomial:2` makes. A direction below the horizon gets what the horizon
+/// has: (-1)^l sqrt((2l+1)/(2 pi)) for m = 0, zero for the others. The error in f32 doubles with each
+/// order: from order 7 on `hsh_eval:2` is the more exact.
+///
+/// - dir: the direction, of unit length; its z is taken as at least 1e-36.
+/// - c: the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
+///   times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
+/// - Returns sum c_i H_i(dir).
+/// - Operations: 8 (3 mul, 0 add, 4 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
+///   1 constants, 3 live values.
+/// - Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
+///   of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_eval_monomial<T: Real, V: Signal<T>>(dir: [T; 3], c: &[V; 4]) -> V {
+    let t0 = T::max(dir[2], T::lit(1e-36));
+    let t1 = t0 * T::rsqrt(t0.fma(t0, t0));
+    c[3].fma(t0, c[2].fma(dir[0] * t1, c[1].fma(dir[1] * t1, c[0])))
+}
+
+/// [`hsh_eval_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hsh_eval_monomial_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [T; 3] {
+    hsh_eval_monomial::<T, Channels<T, 3>>(dir, &c.map(Channels)).0
+}
+
+/// `hsh_to_monomial:2`: From hemispherical coefficients of order 2 to those of the monomials that
+/// `hsh_eval_monomial:2` takes; done once, when they are stored.
+///
+/// - c: the hemispherical coefficients, index l(l+1)+m.
+/// - Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then
+///   z times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
+/// - Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+/// - Error: f32 rounding at most 1.5e-7 of the norm of a band, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_to_monomial<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0].fms(T::lit(0.3989422804014327), c[2] * T::lit(0.690988298942671)),
+        -(c[1] * T::lit(1.381976597885342)),
+        -(c[3] * T::lit(1.381976597885342)),
+        c[2] * T::lit(1.381976597885342),
+    ]
+}
+
+/// [`hsh_to_monomial`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hsh_to_monomial_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    hsh_to_monomial::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh_to_hsh:2`: From spherical harmonics of order 2 to hemispherical ones of order 2: the function
+/// above the horizon, projected (C of Gautron et al. 2004, eq. 18, corrected).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the hemispherical coefficients, index l(l+1)+m.
+/// - Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+/// - Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 6.3e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn sh_to_hsh<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)),
+        c[1] * T::lit(0.6738716048422406),
+        c[2] * T::lit(0.3535533905932738),
+        c[3] * T::lit(0.6738716048422406),
+    ]
+}
+
+/// [`sh_to_hsh`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn sh_to_hsh_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    sh_to_hsh::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `sh_to_hsh:4+2`: From spherical harmonics of order 4 to hemispherical ones of order 2: the function
+/// above the horizon, projected (C of Gautron et al. 2004, eq. 18, corrected).
+///
+/// - c: the coefficients, index l(l+1)+m.
+/// - Returns the hemispherical coefficients, index l(l+1)+m.
+/// - Operations: 12 (4 mul, 0 add, 8 fma); 9 constants, 4 live values.
+/// - Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn of_order_4_sh_to_hsh<T: Real, V: Signal<T>>(c: &[V; 16]) -> [V; 4] {
+    let t0 = c[12].fnma(T::lit(0.23385358667337133), c[0].fma(T::lit(0.7071067811865476), c[2] * T::lit(0.6123724356957945)));
+    let t1 = c[11].fma(T::lit(0.17408936733040942), c[1].fma(T::lit(0.6738716048422406), c[5] * T::lit(0.6745163468772079)));
+    let t2 = c[12].fma(T::lit(0.4050462936504913), c[2].fma(T::lit(0.3535533905932738), c[6] * T::lit(0.6846531968814576)));
+    let t3 = c[13].fma(T::lit(0.17408936733040942), c[3].fma(T::lit(0.6738716048422406), c[7] * T::lit(0.6745163468772079)));
+    [
+        t0,
+        t1,
+        t2,
+        t3,
+    ]
+}
+
+/// [`of_order_4_sh_to_hsh`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn of_order_4_sh_to_hsh_rgb<T: Real>(c: &[[T; 3]; 16]) -> [[T; 3]; 4] {
+    of_order_4_sh_to_hsh::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `hsh_to_sh:2`: From hemispherical harmonics of order 2 to spherical ones of order 2, of a function
+/// that is zero below the horizon: the transpose of `sh_to_hsh`. `hsh_extend` is for one that goes on.
+///
+/// - c: the hemispherical coefficients, index l(l+1)+m.
+/// - Returns the spherical coefficients, index l(l+1)+m.
+/// - Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+/// - Error: f32 rounding at most 1.2e-7 of the norm of the coefficients, for every input (proven for
+///   IEEE arithmetic, contracted or not; the worst of 256 measured is 5.6e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_to_sh<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0] * T::lit(0.7071067811865476),
+        c[1] * T::lit(0.6738716048422406),
+        c[0].fma(T::lit(0.6123724356957945), c[2] * T::lit(0.3535533905932738)),
+        c[3] * T::lit(0.6738716048422406),
+    ]
+}
+
+/// [`hsh_to_sh`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hsh_to_sh_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    hsh_to_sh::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
+}
+
+/// `hsh_extend:2`: From hemispherical harmonics of order 2 to spherical ones of order 2, of a function
+/// that goes on below the horizon: the best linear extension where the power of a coefficient falls off
+/// as (1+l)^-1.6, as that of radiance does. `hsh_to_sh` is for one that is zero there.
+///
+/// - c: the hemispherical coefficients, index l(l+1)+m.
+/// - Returns the spherical coefficients, index l(l+1)+m.
+/// - Operations: 6 (4 mul, 0 add, 2 fma); 5 constants, 4 live values.
+/// - Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
+///   arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
+#[allow(clippy::all, clippy::excessive_precision)]
+#[inline(always)]
+pub fn hsh_extend<T: Real, V: Signal<T>>(c: &[V; 4]) -> [V; 4] {
+    [
+        c[0].fms(T::lit(1.1586129359642698), c[2] * T::lit(0.44868257855845095)),
+        c[1] * T::lit(0.9422953694259165),
+        c[0].fma(T::lit(0.25698965216586916), c[2] * T::lit(0.6835825753657494)),
+        c[3] * T::lit(0.9422953694259165),
+    ]
+}
+
+/// [`hsh_extend`] of three channels that share the parameters, as plain arrays.
+#[inline(always)]
+pub fn hsh_extend_rgb<T: Real>(c: &[[T; 3]; 4]) -> [[T; 3]; 4] {
+    hsh_extend::<T, Channels<T, 3>>(&c.map(Channels)).map(|v| v.0)
 }
 

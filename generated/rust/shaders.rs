@@ -34,6 +34,7 @@ pub mod sh2 {
             ("basis:2:loop", "sh2_basis_loop"),
             ("eval:2", "sh2_eval"),
             ("eval:2:rgb", "sh2_eval_rgb"),
+            ("eval:2:once", "sh2_eval_once"),
             ("eval_monomial:2", "sh2_eval_monomial"),
             ("eval_monomial:2:rgb", "sh2_eval_monomial_rgb"),
             ("to_monomial:2", "sh2_to_monomial"),
@@ -168,8 +169,8 @@ pub mod sh2 {
             ("convolve:2:rgb", "sh2_convolve_rgb"),
             ("convolve_cosine:2", "sh2_convolve_cosine"),
             ("convolve_cosine:2:rgb", "sh2_convolve_cosine_rgb"),
-            ("irradiance:2", "sh2_irradiance"),
             ("irradiance:2:rgb", "sh2_irradiance_rgb"),
+            ("irradiance:2", "sh2_irradiance"),
             ("light_directional:2", "sh2_light_directional"),
             ("light_directional:2:rgb", "sh2_light_directional_rgb"),
             ("light_sphere:2", "sh2_light_sphere"),
@@ -227,6 +228,75 @@ pub mod sh2 {
             ("axis_angles:2", "sh2_axis_angles"),
         ],
     };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 2,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh2_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh2_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:2", "sh2_to_irradiance"),
+            ("to_irradiance:2:rgb", "sh2_to_irradiance_rgb"),
+            ("irradiance_prepared:2", "sh2_irradiance_prepared"),
+            ("irradiance_prepared:2:rgb", "sh2_irradiance_prepared_rgb"),
+            ("h4_basis", "h4_basis"),
+            ("h4_basis:normalised", "h4_basis_normalised"),
+            ("h4_eval", "h4_eval"),
+            ("h4_eval:normalised", "h4_eval_normalised"),
+            ("h4_eval:rgb", "h4_eval_rgb"),
+            ("h4_eval:normalised:rgb", "h4_eval_normalised_rgb"),
+            ("h4_to_monomial", "h4_to_monomial"),
+            ("h4_to_monomial:rgb", "h4_to_monomial_rgb"),
+            ("h4_eval_monomial", "h4_eval_monomial"),
+            ("h4_eval_monomial:rgb", "h4_eval_monomial_rgb"),
+            ("h4_eval_monomial:normalised", "h4_eval_monomial_normalised"),
+            ("h4_eval_monomial:normalised:rgb", "h4_eval_monomial_normalised_rgb"),
+            ("hl2_basis", "hl2_basis"),
+            ("hl2_basis:normalised", "hl2_basis_normalised"),
+            ("hl2_eval", "hl2_eval"),
+            ("hl2_eval:rgb", "hl2_eval_rgb"),
+            ("hl2_eval:normalised", "hl2_eval_normalised"),
+            ("hl2_eval:normalised:rgb", "hl2_eval_normalised_rgb"),
+            ("hl2_to_h4", "hl2_to_h4_coefficients"),
+            ("hl2_to_h4:rgb", "hl2_to_h4_coefficients_rgb"),
+            ("hl2_to_vector", "hl2_to_vector"),
+            ("hl2_to_vector:rgb", "hl2_to_vector_rgb"),
+            ("hl2_eval_vector", "hl2_eval_vector"),
+            ("hl2_eval_vector:rgb", "hl2_eval_vector_rgb"),
+            ("hl2_eval_vector:normalised", "hl2_eval_vector_normalised"),
+            ("hl2_eval_vector:normalised:rgb", "hl2_eval_vector_normalised_rgb"),
+            ("window:2", "sh2_window"),
+            ("window:2:rgb", "sh2_window_rgb"),
+            ("eval_geomerics", "eval_geomerics"),
+            ("eval_zh3", "eval_zh3_hallucinated"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 2,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh2_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh2_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:2", "sh2_hsh_basis"),
+            ("hsh_eval:2", "sh2_hsh_eval"),
+            ("hsh_eval:2:rgb", "sh2_hsh_eval_rgb"),
+            ("hsh_eval_monomial:2", "sh2_hsh_eval_monomial"),
+            ("hsh_eval_monomial:2:rgb", "sh2_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:2", "sh2_hsh_to_monomial"),
+            ("hsh_to_monomial:2:rgb", "sh2_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:2", "sh2_sh_to_hsh"),
+            ("sh_to_hsh:2:rgb", "sh2_sh_to_hsh_rgb"),
+            ("sh_to_hsh:4+2", "sh2_of_order_4_sh_to_hsh"),
+            ("sh_to_hsh:4+2:rgb", "sh2_of_order_4_sh_to_hsh_rgb"),
+            ("hsh_to_sh:2", "sh2_hsh_to_sh"),
+            ("hsh_to_sh:2:rgb", "sh2_hsh_to_sh_rgb"),
+            ("hsh_extend:2", "sh2_hsh_extend"),
+            ("hsh_extend:2:rgb", "sh2_hsh_extend_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 3: bands 0 to 2, 9 coefficients.
@@ -245,6 +315,7 @@ pub mod sh3 {
             ("basis:3:loop", "sh3_basis_loop"),
             ("eval:3", "sh3_eval"),
             ("eval:3:rgb", "sh3_eval_rgb"),
+            ("eval:3:once", "sh3_eval_once"),
             ("eval_monomial:3", "sh3_eval_monomial"),
             ("eval_monomial:3:rgb", "sh3_eval_monomial_rgb"),
             ("to_monomial:3", "sh3_to_monomial"),
@@ -382,8 +453,8 @@ pub mod sh3 {
             ("convolve:3:rgb", "sh3_convolve_rgb"),
             ("convolve_cosine:3", "sh3_convolve_cosine"),
             ("convolve_cosine:3:rgb", "sh3_convolve_cosine_rgb"),
-            ("irradiance:3", "sh3_irradiance"),
             ("irradiance:3:rgb", "sh3_irradiance_rgb"),
+            ("irradiance:3", "sh3_irradiance"),
             ("light_directional:3", "sh3_light_directional"),
             ("light_directional:3:rgb", "sh3_light_directional_rgb"),
             ("light_sphere:3", "sh3_light_sphere"),
@@ -441,6 +512,119 @@ pub mod sh3 {
             ("product_hemisphere_about:3:angles", "sh3_product_hemisphere_about_angles"),
             ("product_hemisphere_about:3:angles:rgb", "sh3_product_hemisphere_about_angles_rgb"),
             ("axis_angles:3", "sh3_axis_angles"),
+        ],
+    };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 3,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh3_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh3_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:3", "sh3_to_irradiance"),
+            ("to_irradiance:3:rgb", "sh3_to_irradiance_rgb"),
+            ("irradiance_prepared:3", "sh3_irradiance_prepared"),
+            ("irradiance_prepared:3:rgb", "sh3_irradiance_prepared_rgb"),
+            ("h6_basis", "h6_basis"),
+            ("h6_basis:normalised", "h6_basis_normalised"),
+            ("h6_eval", "h6_eval"),
+            ("h6_eval:normalised", "h6_eval_normalised"),
+            ("h6_eval:rgb", "h6_eval_rgb"),
+            ("h6_eval:normalised:rgb", "h6_eval_normalised_rgb"),
+            ("h6_to_monomial", "h6_to_monomial"),
+            ("h6_to_monomial:rgb", "h6_to_monomial_rgb"),
+            ("h6_eval_monomial", "h6_eval_monomial"),
+            ("h6_eval_monomial:normalised", "h6_eval_monomial_normalised"),
+            ("h6_eval_monomial:rgb", "h6_eval_monomial_rgb"),
+            ("h6_eval_monomial:normalised:rgb", "h6_eval_monomial_normalised_rgb"),
+            ("sh3_to_h4", "sh3_to_h4_coefficients"),
+            ("sh3_to_h4:rgb", "sh3_to_h4_coefficients_rgb"),
+            ("sh3_to_h4:monomial", "sh3_to_h4_coefficients_monomial"),
+            ("sh3_to_h4:monomial:rgb", "sh3_to_h4_coefficients_monomial_rgb"),
+            ("sh3_to_h4:irradiance", "sh3_to_h4_coefficients_irradiance"),
+            ("sh3_to_h4:irradiance:rgb", "sh3_to_h4_coefficients_irradiance_rgb"),
+            ("sh3_to_h4:irradiance:monomial", "sh3_to_h4_coefficients_irradiance_monomial"),
+            ("sh3_to_h4:irradiance:monomial:rgb", "sh3_to_h4_coefficients_irradiance_monomial_rgb"),
+            ("sh3_to_h6", "sh3_to_h6_coefficients"),
+            ("sh3_to_h6:rgb", "sh3_to_h6_coefficients_rgb"),
+            ("sh3_to_h6:monomial", "sh3_to_h6_coefficients_monomial"),
+            ("sh3_to_h6:monomial:rgb", "sh3_to_h6_coefficients_monomial_rgb"),
+            ("sh3_to_h6:irradiance", "sh3_to_h6_coefficients_irradiance"),
+            ("sh3_to_h6:irradiance:rgb", "sh3_to_h6_coefficients_irradiance_rgb"),
+            ("sh3_to_h6:irradiance:monomial", "sh3_to_h6_coefficients_irradiance_monomial"),
+            ("sh3_to_h6:irradiance:monomial:rgb", "sh3_to_h6_coefficients_irradiance_monomial_rgb"),
+            ("sh3_to_hl2", "sh3_to_hl2_coefficients"),
+            ("sh3_to_hl2:rgb", "sh3_to_hl2_coefficients_rgb"),
+            ("sh3_to_hl2:irradiance", "sh3_to_hl2_coefficients_irradiance"),
+            ("sh3_to_hl2:irradiance:rgb", "sh3_to_hl2_coefficients_irradiance_rgb"),
+            ("minimum:3", "sh3_minimum"),
+            ("lerp_to_dc:3", "sh3_lerp_to_dc"),
+            ("window:3", "sh3_window"),
+            ("window:3:rgb", "sh3_window_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 3,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh3_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh3_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:3", "sh3_hsh_basis"),
+            ("hsh_eval:3", "sh3_hsh_eval"),
+            ("hsh_eval:3:rgb", "sh3_hsh_eval_rgb"),
+            ("hsh_eval_monomial:3", "sh3_hsh_eval_monomial"),
+            ("hsh_eval_monomial:3:rgb", "sh3_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:3", "sh3_hsh_to_monomial"),
+            ("hsh_to_monomial:3:rgb", "sh3_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:3", "sh3_sh_to_hsh"),
+            ("sh_to_hsh:3:rgb", "sh3_sh_to_hsh_rgb"),
+            ("sh_to_hsh:5+3", "sh3_of_order_5_sh_to_hsh"),
+            ("sh_to_hsh:5+3:rgb", "sh3_of_order_5_sh_to_hsh_rgb"),
+            ("hsh_to_sh:3", "sh3_hsh_to_sh"),
+            ("hsh_to_sh:3:rgb", "sh3_hsh_to_sh_rgb"),
+            ("hsh_extend:3", "sh3_hsh_extend"),
+            ("hsh_extend:3:rgb", "sh3_hsh_extend_rgb"),
+            ("hsh_y_lobe:3", "sh3_hsh_y_lobe"),
+            ("hsh_y_lobe:3:rgb", "sh3_hsh_y_lobe_rgb"),
+            ("hsh_y_lobe:3:sh", "sh3_hsh_y_lobe_sh"),
+            ("hsh_y_lobe:3:sh:rgb", "sh3_hsh_y_lobe_sh_rgb"),
+            ("hsh_y_lobe:3:eq13", "sh3_hsh_y_lobe_eq13"),
+            ("hsh_y_lobe:3:eq13:rgb", "sh3_hsh_y_lobe_eq13_rgb"),
+            ("hsh_y_record:3", "sh3_hsh_y_record"),
+            ("hsh_y_record:3:rgb", "sh3_hsh_y_record_rgb"),
+            ("hsh_y_record:3:sh", "sh3_hsh_y_record_sh"),
+            ("hsh_y_record:3:sh:rgb", "sh3_hsh_y_record_sh_rgb"),
+            ("hsh_y_record:3:eq13", "sh3_hsh_y_record_eq13"),
+            ("hsh_y_record:3:eq13:rgb", "sh3_hsh_y_record_eq13_rgb"),
+            ("hsh_tilt_lobe:3", "sh3_hsh_tilt_lobe"),
+            ("hsh_tilt_lobe:3:rgb", "sh3_hsh_tilt_lobe_rgb"),
+            ("hsh_tilt_lobe:3:sh", "sh3_hsh_tilt_lobe_sh"),
+            ("hsh_tilt_lobe:3:sh:rgb", "sh3_hsh_tilt_lobe_sh_rgb"),
+            ("hsh_tilt_lobe:3:eq13", "sh3_hsh_tilt_lobe_eq13"),
+            ("hsh_tilt_lobe:3:eq13:rgb", "sh3_hsh_tilt_lobe_eq13_rgb"),
+            ("hsh_tilt_record:3", "sh3_hsh_tilt_record"),
+            ("hsh_tilt_record:3:rgb", "sh3_hsh_tilt_record_rgb"),
+            ("hsh_tilt_record:3:sh", "sh3_hsh_tilt_record_sh"),
+            ("hsh_tilt_record:3:sh:rgb", "sh3_hsh_tilt_record_sh_rgb"),
+            ("hsh_tilt_record:3:eq13", "sh3_hsh_tilt_record_eq13"),
+            ("hsh_tilt_record:3:eq13:rgb", "sh3_hsh_tilt_record_eq13_rgb"),
+            ("hsh_rotate_lobe:3", "sh3_hsh_rotate_lobe"),
+            ("hsh_rotate_lobe:3:rgb", "sh3_hsh_rotate_lobe_rgb"),
+            ("hsh_rotate_lobe:3:sh", "sh3_hsh_rotate_lobe_sh"),
+            ("hsh_rotate_lobe:3:sh:rgb", "sh3_hsh_rotate_lobe_sh_rgb"),
+            ("hsh_rotate_lobe:3:eq13", "sh3_hsh_rotate_lobe_eq13"),
+            ("hsh_rotate_lobe:3:eq13:rgb", "sh3_hsh_rotate_lobe_eq13_rgb"),
+            ("hsh_rotate_record:3", "sh3_hsh_rotate_record"),
+            ("hsh_rotate_record:3:rgb", "sh3_hsh_rotate_record_rgb"),
+            ("hsh_rotate_record:3:sh", "sh3_hsh_rotate_record_sh"),
+            ("hsh_rotate_record:3:sh:rgb", "sh3_hsh_rotate_record_sh_rgb"),
+            ("hsh_rotate_record:3:eq13", "sh3_hsh_rotate_record_eq13"),
+            ("hsh_rotate_record:3:eq13:rgb", "sh3_hsh_rotate_record_eq13_rgb"),
+            ("hsh_rotate_table:3", "sh3_hsh_rotate_table"),
+            ("hsh_rotate_table:3:rgb", "sh3_hsh_rotate_table_rgb"),
         ],
     };
 }
@@ -608,8 +792,8 @@ pub mod sh4 {
             ("convolve:4:rgb", "sh4_convolve_rgb"),
             ("convolve_cosine:4", "sh4_convolve_cosine"),
             ("convolve_cosine:4:rgb", "sh4_convolve_cosine_rgb"),
-            ("irradiance:4", "sh4_irradiance"),
             ("irradiance:4:rgb", "sh4_irradiance_rgb"),
+            ("irradiance:4", "sh4_irradiance"),
             ("light_directional:4", "sh4_light_directional"),
             ("light_directional:4:rgb", "sh4_light_directional_rgb"),
             ("light_sphere:4", "sh4_light_sphere"),
@@ -667,6 +851,65 @@ pub mod sh4 {
             ("product_hemisphere_about:4:angles", "sh4_product_hemisphere_about_angles"),
             ("product_hemisphere_about:4:angles:rgb", "sh4_product_hemisphere_about_angles_rgb"),
             ("axis_angles:4", "sh4_axis_angles"),
+        ],
+    };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 4,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh4_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh4_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:4", "sh4_to_irradiance"),
+            ("to_irradiance:4:rgb", "sh4_to_irradiance_rgb"),
+            ("irradiance_prepared:4", "sh4_irradiance_prepared"),
+            ("irradiance_prepared:4:rgb", "sh4_irradiance_prepared_rgb"),
+            ("window:4", "sh4_window"),
+            ("window:4:rgb", "sh4_window_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 4,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh4_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh4_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:4", "sh4_hsh_basis"),
+            ("hsh_eval:4", "sh4_hsh_eval"),
+            ("hsh_eval:4:rgb", "sh4_hsh_eval_rgb"),
+            ("hsh_eval_monomial:4", "sh4_hsh_eval_monomial"),
+            ("hsh_eval_monomial:4:rgb", "sh4_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:4", "sh4_hsh_to_monomial"),
+            ("hsh_to_monomial:4:rgb", "sh4_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:4", "sh4_sh_to_hsh"),
+            ("sh_to_hsh:4:rgb", "sh4_sh_to_hsh_rgb"),
+            ("sh_to_hsh:6+4", "sh4_of_order_6_sh_to_hsh"),
+            ("sh_to_hsh:6+4:rgb", "sh4_of_order_6_sh_to_hsh_rgb"),
+            ("hsh_to_sh:4", "sh4_hsh_to_sh"),
+            ("hsh_to_sh:4:rgb", "sh4_hsh_to_sh_rgb"),
+            ("hsh_to_sh:2+4", "sh4_of_order_2_hsh_to_sh"),
+            ("hsh_to_sh:2+4:rgb", "sh4_of_order_2_hsh_to_sh_rgb"),
+            ("hsh_extend:4", "sh4_hsh_extend"),
+            ("hsh_extend:4:rgb", "sh4_hsh_extend_rgb"),
+            ("hsh_extend:2+4", "sh4_of_order_2_hsh_extend"),
+            ("hsh_extend:2+4:rgb", "sh4_of_order_2_hsh_extend_rgb"),
+            ("hsh_y_lobe:4", "sh4_hsh_y_lobe"),
+            ("hsh_y_lobe:4:rgb", "sh4_hsh_y_lobe_rgb"),
+            ("hsh_y_record:4", "sh4_hsh_y_record"),
+            ("hsh_y_record:4:rgb", "sh4_hsh_y_record_rgb"),
+            ("hsh_tilt_lobe:4", "sh4_hsh_tilt_lobe"),
+            ("hsh_tilt_lobe:4:rgb", "sh4_hsh_tilt_lobe_rgb"),
+            ("hsh_tilt_record:4", "sh4_hsh_tilt_record"),
+            ("hsh_tilt_record:4:rgb", "sh4_hsh_tilt_record_rgb"),
+            ("hsh_rotate_lobe:4", "sh4_hsh_rotate_lobe"),
+            ("hsh_rotate_lobe:4:rgb", "sh4_hsh_rotate_lobe_rgb"),
+            ("hsh_rotate_record:4", "sh4_hsh_rotate_record"),
+            ("hsh_rotate_record:4:rgb", "sh4_hsh_rotate_record_rgb"),
+            ("hsh_rotate_table:4", "sh4_hsh_rotate_table"),
+            ("hsh_rotate_table:4:rgb", "sh4_hsh_rotate_table_rgb"),
         ],
     };
 }
@@ -886,6 +1129,79 @@ pub mod sh5 {
             ("axis_angles:5", "sh5_axis_angles"),
         ],
     };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 5,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh5_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh5_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:5", "sh5_to_irradiance"),
+            ("to_irradiance:5:rgb", "sh5_to_irradiance_rgb"),
+            ("irradiance_prepared:5", "sh5_irradiance_prepared"),
+            ("irradiance_prepared:5:rgb", "sh5_irradiance_prepared_rgb"),
+            ("sh5_to_h4", "sh5_to_h4_coefficients"),
+            ("sh5_to_h4:rgb", "sh5_to_h4_coefficients_rgb"),
+            ("sh5_to_h4:monomial", "sh5_to_h4_coefficients_monomial"),
+            ("sh5_to_h4:monomial:rgb", "sh5_to_h4_coefficients_monomial_rgb"),
+            ("sh5_to_h4:irradiance", "sh5_to_h4_coefficients_irradiance"),
+            ("sh5_to_h4:irradiance:rgb", "sh5_to_h4_coefficients_irradiance_rgb"),
+            ("sh5_to_h4:irradiance:monomial", "sh5_to_h4_coefficients_irradiance_monomial"),
+            ("sh5_to_h4:irradiance:monomial:rgb", "sh5_to_h4_coefficients_irradiance_monomial_rgb"),
+            ("sh5_to_h6", "sh5_to_h6_coefficients"),
+            ("sh5_to_h6:rgb", "sh5_to_h6_coefficients_rgb"),
+            ("sh5_to_h6:monomial", "sh5_to_h6_coefficients_monomial"),
+            ("sh5_to_h6:monomial:rgb", "sh5_to_h6_coefficients_monomial_rgb"),
+            ("sh5_to_h6:irradiance", "sh5_to_h6_coefficients_irradiance"),
+            ("sh5_to_h6:irradiance:rgb", "sh5_to_h6_coefficients_irradiance_rgb"),
+            ("sh5_to_h6:irradiance:monomial", "sh5_to_h6_coefficients_irradiance_monomial"),
+            ("sh5_to_h6:irradiance:monomial:rgb", "sh5_to_h6_coefficients_irradiance_monomial_rgb"),
+            ("window:5", "sh5_window"),
+            ("window:5:rgb", "sh5_window_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 5,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh5_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh5_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:5", "sh5_hsh_basis"),
+            ("hsh_eval:5", "sh5_hsh_eval"),
+            ("hsh_eval:5:rgb", "sh5_hsh_eval_rgb"),
+            ("hsh_eval_monomial:5", "sh5_hsh_eval_monomial"),
+            ("hsh_eval_monomial:5:rgb", "sh5_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:5", "sh5_hsh_to_monomial"),
+            ("hsh_to_monomial:5:rgb", "sh5_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:5", "sh5_sh_to_hsh"),
+            ("sh_to_hsh:5:rgb", "sh5_sh_to_hsh_rgb"),
+            ("sh_to_hsh:7+5", "sh5_of_order_7_sh_to_hsh"),
+            ("sh_to_hsh:7+5:rgb", "sh5_of_order_7_sh_to_hsh_rgb"),
+            ("hsh_to_sh:5", "sh5_hsh_to_sh"),
+            ("hsh_to_sh:5:rgb", "sh5_hsh_to_sh_rgb"),
+            ("hsh_to_sh:3+5", "sh5_of_order_3_hsh_to_sh"),
+            ("hsh_to_sh:3+5:rgb", "sh5_of_order_3_hsh_to_sh_rgb"),
+            ("hsh_extend:5", "sh5_hsh_extend"),
+            ("hsh_extend:5:rgb", "sh5_hsh_extend_rgb"),
+            ("hsh_extend:3+5", "sh5_of_order_3_hsh_extend"),
+            ("hsh_extend:3+5:rgb", "sh5_of_order_3_hsh_extend_rgb"),
+            ("hsh_y_lobe:5", "sh5_hsh_y_lobe"),
+            ("hsh_y_lobe:5:rgb", "sh5_hsh_y_lobe_rgb"),
+            ("hsh_y_record:5", "sh5_hsh_y_record"),
+            ("hsh_y_record:5:rgb", "sh5_hsh_y_record_rgb"),
+            ("hsh_tilt_lobe:5", "sh5_hsh_tilt_lobe"),
+            ("hsh_tilt_lobe:5:rgb", "sh5_hsh_tilt_lobe_rgb"),
+            ("hsh_tilt_record:5", "sh5_hsh_tilt_record"),
+            ("hsh_tilt_record:5:rgb", "sh5_hsh_tilt_record_rgb"),
+            ("hsh_rotate_lobe:5", "sh5_hsh_rotate_lobe"),
+            ("hsh_rotate_lobe:5:rgb", "sh5_hsh_rotate_lobe_rgb"),
+            ("hsh_rotate_record:5", "sh5_hsh_rotate_record"),
+            ("hsh_rotate_record:5:rgb", "sh5_hsh_rotate_record_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 6: bands 0 to 5, 36 coefficients.
@@ -1096,6 +1412,63 @@ pub mod sh6 {
             ("axis_angles:6", "sh6_axis_angles"),
         ],
     };
+
+    /// Irradiance, its bases on the upper hemisphere, what keeps it from ringing.
+    pub const IRRADIANCES: Shaders = Shaders {
+        order: 6,
+        group: "irradiances",
+        wgsl: include_str!("../wgsl/sh6_irradiances.wgsl"),
+        glsl: include_str!("../glsl/sh6_irradiances.glsl"),
+        kernels: &[
+            ("to_irradiance:6", "sh6_to_irradiance"),
+            ("to_irradiance:6:rgb", "sh6_to_irradiance_rgb"),
+            ("irradiance_prepared:6", "sh6_irradiance_prepared"),
+            ("irradiance_prepared:6:rgb", "sh6_irradiance_prepared_rgb"),
+            ("window:6", "sh6_window"),
+            ("window:6:rgb", "sh6_window_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 6,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh6_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh6_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:6", "sh6_hsh_basis"),
+            ("hsh_eval:6", "sh6_hsh_eval"),
+            ("hsh_eval:6:rgb", "sh6_hsh_eval_rgb"),
+            ("hsh_eval_monomial:6", "sh6_hsh_eval_monomial"),
+            ("hsh_eval_monomial:6:rgb", "sh6_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:6", "sh6_hsh_to_monomial"),
+            ("hsh_to_monomial:6:rgb", "sh6_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:6", "sh6_sh_to_hsh"),
+            ("sh_to_hsh:6:rgb", "sh6_sh_to_hsh_rgb"),
+            ("sh_to_hsh:8+6", "sh6_of_order_8_sh_to_hsh"),
+            ("sh_to_hsh:8+6:rgb", "sh6_of_order_8_sh_to_hsh_rgb"),
+            ("hsh_to_sh:6", "sh6_hsh_to_sh"),
+            ("hsh_to_sh:6:rgb", "sh6_hsh_to_sh_rgb"),
+            ("hsh_to_sh:4+6", "sh6_of_order_4_hsh_to_sh"),
+            ("hsh_to_sh:4+6:rgb", "sh6_of_order_4_hsh_to_sh_rgb"),
+            ("hsh_extend:6", "sh6_hsh_extend"),
+            ("hsh_extend:6:rgb", "sh6_hsh_extend_rgb"),
+            ("hsh_extend:4+6", "sh6_of_order_4_hsh_extend"),
+            ("hsh_extend:4+6:rgb", "sh6_of_order_4_hsh_extend_rgb"),
+            ("hsh_y_lobe:6", "sh6_hsh_y_lobe"),
+            ("hsh_y_lobe:6:rgb", "sh6_hsh_y_lobe_rgb"),
+            ("hsh_y_record:6", "sh6_hsh_y_record"),
+            ("hsh_y_record:6:rgb", "sh6_hsh_y_record_rgb"),
+            ("hsh_tilt_lobe:6", "sh6_hsh_tilt_lobe"),
+            ("hsh_tilt_lobe:6:rgb", "sh6_hsh_tilt_lobe_rgb"),
+            ("hsh_tilt_record:6", "sh6_hsh_tilt_record"),
+            ("hsh_tilt_record:6:rgb", "sh6_hsh_tilt_record_rgb"),
+            ("hsh_rotate_lobe:6", "sh6_hsh_rotate_lobe"),
+            ("hsh_rotate_lobe:6:rgb", "sh6_hsh_rotate_lobe_rgb"),
+            ("hsh_rotate_record:6", "sh6_hsh_rotate_record"),
+            ("hsh_rotate_record:6:rgb", "sh6_hsh_rotate_record_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 7: bands 0 to 6, 49 coefficients.
@@ -1254,6 +1627,35 @@ pub mod sh7 {
         kernels: &[
             ("dot:7", "sh7_dot"),
             ("dot:7:rgb", "sh7_dot_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 7,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh7_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh7_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:7", "sh7_hsh_basis"),
+            ("hsh_eval:7", "sh7_hsh_eval"),
+            ("hsh_eval:7:rgb", "sh7_hsh_eval_rgb"),
+            ("hsh_eval_monomial:7", "sh7_hsh_eval_monomial"),
+            ("hsh_eval_monomial:7:rgb", "sh7_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:7", "sh7_hsh_to_monomial"),
+            ("hsh_to_monomial:7:rgb", "sh7_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:7", "sh7_sh_to_hsh"),
+            ("sh_to_hsh:7:rgb", "sh7_sh_to_hsh_rgb"),
+            ("sh_to_hsh:9+7", "sh7_of_order_9_sh_to_hsh"),
+            ("sh_to_hsh:9+7:rgb", "sh7_of_order_9_sh_to_hsh_rgb"),
+            ("hsh_to_sh:7", "sh7_hsh_to_sh"),
+            ("hsh_to_sh:7:rgb", "sh7_hsh_to_sh_rgb"),
+            ("hsh_to_sh:5+7", "sh7_of_order_5_hsh_to_sh"),
+            ("hsh_to_sh:5+7:rgb", "sh7_of_order_5_hsh_to_sh_rgb"),
+            ("hsh_extend:7", "sh7_hsh_extend"),
+            ("hsh_extend:7:rgb", "sh7_hsh_extend_rgb"),
+            ("hsh_extend:5+7", "sh7_of_order_5_hsh_extend"),
+            ("hsh_extend:5+7:rgb", "sh7_of_order_5_hsh_extend_rgb"),
         ],
     };
 }
@@ -1416,6 +1818,35 @@ pub mod sh8 {
             ("dot:8:rgb", "sh8_dot_rgb"),
         ],
     };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 8,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh8_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh8_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:8", "sh8_hsh_basis"),
+            ("hsh_eval:8", "sh8_hsh_eval"),
+            ("hsh_eval:8:rgb", "sh8_hsh_eval_rgb"),
+            ("hsh_eval_monomial:8", "sh8_hsh_eval_monomial"),
+            ("hsh_eval_monomial:8:rgb", "sh8_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:8", "sh8_hsh_to_monomial"),
+            ("hsh_to_monomial:8:rgb", "sh8_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:8", "sh8_sh_to_hsh"),
+            ("sh_to_hsh:8:rgb", "sh8_sh_to_hsh_rgb"),
+            ("sh_to_hsh:10+8", "sh8_of_order_10_sh_to_hsh"),
+            ("sh_to_hsh:10+8:rgb", "sh8_of_order_10_sh_to_hsh_rgb"),
+            ("hsh_to_sh:8", "sh8_hsh_to_sh"),
+            ("hsh_to_sh:8:rgb", "sh8_hsh_to_sh_rgb"),
+            ("hsh_to_sh:6+8", "sh8_of_order_6_hsh_to_sh"),
+            ("hsh_to_sh:6+8:rgb", "sh8_of_order_6_hsh_to_sh_rgb"),
+            ("hsh_extend:8", "sh8_hsh_extend"),
+            ("hsh_extend:8:rgb", "sh8_hsh_extend_rgb"),
+            ("hsh_extend:6+8", "sh8_of_order_6_hsh_extend"),
+            ("hsh_extend:6+8:rgb", "sh8_of_order_6_hsh_extend_rgb"),
+        ],
+    };
 }
 
 /// The shaders of order 9: bands 0 to 8, 81 coefficients.
@@ -1574,6 +2005,35 @@ pub mod sh9 {
         kernels: &[
             ("dot:9", "sh9_dot"),
             ("dot:9:rgb", "sh9_dot_rgb"),
+        ],
+    };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 9,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh9_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh9_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:9", "sh9_hsh_basis"),
+            ("hsh_eval:9", "sh9_hsh_eval"),
+            ("hsh_eval:9:rgb", "sh9_hsh_eval_rgb"),
+            ("hsh_eval_monomial:9", "sh9_hsh_eval_monomial"),
+            ("hsh_eval_monomial:9:rgb", "sh9_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:9", "sh9_hsh_to_monomial"),
+            ("hsh_to_monomial:9:rgb", "sh9_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:9", "sh9_sh_to_hsh"),
+            ("sh_to_hsh:9:rgb", "sh9_sh_to_hsh_rgb"),
+            ("sh_to_hsh:11+9", "sh9_of_order_11_sh_to_hsh"),
+            ("sh_to_hsh:11+9:rgb", "sh9_of_order_11_sh_to_hsh_rgb"),
+            ("hsh_to_sh:9", "sh9_hsh_to_sh"),
+            ("hsh_to_sh:9:rgb", "sh9_hsh_to_sh_rgb"),
+            ("hsh_to_sh:7+9", "sh9_of_order_7_hsh_to_sh"),
+            ("hsh_to_sh:7+9:rgb", "sh9_of_order_7_hsh_to_sh_rgb"),
+            ("hsh_extend:9", "sh9_hsh_extend"),
+            ("hsh_extend:9:rgb", "sh9_hsh_extend_rgb"),
+            ("hsh_extend:7+9", "sh9_of_order_7_hsh_extend"),
+            ("hsh_extend:7+9:rgb", "sh9_of_order_7_hsh_extend_rgb"),
         ],
     };
 }
@@ -1736,6 +2196,35 @@ pub mod sh10 {
             ("dot:10:rgb", "sh10_dot_rgb"),
         ],
     };
+
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    pub const HEMISPHERES: Shaders = Shaders {
+        order: 10,
+        group: "hemispheres",
+        wgsl: include_str!("../wgsl/sh10_hemispheres.wgsl"),
+        glsl: include_str!("../glsl/sh10_hemispheres.glsl"),
+        kernels: &[
+            ("hsh_basis:10", "sh10_hsh_basis"),
+            ("hsh_eval:10", "sh10_hsh_eval"),
+            ("hsh_eval:10:rgb", "sh10_hsh_eval_rgb"),
+            ("hsh_eval_monomial:10", "sh10_hsh_eval_monomial"),
+            ("hsh_eval_monomial:10:rgb", "sh10_hsh_eval_monomial_rgb"),
+            ("hsh_to_monomial:10", "sh10_hsh_to_monomial"),
+            ("hsh_to_monomial:10:rgb", "sh10_hsh_to_monomial_rgb"),
+            ("sh_to_hsh:10", "sh10_sh_to_hsh"),
+            ("sh_to_hsh:10:rgb", "sh10_sh_to_hsh_rgb"),
+            ("sh_to_hsh:12+10", "sh10_of_order_12_sh_to_hsh"),
+            ("sh_to_hsh:12+10:rgb", "sh10_of_order_12_sh_to_hsh_rgb"),
+            ("hsh_to_sh:10", "sh10_hsh_to_sh"),
+            ("hsh_to_sh:10:rgb", "sh10_hsh_to_sh_rgb"),
+            ("hsh_to_sh:8+10", "sh10_of_order_8_hsh_to_sh"),
+            ("hsh_to_sh:8+10:rgb", "sh10_of_order_8_hsh_to_sh_rgb"),
+            ("hsh_extend:10", "sh10_hsh_extend"),
+            ("hsh_extend:10:rgb", "sh10_hsh_extend_rgb"),
+            ("hsh_extend:8+10", "sh10_of_order_8_hsh_extend"),
+            ("hsh_extend:8+10:rgb", "sh10_of_order_8_hsh_extend_rgb"),
+        ],
+    };
 }
 
 /// All of them, of the orders whose features are on.
@@ -1756,6 +2245,10 @@ pub const ALL: &[Shaders] = &[
     sh2::LIGHTING,
     #[cfg(feature = "order2")]
     sh2::PRODUCTS,
+    #[cfg(feature = "order2")]
+    sh2::IRRADIANCES,
+    #[cfg(feature = "order2")]
+    sh2::HEMISPHERES,
     #[cfg(feature = "order3")]
     sh3::EVALUATION,
     #[cfg(feature = "order3")]
@@ -1772,6 +2265,10 @@ pub const ALL: &[Shaders] = &[
     sh3::LIGHTING,
     #[cfg(feature = "order3")]
     sh3::PRODUCTS,
+    #[cfg(feature = "order3")]
+    sh3::IRRADIANCES,
+    #[cfg(feature = "order3")]
+    sh3::HEMISPHERES,
     #[cfg(feature = "order4")]
     sh4::EVALUATION,
     #[cfg(feature = "order4")]
@@ -1788,6 +2285,10 @@ pub const ALL: &[Shaders] = &[
     sh4::LIGHTING,
     #[cfg(feature = "order4")]
     sh4::PRODUCTS,
+    #[cfg(feature = "order4")]
+    sh4::IRRADIANCES,
+    #[cfg(feature = "order4")]
+    sh4::HEMISPHERES,
     #[cfg(feature = "order5")]
     sh5::EVALUATION,
     #[cfg(feature = "order5")]
@@ -1804,6 +2305,10 @@ pub const ALL: &[Shaders] = &[
     sh5::LIGHTING,
     #[cfg(feature = "order5")]
     sh5::PRODUCTS,
+    #[cfg(feature = "order5")]
+    sh5::IRRADIANCES,
+    #[cfg(feature = "order5")]
+    sh5::HEMISPHERES,
     #[cfg(feature = "order6")]
     sh6::EVALUATION,
     #[cfg(feature = "order6")]
@@ -1820,6 +2325,10 @@ pub const ALL: &[Shaders] = &[
     sh6::LIGHTING,
     #[cfg(feature = "order6")]
     sh6::PRODUCTS,
+    #[cfg(feature = "order6")]
+    sh6::IRRADIANCES,
+    #[cfg(feature = "order6")]
+    sh6::HEMISPHERES,
     #[cfg(feature = "order7")]
     sh7::EVALUATION,
     #[cfg(feature = "order7")]
@@ -1834,6 +2343,8 @@ pub const ALL: &[Shaders] = &[
     sh7::PIECES,
     #[cfg(feature = "order7")]
     sh7::PRODUCTS,
+    #[cfg(feature = "order7")]
+    sh7::HEMISPHERES,
     #[cfg(feature = "order8")]
     sh8::EVALUATION,
     #[cfg(feature = "order8")]
@@ -1848,6 +2359,8 @@ pub const ALL: &[Shaders] = &[
     sh8::PIECES,
     #[cfg(feature = "order8")]
     sh8::PRODUCTS,
+    #[cfg(feature = "order8")]
+    sh8::HEMISPHERES,
     #[cfg(feature = "order9")]
     sh9::EVALUATION,
     #[cfg(feature = "order9")]
@@ -1862,6 +2375,8 @@ pub const ALL: &[Shaders] = &[
     sh9::PIECES,
     #[cfg(feature = "order9")]
     sh9::PRODUCTS,
+    #[cfg(feature = "order9")]
+    sh9::HEMISPHERES,
     #[cfg(feature = "order10")]
     sh10::EVALUATION,
     #[cfg(feature = "order10")]
@@ -1876,4 +2391,6 @@ pub const ALL: &[Shaders] = &[
     sh10::PIECES,
     #[cfg(feature = "order10")]
     sh10::PRODUCTS,
+    #[cfg(feature = "order10")]
+    sh10::HEMISPHERES,
 ];

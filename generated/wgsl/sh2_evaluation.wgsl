@@ -107,36 +107,54 @@ fn sh2_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
     return t0;
 }
 
-// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
-// `to_monomial:2` makes.
+// `eval:2:once`: The sum of c_i y_i(dir) over the harmonics of order 2, for one channel in the fewest
+// operations; channels share none of them.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients, index l(l+1)+m.
+// Returns sum c_i y_i(dir).
+// Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+// Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, each band of norm one, for dir
+//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     7.3e-8).
+fn sh2_eval_once(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
+    return 0.48860252 * (c[2] * dir.z - c[3] * dir.x - c[1] * dir.y) + 0.2820948 * c[0];
+}
+
+// `eval_monomial:2`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients that
+// `to_monomial:2` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:2` is the more exact.
+// dir: the direction, of unit length.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     1.8e-7).
+//     1.6e-7).
 fn sh2_eval_monomial(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
-    return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
+    return c[0] + c[1] * dir.y + c[2] * dir.x + c[3] * dir.z;
 }
 
 // `eval_monomial:2:rgb`: The sum of c_i y_i(dir) over the harmonics of order 2, from the coefficients
-// that `to_monomial:2` makes.
+// that `to_monomial:2` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:2` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     1.8e-7).
+//     1.6e-7).
 fn sh2_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
-    return c[0] + c[2] * dir.z + c[3] * dir.x + c[1] * dir.y;
+    return c[0] + c[1] * dir.y + c[2] * dir.x + c[3] * dir.z;
 }
 
 // `to_monomial:2`: From the coefficients of the harmonics of order 2 to those of the monomials that
 // `eval_monomial:2` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
@@ -144,15 +162,16 @@ fn sh2_to_monomial(c: array<f32, 4>) -> array<f32, 4> {
     return array<f32, 4>(
         0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
-        -(0.48860252 * c[3])
+        -(0.48860252 * c[3]),
+        0.48860252 * c[2]
     );
 }
 
 // `to_monomial:2:rgb`: From the coefficients of the harmonics of order 2 to those of the monomials
 // that `eval_monomial:2` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
 // Error: f32 rounding at most 3.7e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-8).
@@ -160,8 +179,8 @@ fn sh2_to_monomial_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
     return array<vec3<f32>, 4>(
         0.2820948 * c[0],
         -(0.48860252 * c[1]),
-        0.48860252 * c[2],
-        -(0.48860252 * c[3])
+        -(0.48860252 * c[3]),
+        0.48860252 * c[2]
     );
 }
 

@@ -149,94 +149,102 @@ fn sh4_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
 }
 
 // `eval_monomial:4`: The sum of c_i y_i(dir) over the harmonics of order 4, from the coefficients that
-// `to_monomial:4` makes.
+// `to_monomial:4` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:4` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 23 (4 mul, 1 add, 18 fma); 0 constants, 4 live values.
-// Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 15 (0 mul, 0 add, 15 fma); 0 constants, 3 live values.
+// Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     3.5e-7).
+//     2.1e-7).
 fn sh4_eval_monomial(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
-    let t0 = c[0] + (c[2] + (c[6] + c[12] * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + c[13] * dir.z) * dir.z) * dir.x;
-    let t1 = dir.x * dir.x - dir.y * dir.y;
-    let t2 = dir.x * dir.y;
-    let t3 = t2 + t2;
-    let t4 = t0 + (c[1] + (c[5] + c[11] * dir.z) * dir.z) * dir.y + (c[8] + c[14] * dir.z) * t1 + (c[4] + c[10] * dir.z) * t3;
-    return t4 + c[15] * (dir.x * t1 - dir.y * t3) + c[9] * (dir.y * t1 + dir.x * t3);
+    let t0 = c[0] + (c[1] + (c[4] + c[9] * dir.y) * dir.y) * dir.y + (c[2] + (c[5] + c[10] * dir.y) * dir.y + (c[6] + c[11] * dir.y + c[12] * dir.x) * dir.x) * dir.x;
+    let t1 = t0 + (c[3] + (c[7] + c[13] * dir.y) * dir.y + (c[8] + c[14] * dir.y + c[15] * dir.x) * dir.x) * dir.z;
+    return t1;
 }
 
 // `eval_monomial:4:rgb`: The sum of c_i y_i(dir) over the harmonics of order 4, from the coefficients
-// that `to_monomial:4` makes.
+// that `to_monomial:4` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:4` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 53 (4 mul, 1 add, 48 fma); 0 constants, 4 live values.
-// Error: f32 rounding at most 2.5e-6 of the norm of the coefficients, each band of norm one, for dir
+// Operations: 45 (0 mul, 0 add, 45 fma); 0 constants, 3 live values.
+// Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     3.5e-7).
+//     2.1e-7).
 fn sh4_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
-    let t0 = c[0] + (c[2] + (c[6] + c[12] * dir.z) * dir.z) * dir.z + (c[3] + (c[7] + c[13] * dir.z) * dir.z) * dir.x;
-    let t1 = dir.x * dir.x - dir.y * dir.y;
-    let t2 = dir.x * dir.y;
-    let t3 = t2 + t2;
-    let t4 = t0 + (c[1] + (c[5] + c[11] * dir.z) * dir.z) * dir.y + (c[8] + c[14] * dir.z) * t1 + (c[4] + c[10] * dir.z) * t3;
-    return t4 + c[15] * (dir.x * t1 - dir.y * t3) + c[9] * (dir.y * t1 + dir.x * t3);
+    let t0 = c[0] + (c[1] + (c[4] + c[9] * dir.y) * dir.y) * dir.y + (c[2] + (c[5] + c[10] * dir.y) * dir.y + (c[6] + c[11] * dir.y + c[12] * dir.x) * dir.x) * dir.x;
+    let t1 = t0 + (c[3] + (c[7] + c[13] * dir.y) * dir.y + (c[8] + c[14] * dir.y + c[15] * dir.x) * dir.x) * dir.z;
+    return t1;
 }
 
 // `to_monomial:4`: From the coefficients of the harmonics of order 4 to those of the monomials that
 // `eval_monomial:4` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 20 (16 mul, 0 add, 4 fma); 12 constants, 16 live values.
-// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 24 (12 mul, 0 add, 12 fma); 14 constants, 16 live values.
+// Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_to_monomial(c: array<f32, 16>) -> array<f32, 16> {
+    let t0 = 0.54627424 * c[8];
+    let t1 = 2.285229 * c[11];
+    let t2 = 2.285229 * c[13];
+    let t3 = 1.4453057 * c[14];
     return array<f32, 16>(
-        0.2820948 * c[0] - 0.31539157 * c[6],
-        0.4570458 * c[11] - 0.48860252 * c[1],
-        0.48860252 * c[2] - 1.119529 * c[12],
-        0.4570458 * c[13] - 0.48860252 * c[3],
-        0.54627424 * c[4],
+        0.63078314 * c[6] + 0.2820948 * c[0],
+        -(1.8281832 * c[11] + 0.48860252 * c[1]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3]),
+        0.7463527 * c[12] + 0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6]),
+        1.0925485 * c[4],
+        t0 - 0.9461747 * c[6],
         -(1.0925485 * c[5]),
-        0.9461747 * c[6],
         -(1.0925485 * c[7]),
-        0.54627424 * c[8],
-        -(0.5900436 * c[9]),
-        1.4453057 * c[10],
-        -(2.285229 * c[11]),
-        1.8658817 * c[12],
-        -(2.285229 * c[13]),
-        1.4453057 * c[14],
-        -(0.5900436 * c[15])
+        t1 + 0.5900436 * c[9],
+        t2 + 1.7701308 * c[15],
+        t1 - 1.7701308 * c[9],
+        t2 - 0.5900436 * c[15],
+        -(t3 + 1.8658817 * c[12]),
+        2.8906114 * c[10],
+        t3 - 1.8658817 * c[12]
     );
 }
 
 // `to_monomial:4:rgb`: From the coefficients of the harmonics of order 4 to those of the monomials
 // that `eval_monomial:4` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 60 (48 mul, 0 add, 12 fma); 12 constants, 16 live values.
-// Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 9e-8).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 72 (36 mul, 0 add, 36 fma); 14 constants, 16 live values.
+// Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_to_monomial_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
+    let t0 = 0.54627424 * c[8];
+    let t1 = 2.285229 * c[11];
+    let t2 = 2.285229 * c[13];
+    let t3 = 1.4453057 * c[14];
     return array<vec3<f32>, 16>(
-        0.2820948 * c[0] - 0.31539157 * c[6],
-        0.4570458 * c[11] - 0.48860252 * c[1],
-        0.48860252 * c[2] - 1.119529 * c[12],
-        0.4570458 * c[13] - 0.48860252 * c[3],
-        0.54627424 * c[4],
+        0.63078314 * c[6] + 0.2820948 * c[0],
+        -(1.8281832 * c[11] + 0.48860252 * c[1]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3]),
+        0.7463527 * c[12] + 0.48860252 * c[2],
+        -(t0 + 0.9461747 * c[6]),
+        1.0925485 * c[4],
+        t0 - 0.9461747 * c[6],
         -(1.0925485 * c[5]),
-        0.9461747 * c[6],
         -(1.0925485 * c[7]),
-        0.54627424 * c[8],
-        -(0.5900436 * c[9]),
-        1.4453057 * c[10],
-        -(2.285229 * c[11]),
-        1.8658817 * c[12],
-        -(2.285229 * c[13]),
-        1.4453057 * c[14],
-        -(0.5900436 * c[15])
+        t1 + 0.5900436 * c[9],
+        t2 + 1.7701308 * c[15],
+        t1 - 1.7701308 * c[9],
+        t2 - 0.5900436 * c[15],
+        -(t3 + 1.8658817 * c[12]),
+        2.8906114 * c[10],
+        t3 - 1.8658817 * c[12]
     );
 }
 

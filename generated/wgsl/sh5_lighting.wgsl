@@ -325,8 +325,8 @@ fn sh5_convolve_cosine_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 }
 
 // `irradiance:5`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
@@ -353,8 +353,8 @@ fn sh5_irradiance(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
 }
 
 // `irradiance:5:rgb`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 5: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.

@@ -383,8 +383,8 @@ fn sh6_convolve_cosine_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
 }
 
 // `irradiance:6`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
@@ -411,8 +411,8 @@ fn sh6_irradiance(dir: vec3<f32>, c: array<f32, 36>) -> f32 {
 }
 
 // `irradiance:6:rgb`: The irradiance of a surface that faces a direction, from the coefficients of the
-// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi it is what a white surface
-// sends out.
+// radiance of order 6: `convolve_cosine` and `eval` in one. Divided by pi, as `:over_pi` has it, it is
+// what a white surface sends out.
 // dir: the direction, of unit length.
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.

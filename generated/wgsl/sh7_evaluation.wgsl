@@ -269,182 +269,206 @@ fn sh7_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 49>) -> vec3<f32> {
 }
 
 // `eval_monomial:7`: The sum of c_i y_i(dir) over the harmonics of order 7, from the coefficients that
-// `to_monomial:7` makes.
+// `to_monomial:7` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:7` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 68 (10 mul, 1 add, 57 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
-//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     6e-7).
+// Operations: 48 (0 mul, 0 add, 48 fma); 0 constants, 6 live values.
+// Error: f32 rounding at most 4e-6 of the norm of the coefficients, each band of norm one, for dir of
+//     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     3.2e-7).
 fn sh7_eval_monomial(dir: vec3<f32>, c: array<f32, 49>) -> f32 {
-    let t0 = c[2] + (c[6] + (c[12] + (c[20] + (c[30] + c[42] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t1 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t2 = c[1] + (c[5] + (c[11] + (c[19] + (c[29] + c[41] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t3 = dir.x * dir.x - dir.y * dir.y;
-    let t4 = c[0] + t0 * dir.z + t1 * dir.x + t2 * dir.y + (c[8] + (c[14] + (c[22] + (c[32] + c[44] * dir.z) * dir.z) * dir.z) * dir.z) * t3;
-    let t5 = dir.x * dir.y;
-    let t6 = t5 + t5;
-    let t7 = dir.x * t3 - dir.y * t6;
-    let t8 = t4 + (c[4] + (c[10] + (c[18] + (c[28] + c[40] * dir.z) * dir.z) * dir.z) * dir.z) * t6 + (c[15] + (c[23] + (c[33] + c[45] * dir.z) * dir.z) * dir.z) * t7;
-    let t9 = dir.y * t3 + dir.x * t6;
-    let t10 = dir.x * t7 - dir.y * t9;
-    let t11 = t8 + (c[9] + (c[17] + (c[27] + c[39] * dir.z) * dir.z) * dir.z) * t9 + (c[24] + (c[34] + c[46] * dir.z) * dir.z) * t10;
-    let t12 = dir.y * t7 + dir.x * t9;
-    let t13 = dir.x * t10 - dir.y * t12;
-    let t14 = dir.y * t10 + dir.x * t12;
-    let t15 = t11 + (c[16] + (c[26] + c[38] * dir.z) * dir.z) * t12 + (c[35] + c[47] * dir.z) * t13 + (c[25] + c[37] * dir.z) * t14;
-    return t15 + c[48] * (dir.x * t13 - dir.y * t14) + c[36] * (dir.y * t13 + dir.x * t14);
+    let t0 = c[1] + (c[4] + (c[9] + (c[16] + (c[25] + c[36] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t1 = c[2] + (c[5] + (c[10] + (c[17] + (c[26] + c[37] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t2 = c[20] + (c[29] + c[40] * dir.y) * dir.y + (c[30] + c[41] * dir.y + c[42] * dir.x) * dir.x;
+    let t3 = c[6] + (c[11] + (c[18] + (c[27] + c[38] * dir.y) * dir.y) * dir.y) * dir.y + (c[12] + (c[19] + (c[28] + c[39] * dir.y) * dir.y) * dir.y + t2 * dir.x) * dir.x;
+    let t4 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t5 = c[24] + (c[34] + c[46] * dir.y) * dir.y + (c[35] + c[47] * dir.y + c[48] * dir.x) * dir.x;
+    let t6 = c[8] + (c[14] + (c[22] + (c[32] + c[44] * dir.y) * dir.y) * dir.y) * dir.y + (c[15] + (c[23] + (c[33] + c[45] * dir.y) * dir.y) * dir.y + t5 * dir.x) * dir.x;
+    return c[0] + t0 * dir.y + (t1 + t3 * dir.x) * dir.x + (t4 + t6 * dir.x) * dir.z;
 }
 
 // `eval_monomial:7:rgb`: The sum of c_i y_i(dir) over the harmonics of order 7, from the coefficients
-// that `to_monomial:7` makes.
+// that `to_monomial:7` makes. For directions of unit length alone. The error in f32 doubles with each
+// order: from order 7 on `eval:7` is the more exact.
 // dir: the direction, of unit length.
-// c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
+// c: the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d, then
+//     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
-// Operations: 164 (10 mul, 1 add, 153 fma); 0 constants, 5 live values.
-// Error: f32 rounding at most 8.5e-6 of the norm of the coefficients, each band of norm one, for dir
-//     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
-//     6e-7).
+// Operations: 144 (0 mul, 0 add, 144 fma); 0 constants, 6 live values.
+// Error: f32 rounding at most 4e-6 of the norm of the coefficients, each band of norm one, for dir of
+//     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
+//     3.2e-7).
 fn sh7_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 49>) -> vec3<f32> {
-    let t0 = c[2] + (c[6] + (c[12] + (c[20] + (c[30] + c[42] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t1 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t2 = c[1] + (c[5] + (c[11] + (c[19] + (c[29] + c[41] * dir.z) * dir.z) * dir.z) * dir.z) * dir.z;
-    let t3 = dir.x * dir.x - dir.y * dir.y;
-    let t4 = c[0] + t0 * dir.z + t1 * dir.x + t2 * dir.y + (c[8] + (c[14] + (c[22] + (c[32] + c[44] * dir.z) * dir.z) * dir.z) * dir.z) * t3;
-    let t5 = dir.x * dir.y;
-    let t6 = t5 + t5;
-    let t7 = dir.x * t3 - dir.y * t6;
-    let t8 = t4 + (c[4] + (c[10] + (c[18] + (c[28] + c[40] * dir.z) * dir.z) * dir.z) * dir.z) * t6 + (c[15] + (c[23] + (c[33] + c[45] * dir.z) * dir.z) * dir.z) * t7;
-    let t9 = dir.y * t3 + dir.x * t6;
-    let t10 = dir.x * t7 - dir.y * t9;
-    let t11 = t8 + (c[9] + (c[17] + (c[27] + c[39] * dir.z) * dir.z) * dir.z) * t9 + (c[24] + (c[34] + c[46] * dir.z) * dir.z) * t10;
-    let t12 = dir.y * t7 + dir.x * t9;
-    let t13 = dir.x * t10 - dir.y * t12;
-    let t14 = dir.y * t10 + dir.x * t12;
-    let t15 = t11 + (c[16] + (c[26] + c[38] * dir.z) * dir.z) * t12 + (c[35] + c[47] * dir.z) * t13 + (c[25] + c[37] * dir.z) * t14;
-    return t15 + c[48] * (dir.x * t13 - dir.y * t14) + c[36] * (dir.y * t13 + dir.x * t14);
+    let t0 = c[1] + (c[4] + (c[9] + (c[16] + (c[25] + c[36] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t1 = c[2] + (c[5] + (c[10] + (c[17] + (c[26] + c[37] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t2 = c[20] + (c[29] + c[40] * dir.y) * dir.y + (c[30] + c[41] * dir.y + c[42] * dir.x) * dir.x;
+    let t3 = c[6] + (c[11] + (c[18] + (c[27] + c[38] * dir.y) * dir.y) * dir.y) * dir.y + (c[12] + (c[19] + (c[28] + c[39] * dir.y) * dir.y) * dir.y + t2 * dir.x) * dir.x;
+    let t4 = c[3] + (c[7] + (c[13] + (c[21] + (c[31] + c[43] * dir.y) * dir.y) * dir.y) * dir.y) * dir.y;
+    let t5 = c[24] + (c[34] + c[46] * dir.y) * dir.y + (c[35] + c[47] * dir.y + c[48] * dir.x) * dir.x;
+    let t6 = c[8] + (c[14] + (c[22] + (c[32] + c[44] * dir.y) * dir.y) * dir.y) * dir.y + (c[15] + (c[23] + (c[33] + c[45] * dir.y) * dir.y) * dir.y + t5 * dir.x) * dir.x;
+    return c[0] + t0 * dir.y + (t1 + t3 * dir.x) * dir.x + (t4 + t6 * dir.x) * dir.z;
 }
 
 // `to_monomial:7`: From the coefficients of the harmonics of order 7 to those of the monomials that
 // `eval_monomial:7` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 84 (49 mul, 0 add, 35 fma); 49 constants, 49 live values.
-// Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 156 (33 mul, 0 add, 123 fma); 83 constants, 49 live values.
+// Error: f32 rounding at most 2.2e-5 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 4.1e-6).
 fn sh7_to_monomial(c: array<f32, 49>) -> array<f32, 49> {
+    let t0 = 0.54627424 * c[8];
+    let t1 = t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22] + 10.6796255 * c[42] + 7.3696423 * c[44];
+    let t2 = t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22] - 10.6796255 * c[42] + 7.3696423 * c[44];
+    let t3 = 2.285229 * c[11];
+    let t4 = 2.285229 * c[13];
+    let t5 = 1.4453057 * c[14];
+    let t6 = 3.3116114 * c[22];
+    let t7 = t6 + 3.7024941 * c[20] + 0.6258357 * c[24] + 24.029158 * c[42] + 22.108927 * c[44] + 5.045649 * c[46];
+    let t8 = 6.623223 * c[18];
+    let t9 = 3.7024941 * c[20] - t6 + 0.6258357 * c[24] + 24.029158 * c[42] - 22.108927 * c[44] + 5.045649 * c[46];
+    let t10 = 4.683326 * c[19];
+    let t11 = 4.683326 * c[21];
+    let t12 = 9.51188 * c[31];
+    let t13 = 7.190305 * c[32];
+    let t14 = 14.38061 * c[28];
+    let t15 = 15.199886 * c[44];
+    let t16 = 22.200855 * c[38];
+    let t17 = 19.226505 * c[43];
     return array<f32, 49>(
-        0.31735665 * c[20] - 0.317846 * c[42] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
-        1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2],
-        0.4570458 * c[13] - 0.45294666 * c[31] - 0.48860252 * c[3],
-        0.46060264 * c[40] - 0.47308734 * c[18] + 0.54627424 * c[4],
-        2.0071397 * c[19] - 2.913107 * c[41] - 1.0925485 * c[5],
-        6.674766 * c[42] - 3.1735663 * c[20] + 0.9461747 * c[6],
-        2.0071397 * c[21] - 2.913107 * c[43] - 1.0925485 * c[7],
-        0.46060264 * c[44] - 0.47308734 * c[22] + 0.54627424 * c[8],
-        0.4892383 * c[27] - 0.5900436 * c[9],
-        1.4453057 * c[10] - 2.3967683 * c[28],
-        6.3412533 * c[29] - 2.285229 * c[11],
-        1.8658817 * c[12] - 8.1865225 * c[30],
-        6.3412533 * c[31] - 2.285229 * c[13],
-        1.4453057 * c[14] - 2.3967683 * c[32],
-        0.4892383 * c[33] - 0.5900436 * c[15],
-        0.6258357 * c[16] - 0.5045649 * c[38],
-        2.7636158 * c[39] - 1.7701308 * c[17],
-        3.3116114 * c[18] - 8.290848 * c[40],
-        17.478642 * c[41] - 4.683326 * c[19],
-        3.7024941 * c[20] - 20.0243 * c[42],
-        17.478642 * c[43] - 4.683326 * c[21],
-        3.3116114 * c[22] - 8.290848 * c[44],
-        2.7636158 * c[45] - 1.7701308 * c[23],
-        0.6258357 * c[24] - 0.5045649 * c[46],
-        -(0.6563821 * c[25]),
-        2.0756624 * c[26],
-        -(4.403145 * c[27]),
-        7.190305 * c[28],
-        -(9.51188 * c[29]),
-        7.3678703 * c[30],
-        -(9.51188 * c[31]),
-        7.190305 * c[32],
-        -(4.403145 * c[33]),
-        2.0756624 * c[34],
-        -(0.6563821 * c[35]),
-        0.6831841 * c[36],
-        -(2.366619 * c[37]),
-        5.550214 * c[38],
-        -(10.133258 * c[39]),
-        15.199886 * c[40],
-        -(19.226505 * c[41]),
-        14.684485 * c[42],
-        -(19.226505 * c[43]),
-        15.199886 * c[44],
-        -(10.133258 * c[45]),
-        5.550214 * c[46],
-        -(2.366619 * c[47]),
-        0.6831841 * c[48]
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20] + 1.0171072 * c[42],
+        -(1.8281832 * c[11] + 0.48860252 * c[1] + 3.6235733 * c[29]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3] + 3.6235733 * c[31]),
+        0.7463527 * c[12] + 0.48860252 * c[2] + 0.9356026 * c[30],
+        -t1,
+        5.677048 * c[18] + 1.0925485 * c[4] + 14.7392845 * c[40],
+        t2,
+        -(2.676186 * c[19] + 1.0925485 * c[5] + 4.6609707 * c[41]),
+        -(2.676186 * c[21] + 1.0925485 * c[7] + 4.6609707 * c[43]),
+        t3 + 0.5900436 * c[9] + 3.9139063 * c[27] + 12.682507 * c[29],
+        t4 + 1.7701308 * c[15] + 12.682507 * c[31] + 11.741719 * c[33],
+        t3 - 1.7701308 * c[9] - 11.741719 * c[27] + 12.682507 * c[29],
+        t4 - 0.5900436 * c[15] + 12.682507 * c[31] - 3.9139063 * c[33],
+        -(t5 + 1.8658817 * c[12] + 6.549218 * c[30] + 4.7935367 * c[32]),
+        9.587073 * c[28] + 2.8906114 * c[10],
+        t5 - 1.8658817 * c[12] - 6.549218 * c[30] + 4.7935367 * c[32],
+        t7,
+        -(t8 + 2.5033429 * c[16] + 20.182596 * c[38] + 44.217854 * c[40]),
+        7.4049883 * c[20] - 3.7550144 * c[24] + 48.058315 * c[42] - 30.273893 * c[46],
+        2.5033429 * c[16] - t8 + 20.182596 * c[38] - 44.217854 * c[40],
+        t9,
+        t10 + 1.7701308 * c[17] + 7.3696423 * c[39] + 20.97437 * c[41],
+        t11 + 5.3103924 * c[23] + 20.97437 * c[43] + 22.108927 * c[45],
+        t10 - 5.3103924 * c[17] - 22.108927 * c[39] + 20.97437 * c[41],
+        t11 - 1.7701308 * c[23] + 20.97437 * c[43] - 7.3696423 * c[45],
+        -(4.403145 * c[27] + 0.6563821 * c[25] + 9.51188 * c[29]),
+        -(t12 + 13.2094345 * c[33] + 3.2819102 * c[35]),
+        8.80629 * c[27] + 6.5638204 * c[25] - 19.02376 * c[29],
+        6.5638204 * c[35] - (8.80629 * c[33] + 19.02376 * c[31]),
+        13.2094345 * c[27] - 3.2819102 * c[25] - 9.51188 * c[29],
+        4.403145 * c[33] - t12 - 0.6563821 * c[35],
+        t13 + 7.3678703 * c[30] + 2.0756624 * c[34],
+        -(t14 + 8.3026495 * c[26]),
+        14.735741 * c[30] - 12.453974 * c[34],
+        8.3026495 * c[26] - t14,
+        7.3678703 * c[30] - t13 + 2.0756624 * c[34],
+        -(t15 + 14.684485 * c[42] + 5.550214 * c[46] + 0.6831841 * c[48]),
+        t16 + 4.0991044 * c[36] + 30.399773 * c[40],
+        27.75107 * c[46] - (t15 + 44.053455 * c[42]) + 10.247762 * c[48],
+        60.799545 * c[40] - 13.663682 * c[36],
+        t15 - 44.053455 * c[42] + 27.75107 * c[46] - 10.247762 * c[48],
+        4.0991044 * c[36] - t16 + 30.399773 * c[40],
+        t15 - 14.684485 * c[42] - 5.550214 * c[46] + 0.6831841 * c[48],
+        -(10.133258 * c[39] + 2.366619 * c[37] + 19.226505 * c[41]),
+        -(t17 + 30.399773 * c[45] + 11.833096 * c[47]),
+        20.266516 * c[39] + 23.666191 * c[37] - 38.45301 * c[41],
+        23.666191 * c[47] - (20.266516 * c[45] + 38.45301 * c[43]),
+        30.399773 * c[39] - 11.833096 * c[37] - 19.226505 * c[41],
+        10.133258 * c[45] - t17 - 2.366619 * c[47]
     );
 }
 
 // `to_monomial:7:rgb`: From the coefficients of the harmonics of order 7 to those of the monomials
 // that `eval_monomial:7` takes; done once, when they are stored.
 // c: the coefficients, index l(l+1)+m.
-// Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
-// Operations: 252 (147 mul, 0 add, 105 fma); 49 constants, 49 live values.
-// Error: f32 rounding at most 3.9e-6 of the norm of a band, for every input (proven for IEEE
-//     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
+// Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
+//     then z times those of degree d-1.
+// Operations: 468 (99 mul, 0 add, 369 fma); 83 constants, 49 live values.
+// Error: f32 rounding at most 2.2e-5 of the norm of a band, for every input (proven for IEEE
+//     arithmetic, contracted or not; the worst of 256 measured is 4.1e-6).
 fn sh7_to_monomial_rgb(c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
+    let t0 = 0.54627424 * c[8];
+    let t1 = t0 + 0.9461747 * c[6] + 4.231422 * c[20] + 2.838524 * c[22] + 10.6796255 * c[42] + 7.3696423 * c[44];
+    let t2 = t0 - 0.9461747 * c[6] - 4.231422 * c[20] + 2.838524 * c[22] - 10.6796255 * c[42] + 7.3696423 * c[44];
+    let t3 = 2.285229 * c[11];
+    let t4 = 2.285229 * c[13];
+    let t5 = 1.4453057 * c[14];
+    let t6 = 3.3116114 * c[22];
+    let t7 = t6 + 3.7024941 * c[20] + 0.6258357 * c[24] + 24.029158 * c[42] + 22.108927 * c[44] + 5.045649 * c[46];
+    let t8 = 6.623223 * c[18];
+    let t9 = 3.7024941 * c[20] - t6 + 0.6258357 * c[24] + 24.029158 * c[42] - 22.108927 * c[44] + 5.045649 * c[46];
+    let t10 = 4.683326 * c[19];
+    let t11 = 4.683326 * c[21];
+    let t12 = 9.51188 * c[31];
+    let t13 = 7.190305 * c[32];
+    let t14 = 14.38061 * c[28];
+    let t15 = 15.199886 * c[44];
+    let t16 = 22.200855 * c[38];
+    let t17 = 19.226505 * c[43];
     return array<vec3<f32>, 49>(
-        0.31735665 * c[20] - 0.317846 * c[42] - 0.31539157 * c[6] + 0.2820948 * c[0],
-        0.4570458 * c[11] - 0.45294666 * c[29] - 0.48860252 * c[1],
-        1.7542548 * c[30] - 1.119529 * c[12] + 0.48860252 * c[2],
-        0.4570458 * c[13] - 0.45294666 * c[31] - 0.48860252 * c[3],
-        0.46060264 * c[40] - 0.47308734 * c[18] + 0.54627424 * c[4],
-        2.0071397 * c[19] - 2.913107 * c[41] - 1.0925485 * c[5],
-        6.674766 * c[42] - 3.1735663 * c[20] + 0.9461747 * c[6],
-        2.0071397 * c[21] - 2.913107 * c[43] - 1.0925485 * c[7],
-        0.46060264 * c[44] - 0.47308734 * c[22] + 0.54627424 * c[8],
-        0.4892383 * c[27] - 0.5900436 * c[9],
-        1.4453057 * c[10] - 2.3967683 * c[28],
-        6.3412533 * c[29] - 2.285229 * c[11],
-        1.8658817 * c[12] - 8.1865225 * c[30],
-        6.3412533 * c[31] - 2.285229 * c[13],
-        1.4453057 * c[14] - 2.3967683 * c[32],
-        0.4892383 * c[33] - 0.5900436 * c[15],
-        0.6258357 * c[16] - 0.5045649 * c[38],
-        2.7636158 * c[39] - 1.7701308 * c[17],
-        3.3116114 * c[18] - 8.290848 * c[40],
-        17.478642 * c[41] - 4.683326 * c[19],
-        3.7024941 * c[20] - 20.0243 * c[42],
-        17.478642 * c[43] - 4.683326 * c[21],
-        3.3116114 * c[22] - 8.290848 * c[44],
-        2.7636158 * c[45] - 1.7701308 * c[23],
-        0.6258357 * c[24] - 0.5045649 * c[46],
-        -(0.6563821 * c[25]),
-        2.0756624 * c[26],
-        -(4.403145 * c[27]),
-        7.190305 * c[28],
-        -(9.51188 * c[29]),
-        7.3678703 * c[30],
-        -(9.51188 * c[31]),
-        7.190305 * c[32],
-        -(4.403145 * c[33]),
-        2.0756624 * c[34],
-        -(0.6563821 * c[35]),
-        0.6831841 * c[36],
-        -(2.366619 * c[37]),
-        5.550214 * c[38],
-        -(10.133258 * c[39]),
-        15.199886 * c[40],
-        -(19.226505 * c[41]),
-        14.684485 * c[42],
-        -(19.226505 * c[43]),
-        15.199886 * c[44],
-        -(10.133258 * c[45]),
-        5.550214 * c[46],
-        -(2.366619 * c[47]),
-        0.6831841 * c[48]
+        0.63078314 * c[6] + 0.2820948 * c[0] + 0.8462844 * c[20] + 1.0171072 * c[42],
+        -(1.8281832 * c[11] + 0.48860252 * c[1] + 3.6235733 * c[29]),
+        -(1.8281832 * c[13] + 0.48860252 * c[3] + 3.6235733 * c[31]),
+        0.7463527 * c[12] + 0.48860252 * c[2] + 0.9356026 * c[30],
+        -t1,
+        5.677048 * c[18] + 1.0925485 * c[4] + 14.7392845 * c[40],
+        t2,
+        -(2.676186 * c[19] + 1.0925485 * c[5] + 4.6609707 * c[41]),
+        -(2.676186 * c[21] + 1.0925485 * c[7] + 4.6609707 * c[43]),
+        t3 + 0.5900436 * c[9] + 3.9139063 * c[27] + 12.682507 * c[29],
+        t4 + 1.7701308 * c[15] + 12.682507 * c[31] + 11.741719 * c[33],
+        t3 - 1.7701308 * c[9] - 11.741719 * c[27] + 12.682507 * c[29],
+        t4 - 0.5900436 * c[15] + 12.682507 * c[31] - 3.9139063 * c[33],
+        -(t5 + 1.8658817 * c[12] + 6.549218 * c[30] + 4.7935367 * c[32]),
+        9.587073 * c[28] + 2.8906114 * c[10],
+        t5 - 1.8658817 * c[12] - 6.549218 * c[30] + 4.7935367 * c[32],
+        t7,
+        -(t8 + 2.5033429 * c[16] + 20.182596 * c[38] + 44.217854 * c[40]),
+        7.4049883 * c[20] - 3.7550144 * c[24] + 48.058315 * c[42] - 30.273893 * c[46],
+        2.5033429 * c[16] - t8 + 20.182596 * c[38] - 44.217854 * c[40],
+        t9,
+        t10 + 1.7701308 * c[17] + 7.3696423 * c[39] + 20.97437 * c[41],
+        t11 + 5.3103924 * c[23] + 20.97437 * c[43] + 22.108927 * c[45],
+        t10 - 5.3103924 * c[17] - 22.108927 * c[39] + 20.97437 * c[41],
+        t11 - 1.7701308 * c[23] + 20.97437 * c[43] - 7.3696423 * c[45],
+        -(4.403145 * c[27] + 0.6563821 * c[25] + 9.51188 * c[29]),
+        -(t12 + 13.2094345 * c[33] + 3.2819102 * c[35]),
+        8.80629 * c[27] + 6.5638204 * c[25] - 19.02376 * c[29],
+        6.5638204 * c[35] - (8.80629 * c[33] + 19.02376 * c[31]),
+        13.2094345 * c[27] - 3.2819102 * c[25] - 9.51188 * c[29],
+        4.403145 * c[33] - t12 - 0.6563821 * c[35],
+        t13 + 7.3678703 * c[30] + 2.0756624 * c[34],
+        -(t14 + 8.3026495 * c[26]),
+        14.735741 * c[30] - 12.453974 * c[34],
+        8.3026495 * c[26] - t14,
+        7.3678703 * c[30] - t13 + 2.0756624 * c[34],
+        -(t15 + 14.684485 * c[42] + 5.550214 * c[46] + 0.6831841 * c[48]),
+        t16 + 4.0991044 * c[36] + 30.399773 * c[40],
+        27.75107 * c[46] - (t15 + 44.053455 * c[42]) + 10.247762 * c[48],
+        60.799545 * c[40] - 13.663682 * c[36],
+        t15 - 44.053455 * c[42] + 27.75107 * c[46] - 10.247762 * c[48],
+        4.0991044 * c[36] - t16 + 30.399773 * c[40],
+        t15 - 14.684485 * c[42] - 5.550214 * c[46] + 0.6831841 * c[48],
+        -(10.133258 * c[39] + 2.366619 * c[37] + 19.226505 * c[41]),
+        -(t17 + 30.399773 * c[45] + 11.833096 * c[47]),
+        20.266516 * c[39] + 23.666191 * c[37] - 38.45301 * c[41],
+        23.666191 * c[47] - (20.266516 * c[45] + 38.45301 * c[43]),
+        30.399773 * c[39] - 11.833096 * c[37] - 19.226505 * c[41],
+        10.133258 * c[45] - t17 - 2.366619 * c[47]
     );
 }
 
