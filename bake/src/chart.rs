@@ -6,7 +6,7 @@ use zonal_codegen::fault::Fault;
 use zonal_picture::mesh::Model;
 
 /// The largest side of a lightmap, in texels.
-pub const LARGEST: usize = 8192;
+pub const LARGEST: usize = 4096;
 /// How far texture coordinates may lie outside of the lightmap by rounding.
 const SLACK: f32 = 1e-5;
 /// How far beside a triangle a centre may lie by the rounding of its coordinates, as a share of the triangle.

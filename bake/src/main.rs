@@ -30,6 +30,9 @@ const NOTES: &str = "Bases: sh2 to sh10, radiance in spherical harmonics; irradi
                      horizon of a point counts as none.\n\n\
                      Beside the file lies one of the same name in .toml that says what the numbers are.";
 
+/// The most numbers of a lightmap, of which each takes some sixteen bytes while it is made.
+const MOST: usize = 1 << 29;
+
 /// Bakes the light of a map into the vertices of a mesh, or into a lightmap.
 #[derive(Parser)]
 #[command(name = "zonal bake", bin_name = "zonal bake", version, after_help = NOTES)]
@@ -104,6 +107,13 @@ fn check(arguments: &Arguments, basis: &Basis, model: &Model) -> Result<(), Faul
     if arguments.over_pi && !basis.is_irradiance() {
         let message = format!("`{}` stores radiance, of which nothing is divided by pi", basis.name);
         return Err(Fault::new(message, "leave out `--over-pi`"));
+    }
+    let size = arguments.lightmap.unwrap_or(0) as usize;
+    if 3 * size * size * basis.coefficients > MOST {
+        let (name, count) = (&basis.name, basis.coefficients);
+        let message =
+            format!("a lightmap of {size} by {size} texels in `{name}`, of {count} coefficients, is too large");
+        return Err(Fault::new(message, "name a smaller size, or a basis of fewer coefficients"));
     }
     if arguments.lightmap.is_some() && !model.has_frames {
         let message = format!("{}: has no texture coordinates of a normal map, nor tangents", arguments.mesh.display());

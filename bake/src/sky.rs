@@ -1,5 +1,5 @@
 //! Light from an environment map, by rays that go where it is bright: texels are picked by their power, and a ray goes
-//! anywhere in its texel. It knows nothing of surfaces.
+//! anywhere in its texel (docs/MATH.md#light-by-rays). It knows nothing of surfaces.
 
 use crate::alias::Alias;
 use zonal_codegen::environment::Map;

@@ -136,7 +136,11 @@ pub fn hl2<E: Element>(radiance: &[E; 9]) -> [E; 3] {
 #[cfg(feature = "order2")]
 #[inline]
 pub fn h4_at<E: Element>(normal: impl Into<[E::Scalar; 3]>, c: &[E; 4]) -> E {
-    E::element(zonal_kernels::sh2::h4_eval(normal.into(), &c.map(E::signal)))
+    let c = c.map(E::signal);
+    E::element(match E::CHANNELS {
+        1 => zonal_kernels::sh2::h4_eval(normal.into(), &c),
+        _ => zonal_kernels::sh2::h4_eval_shared(normal.into(), &c),
+    })
 }
 
 /// Returns the irradiance at a normal of the frame, in the six functions of the H-basis. The normal may be the mean of many,
@@ -144,7 +148,11 @@ pub fn h4_at<E: Element>(normal: impl Into<[E::Scalar; 3]>, c: &[E; 4]) -> E {
 #[cfg(feature = "order3")]
 #[inline]
 pub fn h6_at<E: Element>(normal: impl Into<[E::Scalar; 3]>, c: &[E; 6]) -> E {
-    E::element(zonal_kernels::sh3::h6_eval(normal.into(), &c.map(E::signal)))
+    let c = c.map(E::signal);
+    E::element(match E::CHANNELS {
+        1 => zonal_kernels::sh3::h6_eval(normal.into(), &c),
+        _ => zonal_kernels::sh3::h6_eval_shared(normal.into(), &c),
+    })
 }
 
 /// Returns the irradiance at a normal of the frame, in the Half-Life 2 basis, without a clamp of any cosine.

@@ -160,6 +160,12 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
     refuses(&folder, &with(&["plane.obj", "-o", "a.exr"]), &["`a.exr` is no name of a file for vertices", "`.ply`"]);
     let name = ["`a.ply` is no name of a file for a lightmap", "`.exr`"];
     refuses(&folder, &[&with(&["plane.obj", "-o", "a.ply"])[..], &lightmap, &["plane.obj"]].concat(), &name);
+    let large = ["plane.obj", "--lightmap", "4096", "--lightmap-uv", "plane.obj", "--basis", "hsh10"];
+    refuses(
+        &folder,
+        &with(&large),
+        &["a lightmap of 4096 by 4096 texels in `hsh10`, of 100 coefficients, is too large"],
+    );
     for arguments in [["--rays", "0"], ["--lightmap", "0"], ["--lightmap", "9999"]] {
         let Run { code, err, .. } = folder.run([&["bake"], &with(&["plane.obj"])[..], &arguments].concat());
         assert_eq!(code, Some(2), "{err}");
