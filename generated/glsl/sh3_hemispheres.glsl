@@ -677,7 +677,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_y_lobe_eq13(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_y_lobe_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -714,7 +714,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_lobe_eq13(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_eq13_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1007,7 +1007,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_record_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_y_record_eq13(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_y_record_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1044,7 +1044,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_record_eq13(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP floa
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_y_record_eq13_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_y_record_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1397,7 +1397,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_eq13(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1444,7 +1444,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_eq13(ZONAL_HIGHP vec3 n, ZONAL_HIGHP floa
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_eq13_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1811,7 +1811,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP v
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_tilt_record_eq13(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_tilt_record_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -1858,7 +1858,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_record_eq13(ZONAL_HIGHP vec3 n, ZONAL_HIGHP fl
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_eq13_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -2277,7 +2277,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_eq13(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -2345,7 +2345,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_eq13(ZONAL_HIGHP vec4 q, ZONAL_HIGHP fl
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_eq13_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -2789,7 +2789,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-ZONAL_HIGHP float[9] sh3_hsh_rotate_record_eq13(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float[9] sh3_hsh_rotate_record_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;
@@ -2857,7 +2857,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_record_eq13(ZONAL_HIGHP vec4 q, ZONAL_HIGHP 
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_eq13_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
+ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;

@@ -4925,7 +4925,7 @@ pub fn hsh_y_lobe_sh_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 ///   worst of 256 measured, 2e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_y_lobe_eq13<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_y_lobe_eq13_form<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9] {
     let t0 = T::max(cs[0], T::lit(1e-36));
     let t1 = T::lit(2.0) * t0;
     let t2 = t1 - T::lit(1.0);
@@ -4947,10 +4947,10 @@ pub fn hsh_y_lobe_eq13<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9] 
     ]
 }
 
-/// [`hsh_y_lobe_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_y_lobe_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_y_lobe_eq13_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_y_lobe_eq13::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_y_lobe_eq13_form_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_y_lobe_eq13_form::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_y_record:3`: Rotates hemispherical coefficients of order 3 about y, of a record of radiance,
@@ -5118,7 +5118,7 @@ pub fn hsh_y_record_sh_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] 
 ///   worst of 256 measured, 2e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_y_record_eq13<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_y_record_eq13_form<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9] {
     let t0 = T::max(cs[0], T::lit(1e-36));
     let t1 = T::lit(2.0) * t0;
     let t2 = t1 - T::lit(1.0);
@@ -5140,10 +5140,10 @@ pub fn hsh_y_record_eq13<T: Real, V: Signal<T>>(cs: [T; 2], c: &[V; 9]) -> [V; 9
     ]
 }
 
-/// [`hsh_y_record_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_y_record_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_y_record_eq13_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_y_record_eq13::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_y_record_eq13_form_rgb<T: Real>(cs: [T; 2], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_y_record_eq13_form::<T, Channels<T, 3>>(cs, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_tilt_lobe:3`: Rotates hemispherical coefficients of order 3 from z to a normal by the shortest
@@ -5342,7 +5342,7 @@ pub fn hsh_tilt_lobe_sh_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] 
 ///   (3 times the worst of 256 measured, 5.8e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_tilt_lobe_eq13<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_tilt_lobe_eq13_form<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9] {
     let t0 = T::max(n[2], T::lit(1e-36));
     let t1 = T::lit(2.0) * t0;
     let t2 = T::rsqrt(t0.fma(t0, t0)) * t1;
@@ -5374,10 +5374,10 @@ pub fn hsh_tilt_lobe_eq13<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9
     ]
 }
 
-/// [`hsh_tilt_lobe_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_tilt_lobe_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_tilt_lobe_eq13_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_tilt_lobe_eq13::<T, Channels<T, 3>>(n, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_tilt_lobe_eq13_form_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_tilt_lobe_eq13_form::<T, Channels<T, 3>>(n, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_tilt_record:3`: Rotates hemispherical coefficients of order 3 from z to a normal by the
@@ -5578,7 +5578,7 @@ pub fn hsh_tilt_record_sh_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9
 ///   (3 times the worst of 256 measured, 5.8e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_tilt_record_eq13<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_tilt_record_eq13_form<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V; 9] {
     let t0 = T::max(n[2], T::lit(1e-36));
     let t1 = T::lit(2.0) * t0;
     let t2 = T::rsqrt(t0.fma(t0, t0)) * t1;
@@ -5610,10 +5610,10 @@ pub fn hsh_tilt_record_eq13<T: Real, V: Signal<T>>(n: [T; 3], c: &[V; 9]) -> [V;
     ]
 }
 
-/// [`hsh_tilt_record_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_tilt_record_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_tilt_record_eq13_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_tilt_record_eq13::<T, Channels<T, 3>>(n, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_tilt_record_eq13_form_rgb<T: Real>(n: [T; 3], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_tilt_record_eq13_form::<T, Channels<T, 3>>(n, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_rotate_lobe:3`: Rotates hemispherical coefficients of order 3 by a quaternion, z, y, z, of a
@@ -5840,7 +5840,7 @@ pub fn hsh_rotate_lobe_sh_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9
 ///   worst of 256 measured, 9.5e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_rotate_lobe_eq13<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_rotate_lobe_eq13_form<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V; 9] {
     let t0 = q[1] + T::TINY;
     let t1 = q[3] + T::TINY;
     let t2 = t1.fma(t1, q[2] * q[2]);
@@ -5893,10 +5893,10 @@ pub fn hsh_rotate_lobe_eq13<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V;
     ]
 }
 
-/// [`hsh_rotate_lobe_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_rotate_lobe_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_rotate_lobe_eq13_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_rotate_lobe_eq13::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_rotate_lobe_eq13_form_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_rotate_lobe_eq13_form::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_rotate_record:3`: Rotates hemispherical coefficients of order 3 by a quaternion, z, y, z, of a
@@ -6125,7 +6125,7 @@ pub fn hsh_rotate_record_sh_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3];
 ///   worst of 256 measured, 9.5e-7; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn hsh_rotate_record_eq13<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V; 9] {
+pub fn hsh_rotate_record_eq13_form<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [V; 9] {
     let t0 = q[1] + T::TINY;
     let t1 = q[3] + T::TINY;
     let t2 = t1.fma(t1, q[2] * q[2]);
@@ -6178,10 +6178,10 @@ pub fn hsh_rotate_record_eq13<T: Real, V: Signal<T>>(q: [T; 4], c: &[V; 9]) -> [
     ]
 }
 
-/// [`hsh_rotate_record_eq13`] of three channels that share the parameters, as plain arrays.
+/// [`hsh_rotate_record_eq13_form`] of three channels that share the parameters, as plain arrays.
 #[inline(always)]
-pub fn hsh_rotate_record_eq13_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
-    hsh_rotate_record_eq13::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
+pub fn hsh_rotate_record_eq13_form_rgb<T: Real>(q: [T; 4], c: &[[T; 3]; 9]) -> [[T; 3]; 9] {
+    hsh_rotate_record_eq13_form::<T, Channels<T, 3>>(q, &c.map(Channels)).map(|v| v.0)
 }
 
 /// `hsh_rotate_table:3`: Rotates hemispherical coefficients of order 3 by z, y, z, the rotation about y

@@ -589,7 +589,7 @@ fn sh3_hsh_y_lobe_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f3
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-fn sh3_hsh_y_lobe_eq13(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_y_lobe_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = max(cs.x, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = t1 - 1.0;
@@ -622,7 +622,7 @@ fn sh3_hsh_y_lobe_eq13(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-fn sh3_hsh_y_lobe_eq13_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_y_lobe_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = max(cs.x, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = t1 - 1.0;
@@ -895,7 +895,7 @@ fn sh3_hsh_y_record_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-fn sh3_hsh_y_record_eq13(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_y_record_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = max(cs.x, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = t1 - 1.0;
@@ -928,7 +928,7 @@ fn sh3_hsh_y_record_eq13(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocal; 5 constants, 10 live values.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
-fn sh3_hsh_y_record_eq13_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_y_record_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = max(cs.x, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = t1 - 1.0;
@@ -1261,7 +1261,7 @@ fn sh3_hsh_tilt_lobe_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-fn sh3_hsh_tilt_lobe_eq13(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_tilt_lobe_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = max(n.z, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = inverseSqrt(t0 + t0 * t0) * t1;
@@ -1304,7 +1304,7 @@ fn sh3_hsh_tilt_lobe_eq13(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-fn sh3_hsh_tilt_lobe_eq13_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_tilt_lobe_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = max(n.z, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = inverseSqrt(t0 + t0 * t0) * t1;
@@ -1651,7 +1651,7 @@ fn sh3_hsh_tilt_record_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-fn sh3_hsh_tilt_record_eq13(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_tilt_record_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = max(n.z, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = inverseSqrt(t0 + t0 * t0) * t1;
@@ -1694,7 +1694,7 @@ fn sh3_hsh_tilt_record_eq13(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocals; 5 constants, 15 live values.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
-fn sh3_hsh_tilt_record_eq13_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_tilt_record_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = max(n.z, 1e-36);
     let t1 = 2.0 * t0;
     let t2 = inverseSqrt(t0 + t0 * t0) * t1;
@@ -2093,7 +2093,7 @@ fn sh3_hsh_rotate_lobe_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-fn sh3_hsh_rotate_lobe_eq13(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_rotate_lobe_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
     let t2 = q.z * q.z + t1 * t1;
@@ -2157,7 +2157,7 @@ fn sh3_hsh_rotate_lobe_eq13(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-fn sh3_hsh_rotate_lobe_eq13_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_rotate_lobe_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
     let t2 = q.z * q.z + t1 * t1;
@@ -2581,7 +2581,7 @@ fn sh3_hsh_rotate_record_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<v
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-fn sh3_hsh_rotate_record_eq13(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
+fn sh3_hsh_rotate_record_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
     let t2 = q.z * q.z + t1 * t1;
@@ -2645,7 +2645,7 @@ fn sh3_hsh_rotate_record_eq13(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 //     reciprocals; 5 constants, 19 live values.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
-fn sh3_hsh_rotate_record_eq13_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
+fn sh3_hsh_rotate_record_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
     let t0 = q.y + 1e-15;
     let t1 = q.w + 1e-15;
     let t2 = q.z * q.z + t1 * t1;
