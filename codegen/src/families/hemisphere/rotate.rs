@@ -57,6 +57,7 @@ const METHODS: &[&str] = &[
 const ROTATION: Family = Family {
     measure: Measure::Norm,
     choices: &[METHODS],
+    unproven: METHODS,
     max_angle: |spec| match method(spec) {
         Method::Shears => Some(SHEARED_DEGREES.to_radians()),
         _ => None,
