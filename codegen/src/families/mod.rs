@@ -15,7 +15,6 @@ pub mod fitted;
 pub mod group;
 pub mod hbasis;
 pub mod hemisphere;
-pub mod hint;
 pub mod irradiance;
 pub mod lifted;
 pub mod lights;

@@ -4,9 +4,9 @@ use crate::families::all::ALL;
 use crate::families::family::{
     ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
 };
-use crate::families::hint::hint;
 use crate::families::parts::small_angle::SmallAngle;
 use crate::families::{choices, factors};
+use crate::fault::hint;
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;

@@ -30,6 +30,9 @@ pub type Block = Vec<Vec<Exact>>;
 
 type Polynomial = Vec<BigRational>;
 
+/// The matrices of all m, of reals.
+type RealBlocks = Vec<Vec<Vec<Real>>>;
+
 fn integer(i: i64) -> BigRational {
     BigRational::from_integer(i.into())
 }
@@ -116,7 +119,7 @@ fn rows(m: usize) -> Block {
 
 static C: LazyLock<Vec<Block>> = LazyLock::new(|| (0..HIGHEST_ORDER).map(rows).collect());
 
-static C_REAL: LazyLock<Vec<Vec<Vec<Real>>>> = LazyLock::new(|| {
+static C_REAL: LazyLock<RealBlocks> = LazyLock::new(|| {
     let reals = |row: &Vec<Exact>| row.iter().map(Exact::to_real).collect();
     C.iter().map(|block| block.iter().map(reals).collect()).collect()
 });
@@ -186,7 +189,7 @@ fn extension_block(order: usize, m: usize) -> Vec<Vec<Real>> {
 
 /// E for each m.
 fn extension_blocks(order: usize) -> &'static [Vec<Vec<Real>>] {
-    static KEPT: [OnceLock<Vec<Vec<Vec<Real>>>>; HIGHEST_ORDER + 1] = [const { OnceLock::new() }; HIGHEST_ORDER + 1];
+    static KEPT: [OnceLock<RealBlocks>; HIGHEST_ORDER + 1] = [const { OnceLock::new() }; HIGHEST_ORDER + 1];
     KEPT[order].get_or_init(|| (0..order).map(|m| extension_block(order, m)).collect())
 }
 

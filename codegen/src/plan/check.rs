@@ -1,6 +1,7 @@
 //! What a plan refuses: names that a language or another function has taken, angles beyond a method's domain, f16 where
 //! there is none.
 
+// Names a family: it says which orders the hemisphere has.
 use crate::emit::Module;
 use crate::emit::language::{self, Target};
 use crate::emit::names::{self, Use};
@@ -38,16 +39,20 @@ pub(super) fn check_half(scene: &Scene, place: &Place) -> Result<(), Diagnostic>
     Err(Diagnostic::at(place, message, format!("write `targets = [{}]`, or leave f16 out", names.join(", "))))
 }
 
-/// Refuses an order that hemispherical coefficients do not have.
+/// Refuses an order that hemispherical coefficients do not have, and a norm beside their own.
 pub(super) fn check_hemisphere(rotation: &Rotation, order: usize) -> Result<(), Diagnostic> {
     let place = &rotation.order.place;
     match (&rotation.hemisphere, rotation.order.value) {
         (None, _) => Ok(()),
+        // A norm that is left out stands where the error does.
+        (Some(_), _) if rotation.norm.place != rotation.max_error.place => {
+            let help = "leave `norm` out: the error is the mean over such functions";
+            Err(Diagnostic::at(&rotation.norm.place, "a rotation on the hemisphere has a norm of its own", help))
+        }
         (Some(_), Order::Environment) => {
             let message = "the order of the environment is that of spherical coefficients";
             Err(Diagnostic::at(place, message, "write the order of the hemispherical ones as a number"))
         }
-        // Names a family: it says which orders the hemisphere has.
         (Some(_), Order::Number(_)) if !ROTATE_TABLE.orders.contains(&order) => {
             let [message, help] = (ROTATE_TABLE.outside)(order);
             Err(Diagnostic::at(place, message, help))

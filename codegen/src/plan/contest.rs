@@ -1,6 +1,7 @@
 //! A contest of methods: for a rotation that a scene bounds, every method that does the job is built, counted and
 //! measured, and the cheapest that keeps the error is chosen. All figures are the kernels' own.
 
+// Names a family: those of the hemisphere do the jobs of others for other coefficients.
 use crate::emit::Function;
 use crate::families::family::Spec;
 use crate::families::hemisphere::rotate;
@@ -125,7 +126,6 @@ impl<'a> Contest<'a> {
         contest
     }
 
-    // Names a family: those of the hemisphere do the jobs of others for other coefficients.
     fn enter_hemispherical(&mut self, below: Below) {
         let specs = rotate::candidates(self.rotation.kind, self.order, below).into_iter();
         let specs: Vec<Spec> = specs.map(|spec| Spec { rgb: self.rotation.rgb, ..spec }).collect();

@@ -1,7 +1,6 @@
 //! Conventions and axes as people write them, in a scene or on the command line.
 
-use crate::families::hint::hint;
-use crate::fault::Fault;
+use crate::fault::{Fault, hint};
 use crate::math::convention::{self, Axes, Convention, Holds};
 use crate::scene::wanted::Light;
 

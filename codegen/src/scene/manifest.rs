@@ -2,7 +2,7 @@
 
 use crate::emit::language::{self, Arrays, Target};
 use crate::families::family::{Job, MAX_ORDER, MIN_ORDER};
-use crate::families::hint::hint;
+use crate::fault::hint;
 use crate::files;
 use crate::input;
 use crate::math::convention::{Convention, ZONAL};
@@ -284,19 +284,12 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
         });
     }
     for table in manifest.rotation {
-        let hemisphere = table.hemisphere.map(|hemisphere| locate.at(hemisphere));
-        let says_norm = table.norm.is_some();
-        let norm = locate.or_default(table.norm, &table.max_error);
-        if hemisphere.is_some() && says_norm {
-            let help = "leave `norm` out: the error is the mean over such functions";
-            return Err(Diagnostic::at(&norm.place, "a rotation on the hemisphere has a norm of its own", help));
-        }
         scene.rotations.push(Rotation {
             kind: table.kind,
             order: locate.at(table.order),
             max_angle: locate.angle(table.max_angle)?,
-            norm,
-            hemisphere,
+            norm: locate.or_default(table.norm, &table.max_error),
+            hemisphere: table.hemisphere.map(|hemisphere| locate.at(hemisphere)),
             precision: locate.or_default(table.precision, &table.max_error),
             max_error: locate.number(table.max_error, "an error of", 0.0, f64::MAX)?,
             rgb: table.rgb,

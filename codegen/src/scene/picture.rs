@@ -3,10 +3,10 @@
 
 // Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
-use crate::families::hint::hint;
 use crate::families::text::usual;
 use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
+use crate::fault::hint;
 use crate::reflectance::brdf::Brdf;
 #[cfg(feature = "schema")]
 use crate::reflectance::brdf::{EXPONENTS, ROUGHNESSES};

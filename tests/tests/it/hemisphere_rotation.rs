@@ -426,8 +426,15 @@ fn a_plan_chooses_by_what_the_signal_is() {
     // What is nearest to the pole is all that equation 13 turns rightly.
     assert!(large.rivals.iter().any(|rival| rival.spec.ends_with(":eq13") && !rival.admissible));
     // A record errs by what nobody knows below the horizon, whatever turns it.
-    let record = chosen("y", &rest("record", 3, 5.0, 0.1));
-    assert_eq!(record.row.spec, "hsh_y_record:3");
+    let loose = chosen("y", &rest("record", 3, 5.0, 0.1));
+    let error = |spec: &str| {
+        let rival = loose.rivals.iter().find(|rival| rival.spec == spec).expect("is weighed");
+        rival.method_error
+    };
+    let (shears, stretched) = (error("hsh_y_record:3"), error("hsh_y_record:3:eq13"));
+    println!("a record of order 3 by 5 degrees: {shears} by shears, {stretched} by equation 13");
+    assert!(shears < stretched && loose.row.spec == "hsh_y_record:3:eq13", "{}", loose.row.spec);
+    assert_eq!(chosen("y", &rest("record", 3, 5.0, (shears + stretched) / 2.0)).row.spec, "hsh_y_record:3");
     let error = planned("y", &rest("record", 3, 5.0, 0.01)).expect_err("nothing keeps a per cent of a record");
     assert!(error.contains("no method keeps an error of 0.01") && error.contains("allow 0.0"), "{error}");
     let text = planned("zyz", &rest("record", 3, 45.0, 0.6)).expect("a table takes any angle").to_string();

@@ -3,7 +3,7 @@
 //! the sphere's (docs/MATH.md#hemispherical-harmonics).
 
 use crate::families::basis;
-use crate::families::family::{Acts, Family, Measure, Spec};
+use crate::families::family::{Acts, Family, Measure, Proof, Spec};
 use crate::families::hemisphere::{COMMON, signal};
 use crate::families::parts::bivariate;
 use crate::families::parts::columns::{Columns, Scaled, Sectoral, sectoral_factor};
@@ -29,6 +29,7 @@ pub static HSH_BASIS: Family = Family {
     },
     kernel: |spec| basis(spec.order),
     measure: Measure::Absolute,
+    proof: Proof::Nothing,
     shown: |order| vec![Spec::new(&HSH_BASIS, order)],
     ..COMMON
 };
@@ -45,6 +46,7 @@ pub static HSH_EVAL: Family = Family {
     },
     kernel: |spec| eval(spec.order),
     measure: Measure::Whole,
+    proof: Proof::Nothing,
     shown: |order| Spec::new(&HSH_EVAL, order).both(),
     ..COMMON
 };
@@ -61,6 +63,7 @@ pub static HSH_EVAL_MONOMIAL: Family = Family {
     },
     kernel: |spec| eval_monomial(spec.order),
     measure: Measure::Whole,
+    proof: Proof::Nothing,
     shown: |order| Spec::new(&HSH_EVAL_MONOMIAL, order).both(),
     ..COMMON
 };

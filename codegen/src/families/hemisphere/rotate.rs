@@ -57,6 +57,7 @@ const METHODS: &[&str] = &[
 const ROTATION: Family = Family {
     measure: Measure::Norm,
     choices: &[METHODS],
+    unproven: METHODS,
     max_angle: |spec| match method(spec) {
         Method::Shears => Some(SHEARED_DEGREES.to_radians()),
         _ => None,
@@ -238,7 +239,8 @@ fn finished(builder: Builder, order: usize, out: Vec<Id>) -> Kernel {
 /// About y: by β for shears, by its cosine and sine for what is exact in them.
 fn y(spec: &Spec, below: Below) -> Kernel {
     let order = spec.order;
-    let exactly = |turned: &dyn Fn(&mut Builder, &[Id], Phase) -> Vec<Id>| {
+    type Turned<'a> = &'a dyn Fn(&mut Builder, &[Id], Phase) -> Vec<Id>;
+    let exactly = |turned: Turned<'_>| {
         let mut builder = Builder::new();
         let cs = builder.param("cs", Shape::Pair, Domain::Phases, "(cos β, sin β)");
         let c = signal(&mut builder, order);
