@@ -320,3 +320,19 @@ fn every_method_is_measured_at_every_order() {
         }
     }
 }
+
+/// What docs/MATH.md#ringing was written from, found by other code: one light without an ambient, and the maps' mean of order 3.
+#[test]
+fn ringing_errs_as_was_found_by_other_means() {
+    let all = zonal_measure::ringing::measure(&Silent);
+    assert_eq!(all.len(), 9);
+    let lamp = [0.088, 0.080, 0.139, 0.209, 0.426, 0.352, 0.140, 0.099];
+    for ((way, got), want) in zonal_measure::ringing::WAYS.iter().zip(&all[0].errors).zip(lamp) {
+        assert!((got - want).abs() < 0.001, "{way}: {got}, not {want}");
+    }
+    let ringing: Vec<&str> = all[1..].iter().filter(|map| map.least < 0.0).map(|map| map.light.as_str()).collect();
+    assert_eq!(ringing, ["sunrise"]);
+    // What leaves nothing negative costs little where little is, and the square of the Laplacian much.
+    let sunrise = all.iter().find(|map| map.light == "sunrise").expect("is a map");
+    assert!(sunrise.errors[2] < 1.1 * sunrise.errors[0] && sunrise.errors[4] > 2.0 * sunrise.errors[0], "{sunrise:?}");
+}

@@ -32,8 +32,8 @@ fn the_functions_meet_the_golden_values() {
     for case in cases {
         let (dir, want) = (numbers(&case["d"]), numbers(&case["hbasis"]));
         // Values up to 1.4 from at most three roundings, and f32's of the direction.
-        close(&run("h6_basis", &[dir.clone()]), &want, 1e-15, "h6_basis");
-        close(&run("h4_basis", &[dir.clone()]), &want[..4], 1e-15, "h4_basis");
+        close(&run("h6_basis", std::slice::from_ref(&dir)), &want, 1e-15, "h6_basis");
+        close(&run("h4_basis", std::slice::from_ref(&dir)), &want[..4], 1e-15, "h4_basis");
         close(&narrow("h6_basis", &[dir]), &want, 4e-7, "h6_basis in f32");
     }
 }
@@ -300,6 +300,6 @@ fn the_coefficients_are_those_of_the_nearest_function() {
             values.run(&[dir.to_vec()]).into_iter().map(|b| b * e).collect()
         });
         // A sum of 64 numbers below 30.
-        close(&run(convert, &[radiance.clone()]), &want, 1e-13, convert);
+        close(&run(convert, std::slice::from_ref(&radiance)), &want, 1e-13, convert);
     }
 }

@@ -40,11 +40,11 @@ fn every_way_meets_the_golden_values() {
             };
             check(&format!("eval:{order}"), &c, value[i]);
             for axis in ["", ":x", ":y"] {
-                let turned = run(&format!("to_monomial:{order}{axis}"), &[c.clone()]);
+                let turned = run(&format!("to_monomial:{order}{axis}"), std::slice::from_ref(&c));
                 check(&format!("eval_monomial:{order}{axis}"), &turned, value[i]);
-                let prepared = run(&format!("to_irradiance:{order}{axis}"), &[c.clone()]);
+                let prepared = run(&format!("to_irradiance:{order}{axis}"), std::slice::from_ref(&c));
                 check(&format!("irradiance_prepared:{order}{axis}"), &prepared, irradiance[i]);
-                let prepared = run(&format!("to_irradiance:{order}:over_pi{axis}"), &[c.clone()]);
+                let prepared = run(&format!("to_irradiance:{order}:over_pi{axis}"), std::slice::from_ref(&c));
                 check(&format!("irradiance_prepared:{order}{axis}"), &prepared, irradiance[i] / PI);
             }
             for method in ["", ":nested"] {
@@ -101,7 +101,7 @@ fn order_four_is_order_three() {
     let mut random = Random::new(41);
     let [c, dir] = [(0..16).map(|_| random.signed()).collect(), random.unit::<3>().to_vec()];
     let three: Vec<f64> = c[..9].to_vec();
-    assert_eq!(run("to_irradiance:4", &[c.clone()]), run("to_irradiance:3", &[three.clone()]));
+    assert_eq!(run("to_irradiance:4", std::slice::from_ref(&c)), run("to_irradiance:3", std::slice::from_ref(&three)));
     assert_eq!(run("irradiance:4", &[dir.clone(), c.clone()]), run("irradiance:3", &[dir, three]));
     assert_eq!(spec("irradiance_prepared:4").code().params()[1].shape.len(), 9);
 }

@@ -29,7 +29,7 @@ fn the_minimum_meets_the_golden_values() {
     let (in_f64, in_f32) = (wide("minimum:3"), narrow("minimum:3"));
     for case in &cases {
         let (c, want) = (numbers(&case["irradiance_sh3"]), number(case, "min"));
-        let got = in_f64.run(&[c.clone()]);
+        let got = in_f64.run(std::slice::from_ref(&c));
         // The value is off by the square of what the direction is off.
         assert!((got[0] - want).abs() < 1e-15 && got[4] <= want && got[4] > want - 1e-13, "{got:?}, {want}");
         let far: Vec<f64> = got[1..4].iter().zip(numbers(&case["argmin"])).map(|(a, b)| a - b).collect();
@@ -88,7 +88,8 @@ fn the_bound_is_below_every_value_and_the_direction_holds_the_least() {
         let sampled = table.iter().map(|y| y.iter().zip(&c).map(|(y, c)| y * c).sum()).fold(f64::INFINITY, f64::min);
         let size = norm(&c);
         // A root that is nearly double is met to 3e-7 in eight steps; f32 rounds some twenty times.
-        for (got, close, rounding) in [(in_f64.run(&[c.clone()]), 3e-7, 1e-14), (in_f32.run(&[c.clone()]), 1e-5, 2e-6)]
+        for (got, close, rounding) in
+            [(in_f64.run(std::slice::from_ref(&c)), 3e-7, 1e-14), (in_f32.run(std::slice::from_ref(&c)), 1e-5, 2e-6)]
         {
             let dir = &got[1..4];
             assert!(got.iter().all(|x| x.is_finite()) && (norm(dir) - 1.0).abs() < rounding, "{c:?}: {got:?}");
@@ -108,7 +109,7 @@ fn fading_takes_just_what_is_negative() {
     let (fade, least) = (wide("lerp_to_dc:3"), wide("minimum:3"));
     for case in &cases() {
         let (c, want) = (numbers(&case["irradiance_sh3"]), number(case, "lerp_scale"));
-        let got = fade.run(&[c.clone()]);
+        let got = fade.run(std::slice::from_ref(&c));
         for (place, (got, c)) in got.iter().zip(&c).enumerate() {
             let share = if place == 0 { 1.0 } else { want };
             // The bound is some 1e-14 below the least value.
@@ -117,18 +118,18 @@ fn fading_takes_just_what_is_negative() {
         assert!(least.run(&[got])[0] > -1e-15);
     }
     for c in signals() {
-        let [wide, narrow] = [fade.run(&[c.clone()]), narrow("lerp_to_dc:3").run(&[c.clone()])];
+        let [wide, narrow] = [fade.run(std::slice::from_ref(&c)), narrow("lerp_to_dc:3").run(std::slice::from_ref(&c))];
         let mean = c[0].max(0.0);
         for (got, rounding) in [(wide, 1e-13), (narrow, 1e-5)] {
             assert!(got.iter().all(|x| x.is_finite()) && got[0] == c[0], "{c:?}: {got:?}");
-            let found = least.run(&[got.clone()])[0];
+            let found = least.run(std::slice::from_ref(&got))[0];
             assert!(c[0] <= 0.0 || found >= -rounding * mean, "{c:?}: {got:?} falls to {found}");
             if c[0] <= 0.0 {
                 assert!(got[1..].iter().all(|x| *x == 0.0), "{c:?}: {got:?}");
             }
         }
-        if c[0] > 0.0 && least.run(&[c.clone()])[4] > 0.0 {
-            assert_eq!(fade.run(&[c.clone()]), c, "what is not negative stays");
+        if c[0] > 0.0 && least.run(std::slice::from_ref(&c))[4] > 0.0 {
+            assert_eq!(fade.run(std::slice::from_ref(&c)), c, "what is not negative stays");
         }
     }
 }

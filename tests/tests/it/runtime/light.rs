@@ -136,7 +136,8 @@ fn the_least_value_and_the_negative_share_are_those_of_known_functions() {
             let negative = (0..100_000).filter(|i| value((f64::from(*i) + 0.5) / 5e4 - 1.0) < 0.0).count() as f64 / 1e5;
             let signal = quadratic([a, b, c], axis);
             let got = zonal::least(&signal);
-            assert!(got >= least - 1e-12 && got <= least + 0.01 * most, "{got}, not {least} of {a}, {b}, {c}");
+            // At order 3 a kernel finds it, to some hundred roundings.
+            assert!((got - least).abs() <= 1e-13 * (1.0 + most), "{got}, not {least} of {a}, {b}, {c}");
             let share = zonal::negative_share(&signal);
             // The circles where it vanishes cross the texels of a grid of 48 rows.
             assert!((share - negative).abs() < 0.01, "{share}, not {negative} of {a}, {b}, {c}");
