@@ -432,7 +432,7 @@ fn light(hemisphere: &Hemisphere) -> File {
         "The mean over the maps, and in brackets the worst map:".to_owned(),
         table(&["order n", "N = n", "N = n + 2", "N = 2n"], means),
         "With as many bands as the hemisphere has, half of the light's coefficients is wrong: what stands at the horizon \
-         needs bands of the sphere far beyond n. Twice as many leave a seventh, at every order, since the maps' suns \
+         needs bands of the sphere far beyond n. Twice as many leave a sixth, at every order, since the maps' suns \
          have all bands."
             .to_owned(),
         table(&columns, rows),
