@@ -22,6 +22,11 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
+/// A share as a percentage.
+pub(crate) fn percent(share: f64) -> String {
+    short(100.0 * share)
+}
+
 pub(crate) fn perhaps(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), short)
 }

@@ -40,7 +40,7 @@ const TASK: usize = 250;
 
 /// Where a basis' coefficients come from.
 #[derive(Clone, Copy)]
-enum From {
+enum Source {
     /// Inner products over the upper hemisphere.
     Hemisphere,
     /// The least squared error over the upper hemisphere.
@@ -53,7 +53,7 @@ struct Fit {
     name: &'static str,
     basis: &'static Basis,
     order: usize,
-    from: From,
+    from: Source,
     evaluation: Code,
 }
 
@@ -67,27 +67,27 @@ enum Code {
     Cube,
 }
 
-const fn fit(name: &'static str, (basis, order, from): (&'static Basis, usize, From), evaluation: Code) -> Fit {
+const fn fit(name: &'static str, (basis, order, from): (&'static Basis, usize, Source), evaluation: Code) -> Fit {
     Fit { name, basis, order, from, evaluation }
 }
 
 /// What is compared, in the order of docs/MATH.md's ranking, and the kernel that evaluates it.
 // Names a family: these evaluate the bases.
 static FITS: [Fit; 14] = [
-    fit("SH, order 3, least squares", (&SH, 3, From::LeastSquares), Code::Spec("eval:3")),
-    fit("SH, order 3, of the whole sphere", (&SH, 3, From::Sphere(3)), Code::Spec("eval:3")),
-    fit("H6", (&H, 3, From::Hemisphere), Code::Spec("h6_eval")),
-    fit("H6 from SH of order 5", (&H, 3, From::Sphere(5)), Code::Spec("h6_eval")),
-    fit("H6 from SH of order 3", (&H, 3, From::Sphere(3)), Code::Spec("h6_eval")),
-    fit("HSH, order 3", (&HSH, 3, From::Hemisphere), Code::Spec("hsh_eval:3")),
-    fit("Zernike, degrees to 2", (&ZERNIKE, 3, From::Hemisphere), Code::Zernike(2)),
-    fit("H4", (&H, 2, From::Hemisphere), Code::Spec("h4_eval")),
-    fit("SH, order 2, least squares", (&SH, 2, From::LeastSquares), Code::Spec("eval:2")),
-    fit("HSH, order 2", (&HSH, 2, From::Hemisphere), Code::Spec("hsh_eval:2")),
-    fit("SH, order 2, of the whole sphere", (&SH, 2, From::Sphere(2)), Code::Spec("eval:2")),
-    fit("Zernike, degrees to 1", (&ZERNIKE, 2, From::Hemisphere), Code::Zernike(1)),
-    fit("Half-Life 2", (&HALF_LIFE, 1, From::Hemisphere), Code::Spec("hl2_eval")),
-    fit("Ambient cube, least squares", (&CUBE, 1, From::LeastSquares), Code::Cube),
+    fit("SH, order 3, least squares", (&SH, 3, Source::LeastSquares), Code::Spec("eval:3")),
+    fit("SH, order 3, of the whole sphere", (&SH, 3, Source::Sphere(3)), Code::Spec("eval:3")),
+    fit("H6", (&H, 3, Source::Hemisphere), Code::Spec("h6_eval")),
+    fit("H6 from SH of order 5", (&H, 3, Source::Sphere(5)), Code::Spec("h6_eval")),
+    fit("H6 from SH of order 3", (&H, 3, Source::Sphere(3)), Code::Spec("h6_eval")),
+    fit("HSH, order 3", (&HSH, 3, Source::Hemisphere), Code::Spec("hsh_eval:3")),
+    fit("Zernike, degrees to 2", (&ZERNIKE, 3, Source::Hemisphere), Code::Zernike(2)),
+    fit("H4", (&H, 2, Source::Hemisphere), Code::Spec("h4_eval")),
+    fit("SH, order 2, least squares", (&SH, 2, Source::LeastSquares), Code::Spec("eval:2")),
+    fit("HSH, order 2", (&HSH, 2, Source::Hemisphere), Code::Spec("hsh_eval:2")),
+    fit("SH, order 2, of the whole sphere", (&SH, 2, Source::Sphere(2)), Code::Spec("eval:2")),
+    fit("Zernike, degrees to 1", (&ZERNIKE, 2, Source::Hemisphere), Code::Zernike(1)),
+    fit("Half-Life 2", (&HALF_LIFE, 1, Source::Hemisphere), Code::Spec("hl2_eval")),
+    fit("Ambient cube, least squares", (&CUBE, 1, Source::LeastSquares), Code::Cube),
 ];
 
 /// A basis and what it errs by.
@@ -223,7 +223,7 @@ struct Prepared {
     gram: Matrix,
     /// From inner products, or from the whole sphere's coefficients.
     map: Matrix,
-    from: From,
+    from: Source,
 }
 
 impl Prepared {
@@ -235,12 +235,12 @@ impl Prepared {
         let gram = weighted.times(&values);
         let one = Matrix::identity(count);
         let map = match fit.from {
-            From::Hemisphere => one,
-            From::LeastSquares => one.over(&gram),
-            From::Sphere(bands) if std::ptr::eq(fit.basis, &SH) => {
+            Source::Hemisphere => one,
+            Source::LeastSquares => one.over(&gram),
+            Source::Sphere(bands) if std::ptr::eq(fit.basis, &SH) => {
                 Matrix::from_fn(count, bands * bands, |i, j| f64::from(u8::from(i == j)))
             }
-            From::Sphere(bands) => {
+            Source::Sphere(bands) => {
                 let harmonics: Vec<Vec<f64>> = nodes.iter().map(|(direction, _)| SH.at(bands, *direction)).collect();
                 weighted.times(&Matrix::from_fn(nodes.len(), bands * bands, |node, j| harmonics[node][j]))
             }
@@ -252,7 +252,7 @@ impl Prepared {
     fn error(&self, values: &[f64], whole: &[f64], square: f64) -> f64 {
         let products = self.weighted.apply(values);
         let c = match self.from {
-            From::Sphere(_) => self.map.apply(&whole[..self.map.columns()]),
+            Source::Sphere(_) => self.map.apply(&whole[..self.map.columns()]),
             _ => self.map.apply(&products),
         };
         let twice: f64 = c.iter().zip(&products).map(|(c, b)| 2.0 * c * b).sum();

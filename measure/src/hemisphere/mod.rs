@@ -3,6 +3,7 @@
 
 pub mod bases;
 pub mod captured;
+pub mod claims;
 pub mod cost;
 pub mod grid;
 pub mod irradiance;

@@ -1,6 +1,7 @@
-//! The tables and plots of what is measured on the hemisphere, and what becomes of the papers' claims.
+//! The tables and plots of what is measured on the hemisphere.
 
 use super::captured::{Captured, LOBES, VIEWS};
+use super::claims::{Claim, claims, rank};
 use super::irradiance::{FIGURE_3, FRAMES, KINDS, KINDS_IN_WORDS, Rank, SIGNALS};
 use super::light::{Light, ORDERS as LIGHT_ORDERS, SPHERES};
 use super::rotation::{Errors, FEW, FRAMES as SEEN, LOBE_ANGLES, READ, RECORD_ANGLES, TABLED, WINDOW};
@@ -8,29 +9,9 @@ use super::spheres::{LARGER, NAME as SPHERES_NAME, SUN, Sphere};
 use super::teapot::{DARK, NAME as TEAPOT_NAME, ORDER, Pixel, SIDE, SIZES, Teapot};
 use super::{Hemisphere, SUN as SUNNY};
 use crate::File;
-use crate::markdown::{file, short, table};
+use crate::markdown::{file, percent, short, table};
 use crate::papers::FRAMES as FRAMES_PRINTED;
 use crate::svg::{Axis, Panel, Picture, Series, Stroke, file as picture, key};
-
-/// A claim of a paper, whether it holds here, and by which figures.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Claim {
-    /// What is claimed.
-    pub claim: &'static str,
-    /// Whether it holds.
-    pub holds: bool,
-    /// The figures.
-    pub figures: String,
-}
-
-/// A share as a percentage.
-fn percent(share: f64) -> String {
-    short(100.0 * share)
-}
-
-fn rank<'a>(ranks: &'a [Rank], name: &str) -> &'a Rank {
-    ranks.iter().find(|rank| rank.basis == name).expect("a report holds every basis")
-}
 
 /// The bases that are shown on maps.
 const UPPER: [&str; 7] = [
@@ -42,80 +23,6 @@ const UPPER: [&str; 7] = [
     "SH, order 2, of the whole sphere",
     "Half-Life 2",
 ];
-
-/// What Habel and Wimmer 2010 claim of their Figure 3 and of irradiance in spherical harmonics.
-pub fn claims(hemisphere: &Hemisphere) -> Vec<Claim> {
-    let ranks = &hemisphere.irradiance;
-    let error = |name: &str| rank(ranks, name).figure_3;
-    let figure = |names: &[&str]| {
-        let one = |name: &&str| format!("{name}: {}", short(1e3 * error(name)));
-        names.iter().map(one).collect::<Vec<_>>().join(" · ") + " (· 10⁻³)"
-    };
-    let claim = |claim, holds, figures| Claim { claim, holds, figures };
-    let (h4, h6, linear) = (error("H4"), error("H6"), error("SH, order 2, least squares"));
-    let others = |coefficients: usize, but: &'static str| {
-        ranks.iter().filter(move |rank| rank.coefficients == coefficients && !rank.basis.starts_with(but))
-    };
-    let (three, five) = (error("H6 from SH of order 3"), error("H6 from SH of order 5"));
-    let rms = rank(ranks, "SH, order 3, of the whole sphere").rms;
-    let maps = &rank(ranks, "SH, order 3, of the whole sphere").maps;
-    let mean = maps.iter().sum::<f64>() / maps.len() as f64;
-    let (least, most) = (maps.iter().copied().fold(1.0, f64::min), maps.iter().copied().fold(0.0, f64::max));
-    let better =
-        rank(ranks, "H6").maps.iter().zip(&rank(ranks, "HSH, order 3").maps).filter(|(h6, hsh)| h6 < hsh).count();
-    vec![
-        claim(
-            "H4 equals least-squares linear SH",
-            (h4 / linear - 1.0).abs() < 1e-6,
-            figure(&["H4", "SH, order 2, least squares"]),
-        ),
-        claim(
-            "H6 has the least error of all bases with six coefficients",
-            others(6, "H6").all(|rank| rank.figure_3 > h6),
-            figure(&["H6", "Zernike, degrees to 2"]),
-        ),
-        claim(
-            "H6 errs by less than HSH with nine",
-            error("HSH, order 3") > h6,
-            format!("{}; and on {better} of the {} maps", figure(&["H6", "HSH, order 3"]), maps.len()),
-        ),
-        claim(
-            "Zernike with three errs by less than Half-Life 2",
-            error("Zernike, degrees to 1") < error("Half-Life 2"),
-            figure(&["Zernike, degrees to 1", "Half-Life 2"]),
-        ),
-        claim(
-            "Of those with nine only SH errs by less than H6",
-            others(9, "SH").all(|rank| rank.figure_3 > h6)
-                && ranks
-                    .iter()
-                    .filter(|rank| rank.coefficients == 9 && rank.basis.starts_with("SH"))
-                    .all(|sh| sh.figure_3 < h6),
-            figure(&["SH, order 3, least squares", "SH, order 3, of the whole sphere", "H6", "HSH, order 3"]),
-        ),
-        claim(
-            "T_h⁴ changes nothing that one sees",
-            // The error changes by less than two per cent of itself.
-            five / three > 0.98,
-            format!(
-                "{}; its part is {} % of the irradiance in rms terms",
-                figure(&["H6 from SH of order 3", "H6 from SH of order 5"]),
-                percent((three - five).sqrt())
-            ),
-        ),
-        claim(
-            "SH of order 3 errs by less than 3 % on average",
-            rms < 0.03 && mean < 0.03,
-            format!(
-                "over the {FIGURE_3} signals {} % of the rms on average; on the maps, above the horizon, {} %, from {} to {} %",
-                percent(rms),
-                percent(mean),
-                percent(least),
-                percent(most)
-            ),
-        ),
-    ]
-}
 
 /// The error of each basis over its number of coefficients, a panel for each kind of irradiance.
 fn ranking_plot(ranks: &[Rank]) -> File {
@@ -432,7 +339,7 @@ fn light(hemisphere: &Hemisphere) -> File {
         "The mean over the maps, and in brackets the worst map:".to_owned(),
         table(&["order n", "N = n", "N = n + 2", "N = 2n"], means),
         "With as many bands as the hemisphere has, half of the light's coefficients is wrong: what stands at the horizon \
-         needs bands of the sphere far beyond n. Twice as many leave a seventh, at every order, since the maps' suns \
+         needs bands of the sphere far beyond n. Twice as many leave a sixth, at every order, since the maps' suns \
          have all bands."
             .to_owned(),
         table(&columns, rows),

@@ -5,11 +5,12 @@ use serde_json::Value;
 use std::path::Path;
 use zonal_measure::hemisphere::Hemisphere;
 use zonal_measure::hemisphere::bases::{H, HSH};
+use zonal_measure::hemisphere::claims::claims;
 use zonal_measure::hemisphere::irradiance::Rank;
 use zonal_measure::hemisphere::matrix::{Matrix, relative};
-use zonal_measure::hemisphere::pages::claims;
 use zonal_measure::hemisphere::rotation::{Errors, LOBE_WAYS, ORDERS, RECORD_WAYS};
 use zonal_measure::hemisphere::turn::{SPHERE, conversion, derivative, extension, lf3, y_rotation};
+use zonal_measure::papers::FRAMES;
 
 fn found() -> &'static Hemisphere {
     &fresh().hemisphere
@@ -348,6 +349,9 @@ fn records_turn_as_well_as_other_code_found() {
             assert!(RECORD_WAYS.iter().all(|way| *way == "C D E" || error(way, place) >= best), "order {order}");
             assert!(error("LF3 on B", place) < error("LF3 on B₀", place), "order {order}");
         }
+        // The errors of the best grow as the angle does, a little less.
+        let growth = error("C D E", 1) / error("C D E", 0);
+        assert!((1.7..2.1).contains(&growth), "order {order}: {growth}");
     }
 }
 
@@ -415,8 +419,10 @@ fn teapots_err_and_ring_as_the_page_says() {
 fn pixels_cost_a_conversion_more() {
     let bytes: Vec<usize> = found().pixels.iter().map(|pixel| pixel.bytes).collect();
     assert_eq!(bytes, [16, 36, 100, 256, 400]);
-    for pixel in &found().pixels {
+    for (pixel, (order, hsh, sh)) in found().pixels.iter().zip(FRAMES) {
+        assert_eq!(pixel.order, order);
         let [rotate, convert, sum] = pixel.steps;
+        assert!(convert as f64 / (rotate + sum) as f64 > 1.0 - hsh / sh, "more than the paper saw: {pixel:?}");
         assert_eq!((sum, pixel.steps_rgb[2]), (pixel.order * pixel.order, 3 * pixel.order * pixel.order));
         assert!((sum..rotate).contains(&convert), "{pixel:?}");
         // C has an entry for each pair of bands with equal m at most.
