@@ -1,8 +1,6 @@
 //! Light at a point of a surface: the frame in which a lightmap stores it, and the bases over the hemisphere of that frame
 //! (docs/MATH.md#the-h-basis, docs/MATH.md#half-life-2).
 
-use zonal_kernels::real::Real;
-
 use crate::coefficients::Coefficients;
 use crate::scalar::{Element, Scalar};
 
