@@ -75,8 +75,8 @@ pub fn exr(size: usize, values: &[Vec<[f64; 3]>], covered: &[bool]) -> Result<Ve
     }
     let covered = covered.iter().map(|&covered| f32::from(u8::from(covered))).collect();
     channels.push(AnyChannel::new("covered", FlatSamples::F32(covered)));
-    let mut about = LayerAttributes::default();
-    about.comments = Some(Text::new_or_panic(format!("{MARK} bake")));
+    let comments = Some(Text::new_or_panic(format!("{MARK} bake")));
+    let about = LayerAttributes { comments, ..LayerAttributes::default() };
     let layer = Layer::new((size, size), about, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().to_buffered(&mut bytes);

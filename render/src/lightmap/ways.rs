@@ -32,7 +32,7 @@ pub struct Way {
 /// How a way gets from radiance to a value.
 enum Made {
     /// By coefficients of a basis; the normal map may be left out.
-    Basis { basis: Basis, is_flat: bool },
+    Basis { basis: Box<Basis>, is_flat: bool },
     /// By the cosine's lobe, which is turned to the normal.
     Lobe(Vec<f64>),
 }
@@ -69,7 +69,7 @@ impl Way {
             // Without the normal map one colour is stored.
             let (coefficients, operations) = if is_flat { (1, 0) } else { (basis.coefficients, cost.total) };
             let (special, takes_means) = (cost.special, !is_flat);
-            let made = Made::Basis { basis, is_flat };
+            let made = Made::Basis { basis: Box::new(basis), is_flat };
             ways.push(Self { name, coefficients, spec, operations, prepared, special, takes_means, kernel, made });
         }
         let (kernel, known) = program("tilt:3")?;

@@ -124,7 +124,8 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
     folder.put("nan_uv.obj", PLANE.replace("vt 1 0", "vt inf 0"));
     folder.put("empty.obj", "");
     folder.put("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
-    folder.put("bare.obj", PLANE.replace("/1", "").replace("/2", "").replace("/3", "").replace("/4", ""));
+    let bare: Vec<&str> = PLANE.lines().filter(|line| line.starts_with("v ")).chain(["f 1 2 3", "f 1 3 4"]).collect();
+    folder.put("bare.obj", bare.join("\n"));
     folder.put("fewer.obj", &PLANE[..PLANE.trim_end().rfind('\n').expect("lines") + 1]);
     folder.put("outside.obj", PLANE.replace("vt 1 1", "vt 3 1"));
     folder.put("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
