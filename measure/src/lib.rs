@@ -17,6 +17,7 @@ pub mod plots;
 pub mod report;
 pub mod ringing;
 pub mod rounding;
+pub mod shading;
 pub mod stability;
 pub mod svg;
 pub mod tables;

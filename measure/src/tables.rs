@@ -424,15 +424,13 @@ fn index(report: &Report) -> File {
     let rows = [
         ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of Křivánek et al. 2005"),
         ("[costs](costs.md)", "operations, constants, live values and bytes of every rotation"),
-        (
-            "[fronts](fronts.md)",
-            "the cheapest rotation for an error, by order and largest angle, predicted and measured",
-        ),
+        ("[fronts](fronts.md)", "the cheapest rotation for an error, by order and angle, predicted and measured"),
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
         ("[factorisation](factorisation.md)", "Tables I and II of Nowrouzezahrai et al. 2012, ours beside"),
         ("[ringing](ringing.md)", "what is done against ringing, and how far it errs on eight maps"),
+        ("[shading](shading.md)", "isotropic decomposition: Figure 13 of Soler et al. 2015, costs, convergence"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];
@@ -465,6 +463,7 @@ pub fn files(report: &Report) -> Vec<File> {
         crate::stability::report::tables(&report.stability),
         factorisation(report),
         crate::ringing::table(&report.ringing),
+        crate::shading::table(&report.shading),
         timing(report),
     ]
 }

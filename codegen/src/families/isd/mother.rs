@@ -2,6 +2,7 @@
 //! matrix M that takes the copies' weights to coefficients (docs/MATH.md#mother-functions). It computes in f64, and refuses
 //! copies whose M cannot be inverted in any precision that a shader has.
 
+use crate::environment::harmonics::basis;
 use crate::math::index::coefficients;
 use crate::math::linear::condition;
 use crate::math::quadrature::gauss_legendre;
@@ -83,45 +84,6 @@ fn legendre_to(l: usize, z: f64) -> Vec<f64> {
     all
 }
 
-/// Returns the harmonics y_l^m to the band `bands` at a direction of unit length, index l(l+1)+m.
-pub fn harmonics(bands: usize, [x, y, z]: [f64; 3]) -> Vec<f64> {
-    let count = bands + 1;
-    let mut out = vec![0.0; count * count];
-    let (mut re, mut im) = (1.0, 0.0);
-    for m in 0..count {
-        let mut before = 0.0;
-        // The sectoral factor holds the sign, √2 and the double factorial.
-        let mut value = sectoral(m);
-        for l in m..count {
-            let place = l * (l + 1);
-            out[place + m] = value * re;
-            if m > 0 {
-                out[place - m] = value * im;
-            }
-            let (l, m) = ((l + 1) as f64, m as f64);
-            let width = l * l - m * m;
-            let ahead = ((4.0 * l * l - 1.0) / width).sqrt();
-            let back = match l - 1.0 > m {
-                true => (((l - 1.0) * (l - 1.0) - m * m) * (2.0 * l + 1.0) / ((2.0 * l - 3.0) * width)).sqrt(),
-                false => 0.0,
-            };
-            (before, value) = (value, ahead * z * value - back * before);
-        }
-        (re, im) = (re * x - im * y, re * y + im * x);
-    }
-    out
-}
-
-/// (−1)^m √2 K_m^m (2m − 1)!!; K_0^0 for m = 0.
-fn sectoral(m: usize) -> f64 {
-    let mut square = 1.0 / (4.0 * PI);
-    for k in 1..=m {
-        square *= (2 * k + 1) as f64 / (2 * k) as f64;
-    }
-    let size = if m == 0 { square.sqrt() } else { (2.0 * square).sqrt() };
-    if m.is_multiple_of(2) { size } else { -size }
-}
-
 /// A set of directions for each level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Levels(Vec<Vec<[f64; 3]>>);
@@ -149,6 +111,11 @@ impl Levels {
             true => Ok(Self((0..=bands).map(|l| directions[l * l..(l + 1) * (l + 1)].to_vec()).collect())),
             false => Err(format!("{count} directions do not suit {bands} bands: give {want}")),
         }
+    }
+
+    /// Returns the directions of each level.
+    pub fn directions(&self) -> &[Vec<[f64; 3]>] {
+        &self.0
     }
 
     /// Directions spread over the whole sphere by the golden angle and dealt to the levels: none near another of its own or of
@@ -195,7 +162,8 @@ impl Decomposition {
                 let beta = mother.beta(l, bands);
                 let factor = move |at: usize| beta[at] * (4.0 * PI / (2 * at + 1) as f64).sqrt();
                 directions.iter().map(move |&z| {
-                    let values = harmonics(bands, z);
+                    let mut values = vec![0.0; (bands + 1) * (bands + 1)];
+                    basis(bands + 1, z, &mut values);
                     coefficients(bands + 1).zip(values).map(|((at, _), y)| factor(at) * y).collect()
                 })
             })
