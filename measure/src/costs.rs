@@ -9,10 +9,10 @@ use zonal_codegen::emit::language::{GLSL, WGSL};
 // Names a family: these neither turn a signal nor serve one that does.
 use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::EVAL;
+use zonal_codegen::families::family::Measure;
 use zonal_codegen::families::hemisphere::gradient::HSH_GRADIENT;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
 use zonal_codegen::families::tilt::{TILT_SCALE, TILT_UNSCALE};
-use zonal_codegen::families::family::Measure;
 use zonal_codegen::families::{Family, Form, Group, Spec};
 use zonal_codegen::generate;
 use zonal_codegen::ir::listing::{Cost, Listing};

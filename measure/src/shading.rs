@@ -294,8 +294,7 @@ fn converged(text: &str) -> Vec<Convergence> {
 
 /// Measures shading.
 pub fn measure(progress: &dyn Progress) -> Shading {
-    let profiles: Vec<(Mother, bool)> =
-        PROFILES.iter().flat_map(|&mother| [(mother, false), (mother, true)]).collect();
+    let profiles: Vec<(Mother, bool)> = PROFILES.iter().flat_map(|&mother| [(mother, false), (mother, true)]).collect();
     Shading {
         conditions: each(progress, "mother functions", &profiles, conditions),
         forms: each(progress, "shading", &ORDERS, forms),

@@ -22,14 +22,8 @@ pub fn outside(order: usize) -> [String; 2] {
 }
 
 /// What both families share.
-const DECOMPOSED: Family = Family {
-    group: Group::Shade,
-    acts: Acts::Bands,
-    half: false,
-    orders: ORDERS,
-    outside,
-    ..Family::PLAIN
-};
+const DECOMPOSED: Family =
+    Family { group: Group::Shade, acts: Acts::Bands, half: false, orders: ORDERS, outside, ..Family::PLAIN };
 
 /// `isd_matrix`.
 pub static ISD_MATRIX: Family = Family {

@@ -139,8 +139,7 @@ fn by_angles(order: usize, reflectance: &Reflectance) -> Kernel {
         y_band(g, &band, &angles.beta)
     });
     let factor = |l: usize, m: isize| (reflectance.place)(l, m).map(|place| c[place]);
-    let terms: Vec<[Id; 2]> =
-        (0..order).filter_map(|l| Some([factor(l, 0)?, before[index(l, 0)]])).collect();
+    let terms: Vec<[Id; 2]> = (0..order).filter_map(|l| Some([factor(l, 0)?, before[index(l, 0)]])).collect();
     let mut sum = summed(g, &terms);
     for m in 1..order {
         let signed = m as isize;

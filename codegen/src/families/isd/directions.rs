@@ -105,9 +105,8 @@ pub fn legendre(l: usize, x: f64) -> [f64; 2] {
 /// Every set that `data/directions.toml` holds.
 pub fn kept() -> &'static [Record] {
     static RECORDS: OnceLock<Records> = OnceLock::new();
-    let read = || {
-        toml::from_str(include_str!("../../../data/directions.toml")).expect("data/directions.toml is as declared")
-    };
+    let read =
+        || toml::from_str(include_str!("../../../data/directions.toml")).expect("data/directions.toml is as declared");
     &RECORDS.get_or_init(read).set
 }
 

@@ -15,13 +15,8 @@ use crate::ir::graph::Id;
 use crate::ir::kernel::{Builder, Domain, Shape};
 
 /// What the kernels that shade have in common.
-const SHADING: Family = Family {
-    group: Group::Shade,
-    measure: Measure::Product,
-    acts: Acts::Mixes,
-    half: false,
-    ..Family::PLAIN
-};
+const SHADING: Family =
+    Family { group: Group::Shade, measure: Measure::Product, acts: Acts::Mixes, half: false, ..Family::PLAIN };
 
 /// Declares the rotation of the world to the local frame.
 fn to_local(builder: &mut Builder) -> Vec<Id> {

@@ -186,7 +186,9 @@ impl Decomposition {
         let (name, bands) = (mother.name(), levels.0.len() - 1);
         let what = if made.condition < 1e15 { "nearly singular" } else { "singular" };
         let help = match mother {
-            Mother::EvenPhong => "take the clamped one, max(0, z)^(4l): copies of an even function make up no odd bands",
+            Mother::EvenPhong => {
+                "take the clamped one, max(0, z)^(4l): copies of an even function make up no odd bands"
+            }
             Mother::Harmonic | Mother::Legendre => "spread the directions of each band",
             _ => "give each level directions of its own, over the whole sphere",
         };
