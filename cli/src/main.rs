@@ -2,6 +2,7 @@
 //! bakes is other programs, to which it hands over.
 
 mod commands;
+mod directions;
 mod hand_over;
 mod init;
 mod products;
@@ -162,6 +163,8 @@ enum Command {
     SearchLobes(search::Arguments),
     /// Searches for plans that make products and squares cheap.
     SearchProducts(products::Arguments),
+    /// Searches for directions about which zonal harmonics make up every function of their bands with small weights.
+    SearchDirections(directions::Arguments),
 }
 
 /// A spec that stands on the command line.
@@ -190,6 +193,7 @@ fn main() -> ExitCode {
         Command::Catalog { check, dir, force } => commands::catalog(&dir, check, Replace::forced(force)),
         Command::SearchLobes(arguments) => search::run(&arguments),
         Command::SearchProducts(arguments) => products::run(&arguments),
+        Command::SearchDirections(arguments) => directions::run(&arguments),
     };
     ended(result)
 }

@@ -9,6 +9,8 @@ use zonal_codegen::emit::language::{GLSL, WGSL};
 // Names a family: these neither turn a signal nor serve one that does.
 use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::{EVAL, EVAL_ONCE};
+use zonal_codegen::families::family::Measure;
+use zonal_codegen::families::hemisphere::gradient::HSH_GRADIENT;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
 use zonal_codegen::families::tilt::{TILT_SCALE, TILT_UNSCALE};
 use zonal_codegen::families::{Family, Form, Group, Spec};
@@ -42,9 +44,12 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    const OTHERS: [&Family; 7] =
-        [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
-    let is_other = |spec: &Spec| matches!(spec.family.group, Group::Light | Group::Multiply | Group::Irradiance);
+    const OTHERS: [&Family; 8] =
+        [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE, &HSH_GRADIENT];
+    let is_other = |spec: &Spec| {
+        matches!(spec.family.group, Group::Light | Group::Multiply | Group::Irradiance | Group::Shade)
+            || matches!(spec.family.measure, Measure::Product)
+    };
     let turns = |spec: &Spec| !OTHERS.contains(&spec.family) && !is_other(spec);
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()
 }

@@ -19,6 +19,7 @@ pub mod raster;
 pub mod report;
 pub mod ringing;
 pub mod rounding;
+pub mod shading;
 pub mod stability;
 pub mod svg;
 pub mod tables;

@@ -268,6 +268,7 @@ pub fn files(report: &Report) -> Vec<File> {
         operations(report),
         rounding(report),
         factorisation(report),
+        crate::shading::plot(&report.shading),
     ];
     files.extend(crate::stability::report::plots(&report.stability));
     files

@@ -8,9 +8,10 @@ use crate::fronts::{Front, Plan};
 use crate::hemisphere::Hemisphere;
 use crate::ringing::Ringing;
 use crate::rounding::Rounding;
+use crate::shading::Shading;
 use crate::stability::Stability;
 use crate::timing::Timing;
-use crate::{Progress, costs, errors, factorisation, fronts, ringing, rounding};
+use crate::{Progress, costs, errors, factorisation, fronts, ringing, rounding, shading};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use zonal_codegen::families::Spec;
@@ -38,6 +39,9 @@ pub struct Report {
     /// What is done against ringing, and how far it errs.
     #[serde(default)]
     pub ringing: Vec<Ringing>,
+    /// Shading by isotropic decomposition.
+    #[serde(default)]
+    pub shading: Shading,
     /// The proven rounding bounds beside what was measured last.
     #[serde(default)]
     pub bounds: Option<Vec<Bounds>>,
@@ -62,6 +66,7 @@ impl Report {
             plans,
             factorisation: factorisation::measure(progress),
             ringing: ringing::measure(progress),
+            shading: shading::measure(progress),
             bounds: None,
             stability: Stability::measure(progress),
             hemisphere: Hemisphere::measure(progress),

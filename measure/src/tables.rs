@@ -424,10 +424,7 @@ fn index(report: &Report) -> File {
     let rows = [
         ("[errors](errors.md)", "how far each approximation errs at which angle; Figure 3 of Křivánek et al. 2005"),
         ("[costs](costs.md)", "operations, constants, live values and bytes of every rotation"),
-        (
-            "[fronts](fronts.md)",
-            "the cheapest rotation for an error, by order and largest angle, predicted and measured",
-        ),
+        ("[fronts](fronts.md)", "the cheapest rotation for an error, by order and angle, predicted and measured"),
         ("[rounding](rounding.md)", "what f16, f32 and f64 add"),
         ("[bounds](bounds.md)", "the proven rounding bounds of all kernels, and what a million inputs reach"),
         ("[stability](stability.md)", "the extremes: order 64, poles, tiny angles, rotations in a row, infinities"),
@@ -444,6 +441,7 @@ fn index(report: &Report) -> File {
             "[hemisphere_reflectance](hemisphere_reflectance.md)",
             "reflectances in hemispherical harmonics: Figure 6 and Table 1 of Gautron et al. 2004",
         ),
+        ("[shading](shading.md)", "isotropic decomposition: Figure 13 of Soler et al. 2015, costs, convergence"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];
@@ -476,6 +474,7 @@ pub fn files(report: &Report) -> Vec<File> {
         crate::stability::report::tables(&report.stability),
         factorisation(report),
         crate::ringing::table(&report.ringing),
+        crate::shading::table(&report.shading),
         timing(report),
     ]
 }

@@ -2,7 +2,7 @@
 
 use crate::families::family::Family;
 use crate::families::{
-    about_y, align, axis, basis, convolution, fitted, hbasis, hemisphere, irradiance, lifted, lights, monomial,
+    about_y, align, axis, basis, convolution, fitted, hbasis, hemisphere, irradiance, isd, lifted, lights, monomial,
     product, ringing, small_turn, tensor, tilt, zhf, zonal, zonal_functions, zxzxz, zyz,
 };
 
@@ -35,6 +35,8 @@ pub static ALL: &[&Family] = &[
     &zhf::ZHF,
     &zhf::ZHF_WEIGHTS,
     &zhf::ZHF_TAILORED,
+    &zhf::coupling::ZHF_DOT,
+    &zhf::coupling::ZHF_DOT_LOBES,
     &axis::ROTATE_Z,
     &axis::ROTATE_Y,
     &axis::SWAP_YZ,
@@ -115,6 +117,15 @@ pub static ALL: &[&Family] = &[
     &hemisphere::rotate::ROTATE_LOBE,
     &hemisphere::rotate::ROTATE_RECORD,
     &hemisphere::table::ROTATE_TABLE,
+    &hemisphere::gradient::HSH_GRADIENT,
+    &isd::decomposition::ISD_MATRIX,
+    &isd::decomposition::ISD_WEIGHTS,
+    &isd::paper::ISD_SHADE,
+    &isd::paper::ISD_SHADE_ZONAL,
+    &isd::direct::SHADE,
+    &isd::direct::SHADE_TENSOR,
+    &isd::direct::SHADE_ISOTROPIC,
+    &isd::direct::SHADE_ZONAL,
     #[cfg(test)]
     &super::toy::EXCHANGED_Y,
 ];

@@ -140,11 +140,30 @@ pub fn sum(g: &mut Graph, dir: &[Id], c: &[Id], places: &[Option<usize>], scale:
 ///
 /// If no harmonic has a place.
 pub fn sum_at(g: &mut Graph, dir: &Scaled, c: &[Id], places: &[Option<usize>], scale: BandScale) -> Id {
+    weighted_sum_at(g, dir, c, places, scale, None)
+}
+
+/// Returns what [`sum_at`] does with each band multiplied by a weight too: n (n + 1) / 2 operations more, which channels share.
+///
+/// # Panics
+///
+/// If no harmonic has a place.
+pub fn weighted_sum_at(
+    g: &mut Graph,
+    dir: &Scaled,
+    c: &[Id],
+    places: &[Option<usize>],
+    scale: BandScale,
+    weights: Option<&[Id]>,
+) -> Id {
     let order = places.len().isqrt();
     let basis = Columns::new(g, dir, order, scale, Sectoral::UnitLength);
     let mut sum: Option<Id> = None;
     for m in 0..order {
-        let polynomials = basis.polynomials(g, m, order);
+        let mut polynomials = basis.polynomials(g, m, order);
+        if let Some(weights) = weights {
+            polynomials.iter_mut().zip(&weights[m..]).for_each(|(value, &weight)| *value = g.mul(*value, weight));
+        }
         for negative in [false, true] {
             if negative && m == 0 {
                 continue;

@@ -23,11 +23,13 @@ pub enum Group {
     Irradiance,
     /// Hemispherical harmonics.
     Hemisphere,
+    /// Shading by isotropic decomposition, and directly.
+    Shade,
 }
 
 impl Group {
     /// All groups, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Evaluate,
         Self::Rotate,
         Self::Tilt,
@@ -38,6 +40,7 @@ impl Group {
         Self::Multiply,
         Self::Irradiance,
         Self::Hemisphere,
+        Self::Shade,
     ];
 
     /// Its name in files; no kernel has it, so that a kernel's own file and the group's can meet.
@@ -53,6 +56,7 @@ impl Group {
             Self::Multiply => "products",
             Self::Irradiance => "irradiances",
             Self::Hemisphere => "hemispheres",
+            Self::Shade => "shading",
         }
     }
 
@@ -68,7 +72,8 @@ impl Group {
             Self::Light => "zonal functions, convolution with them, lights",
             Self::Multiply => "products of functions on the sphere",
             Self::Irradiance => "irradiance, its bases on the upper hemisphere, what keeps it from ringing",
-            Self::Hemisphere => "hemispherical harmonics: the basis, sums over it, conversions, rotations",
+            Self::Hemisphere => "hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients",
+            Self::Shade => "shading: the integral of light times reflectance, by isotropic decomposition and directly",
         }
     }
 }

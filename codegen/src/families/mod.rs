@@ -16,6 +16,7 @@ pub mod group;
 pub mod hbasis;
 pub mod hemisphere;
 pub mod irradiance;
+pub mod isd;
 pub mod lifted;
 pub mod lights;
 pub mod loops;

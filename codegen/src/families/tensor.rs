@@ -3,7 +3,8 @@
 use crate::families::family::{Family, Group, Spec};
 use crate::families::parts::bands::each_band;
 use crate::families::parts::params::{matrix, quaternion, rotated, signal};
-use crate::families::parts::sums::{cross, inner};
+use crate::families::parts::quaternion::{matrix_of_quaternion, turned};
+use crate::families::parts::sums::inner;
 use crate::families::parts::usual::{FROM_QUATERNION, is_tensor};
 use crate::ir::graph::{Graph, Id};
 use crate::ir::kernel::Domain;
@@ -11,9 +12,11 @@ use crate::ir::kernel::{Builder, Kernel};
 use crate::math::exact::Exact;
 use std::ops::RangeInclusive;
 
-const ORDERS: RangeInclusive<usize> = 2..=3;
+/// The orders that are turned as vector and tensor.
+pub const ORDERS: RangeInclusive<usize> = 2..=3;
 
-fn outside(order: usize) -> [String; 2] {
+/// Returns what is wrong with another order, and what to do.
+pub fn outside(order: usize) -> [String; 2] {
     let help = "from order 4 on `zyz` is the cheapest exact rotation: leave the method out";
     [format!("this method has orders 2 and 3 only, not {order}"), help.to_owned()]
 }
@@ -112,46 +115,24 @@ fn from_matrix(order: usize) -> Kernel {
     rotated(builder, order, out)
 }
 
-/// The rows of a unit quaternion's matrix: 17 operations.
-fn matrix_of_quaternion(g: &mut Graph, q: &[Id]) -> [[Id; 3]; 3] {
-    let [x, y, z, w] = [q[0], q[1], q[2], q[3]];
-    let [x2, y2, z2] = [x, y, z].map(|v| g.scale(&Exact::int(2), v));
-    let one = g.constant(Exact::one());
-    let (xx, yy, zz) = (g.mul(x, x2), g.mul(y, y2), g.mul(z, z2));
-    let no_z = g.sub(one, zz);
-    let no_x = g.sub(one, xx);
-    let (xy, xz, yz) = (g.mul(x, y2), g.mul(x, z2), g.mul(y, z2));
-    let (wx, wy, wz) = (g.mul(w, x2), g.mul(w, y2), g.mul(w, z2));
-    [
-        [g.sub(no_z, yy), g.sub(xy, wz), g.add(xz, wy)],
-        [g.add(xy, wz), g.sub(no_z, xx), g.sub(yz, wx)],
-        [g.sub(xz, wy), g.add(yz, wx), g.sub(no_x, yy)],
-    ]
+/// Rotates orders 2 and 3 by a unit quaternion: nothing but products and sums.
+pub fn apply(g: &mut Graph, q: &[Id], c: &[Id], order: usize) -> Vec<Id> {
+    if order == 2 {
+        // Cheaper than the matrix for one vector.
+        let v = [g.neg(c[3]), g.neg(c[1]), c[2]];
+        let turned = turned(g, q, v);
+        vec![c[0], g.neg(turned[1]), turned[2], g.neg(turned[0])]
+    } else {
+        let rows = matrix_of_quaternion(g, q);
+        matrix_apply(g, c, order, &rows)
+    }
 }
 
-/// `rotate` from a unit quaternion as a vector and a tensor, orders 2 and 3: nothing but products and sums.
+/// `rotate` from a unit quaternion as a vector and a tensor.
 fn tensor(order: usize) -> Kernel {
     let mut builder = Builder::new();
     let q = quaternion(&mut builder, Domain::Quaternion);
     let c = signal(&mut builder, order);
-    let g = &mut builder.graph;
-    let out = if order == 2 {
-        // v + w t + q × t with t = 2 q × v: cheaper than the matrix for one vector.
-        let v = [g.neg(c[3]), g.neg(c[1]), c[2]];
-        let axis = [q[0], q[1], q[2]];
-        let twice = axis.map(|a| g.scale(&Exact::int(2), a));
-        let t = cross(g, twice, v);
-        let turned: [Id; 3] = std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let sum = g.mul_add(t[i], q[3], v[i]);
-            let sum = g.mul_add(t[k], axis[j], sum);
-            let minus = g.mul(t[j], axis[k]);
-            g.sub(sum, minus)
-        });
-        vec![c[0], g.neg(turned[1]), turned[2], g.neg(turned[0])]
-    } else {
-        let rows = matrix_of_quaternion(g, &q);
-        matrix_apply(g, &c, order, &rows)
-    };
+    let out = apply(&mut builder.graph, &q, &c, order);
     rotated(builder, order, out)
 }

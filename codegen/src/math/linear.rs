@@ -51,15 +51,25 @@ pub fn singular_values(columns: &[Vec<f64>]) -> Vec<f64> {
     sizes
 }
 
+/// Returns the singular values of a matrix given by its columns, largest first, each with the input of norm one that it belongs
+/// to.
+pub fn right_singular(columns: &[Vec<f64>]) -> Vec<(f64, Vec<f64>)> {
+    let mut columns = columns.to_vec();
+    let mut inputs = units(columns.len());
+    orthogonalise(&mut columns, &mut inputs);
+    let sizes = columns.iter().map(|column| dot(column, column).sqrt());
+    let mut all: Vec<(f64, Vec<f64>)> = sizes.zip(inputs).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all
+}
+
+fn units(count: usize) -> Vec<Vec<f64>> {
+    (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect()
+}
+
 /// The input of norm one that a matrix, given by its columns, makes largest.
 pub fn largest_input(columns: &[Vec<f64>]) -> Vec<f64> {
-    let unit = |i: usize| (0..columns.len()).map(|j| f64::from(u8::from(i == j))).collect();
-    let mut inputs: Vec<Vec<f64>> = (0..columns.len()).map(unit).collect();
-    let mut columns = columns.to_vec();
-    orthogonalise(&mut columns, &mut inputs);
-    let size = |i: &usize| dot(&columns[*i], &columns[*i]);
-    let largest = (0..columns.len()).max_by(|a, b| size(a).total_cmp(&size(b))).expect("a matrix has a column");
-    inputs.swap_remove(largest)
+    right_singular(columns).swap_remove(0).1
 }
 
 /// The quotient of the largest and the smallest singular value.

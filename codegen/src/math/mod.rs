@@ -7,6 +7,7 @@ pub mod gaunt;
 pub mod half;
 pub mod hemisphere;
 pub mod index;
+pub mod inverse;
 pub mod linear;
 pub mod quadrature;
 pub mod roots;

@@ -30,6 +30,28 @@ pub fn basis_factor(l: usize, m: isize) -> Exact {
     }
 }
 
+/// Returns y_l^m for m from −l to l at a direction of height `z`, of which `horizontal(m)` is (x + iy)^m.
+pub fn band_values(l: usize, z: &Exact, horizontal: impl Fn(usize) -> [Exact; 2]) -> Vec<Exact> {
+    let mut row = vec![Exact::zero(); 2 * l + 1];
+    for m in 0..=l {
+        let polar = &basis_factor(l, m as isize) * evaluate(&legendre_polynomial(l, m), z);
+        let [cosine, sine] = horizontal(m);
+        // Degree 0 writes its zero sine first.
+        row[l - m] = &polar * sine;
+        row[l + m] = polar * cosine;
+    }
+    row
+}
+
+/// A polynomial, even or odd, by Horner's rule in z².
+fn evaluate(coefficients: &[Exact], z: &Exact) -> Exact {
+    let square = z * z;
+    let parity = (coefficients.len() + 1) % 2;
+    let even = coefficients.iter().skip(parity).step_by(2).rev();
+    let value = even.fold(Exact::zero(), |sum, c| sum * &square + c);
+    if parity == 1 { value * z } else { value }
+}
+
 /// The coefficients, lowest first, of the polynomial `P_l^(m)(z)`, the m-th derivative of the Legendre polynomial P_l;
 /// every second one is zero. Rational, with denominators that divide 2^l.
 pub fn legendre_polynomial(l: usize, m: usize) -> Vec<Exact> {

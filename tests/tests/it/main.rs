@@ -23,6 +23,7 @@ mod hemisphere;
 mod hemisphere_rotation;
 mod house;
 mod irradiance;
+mod isd;
 mod laws;
 mod lights;
 mod loops;

@@ -119,6 +119,9 @@ fn plots_pages_and_sets_spare_what_is_there() {
     spares(&folder, &search("--out", "sets.toml"), "./sets.toml");
     folder.put("plans.toml", "# My own plans.\nplan = []\n");
     spares(&folder, &["search-products", "square:2", "--out", "plans.toml"], "./plans.toml");
+    folder.put("directions.toml", "# My own directions.\nset = []\n");
+    let arguments = ["search-directions", "--bands", "2", "--tries", "1", "--out", "directions.toml"];
+    spares(&folder, &arguments, "./directions.toml");
     works(&folder, &search("--resume", "state.toml"));
     let state = fs::read_to_string(folder.path("state.toml")).expect("written");
     folder.put("state.toml", state.replace(MARK, "changed by hand"));
@@ -192,6 +195,7 @@ fn what_has_no_end_is_refused() {
             &["search-lobes", "--tries", "1", "--out", file],
             &["search-lobes", "--tries", "1", "--resume", file],
             &["search-products", "square:2", "--tries", "1", "--out", file],
+            &["search-directions", "--bands", "2", "--tries", "1", "--out", file],
         ] {
             let message = fails(&folder, arguments);
             assert!(message.contains("it is a device or a pipe, not a regular file"), "{arguments:?}: {message}");

@@ -85,7 +85,7 @@ pub static HSH_TO_MONOMIAL: Family = Family {
 };
 
 /// Declares the direction.
-fn direction(builder: &mut Builder) -> Vec<Id> {
+pub fn direction(builder: &mut Builder) -> Vec<Id> {
     builder.param(
         "dir",
         Shape::Vec3,
@@ -111,7 +111,7 @@ pub fn stretch(g: &mut Graph, z: Id) -> [Id; 2] {
 }
 
 /// What the sphere's harmonics are multiplied by.
-fn hemispheric(_band: usize) -> Exact {
+pub fn hemispheric(_band: usize) -> Exact {
     Exact::sqrt_ratio(2, 1)
 }
 

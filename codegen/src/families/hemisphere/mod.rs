@@ -3,6 +3,7 @@
 
 pub mod convert;
 pub mod evaluate;
+pub mod gradient;
 pub mod methods;
 pub mod rotate;
 pub mod shears;

@@ -22,9 +22,10 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::math::exact::{Exact, Real};
+use crate::math::inverse::inverse;
 use crate::math::linear::condition;
 use crate::math::roots::squared_root;
-use crate::math::tables::{basis_factor, legendre_polynomial};
+use crate::math::tables::band_values;
 
 /// The highest band whose roots may name a direction.
 const HIGHEST_BAND: usize = 64;
@@ -214,20 +215,7 @@ pub fn single_band(l: usize) -> Option<&'static [Lobe]> {
 
 /// `Y[d][m+l] = y_l^m(ω_d)`.
 pub fn lobe_values(l: usize, lobes: &[Lobe]) -> Vec<Vec<Exact>> {
-    let polynomials: Vec<_> = (0..=l).map(|m| legendre_polynomial(l, m)).collect();
-    let factors: Vec<_> = (0..=l).map(|m| basis_factor(l, m as isize)).collect();
-    let value = |lobe: &Lobe| {
-        let mut row = vec![Exact::zero(); 2 * l + 1];
-        for m in 0..=l {
-            let polar = &factors[m] * evaluate(&polynomials[m], &lobe.z);
-            let [cosine, sine] = lobe.horizontal_power(m);
-            // Degree 0 writes its zero sine first.
-            row[l - m] = &polar * sine;
-            row[l + m] = polar * cosine;
-        }
-        row
-    };
-    lobes.iter().map(value).collect()
+    lobes.iter().map(|lobe| band_values(l, &lobe.z, |m| lobe.horizontal_power(m))).collect()
 }
 
 /// `Â = Y⁻¹`, rows m, columns d, to 512 bits, its zeros exact; none if the lobes are dependent or not 2l+1.
@@ -236,43 +224,13 @@ pub fn a_hat(l: usize, lobes: &[Lobe]) -> Option<Vec<Vec<Exact>>> {
     if lobes.len() != n {
         return None;
     }
-    let unit = |i: usize| (0..n).map(move |j| Real::from_ratio(i64::from(i == j), 1));
-    let values = lobe_values(l, lobes);
-    let mut rows: Vec<Vec<Real>> =
-        values.iter().enumerate().map(|(i, row)| row.iter().map(Exact::to_real).chain(unit(i)).collect()).collect();
-    for column in 0..n {
-        let pivot = (column..n).max_by_key(|&i| rows[i][column].abs())?;
-        if rows[pivot][column].is_negligible() {
-            return None;
-        }
-        rows.swap(column, pivot);
-        let inverse = Real::from_ratio(1, 1) / &rows[column][column];
-        let lead: Vec<Real> = rows[column].iter().map(|x| x * &inverse).collect();
-        for (i, row) in rows.iter_mut().enumerate() {
-            let factor = row[column].clone();
-            if i == column {
-                row.clone_from(&lead);
-            } else if !factor.is_negligible() {
-                for (x, y) in row.iter_mut().zip(&lead).skip(column) {
-                    *x = &*x - &factor * y;
-                }
-            }
-        }
-    }
-    Some(rows.into_iter().map(|mut row| row.split_off(n).into_iter().map(Exact::real).collect()).collect())
+    let rows: Vec<Vec<Real>> =
+        lobe_values(l, lobes).iter().map(|row| row.iter().map(Exact::to_real).collect()).collect();
+    Some(inverse(&rows)?.into_iter().map(|row| row.into_iter().map(Exact::real).collect()).collect())
 }
 
 fn power(x: &Exact, n: usize) -> Exact {
     (0..n).fold(Exact::one(), |product, _| product * x)
-}
-
-/// A polynomial, even or odd, by Horner's rule in z².
-fn evaluate(coefficients: &[Exact], z: &Exact) -> Exact {
-    let square = z * z;
-    let parity = (coefficients.len() + 1) % 2;
-    let even = coefficients.iter().skip(parity).step_by(2).rev();
-    let value = even.fold(Exact::zero(), |sum, c| sum * &square + c);
-    if parity == 1 { value * z } else { value }
 }
 
 /// How the bands of a lobe set share its directions.

@@ -2,6 +2,7 @@
 //! turn by turning their directions. It takes far more operations than z, y, z when the lobes' basis values have to be
 //! computed, and few when a scene has the samples anyway.
 
+pub mod coupling;
 pub mod lobes;
 pub mod search;
 
