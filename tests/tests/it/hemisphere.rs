@@ -73,7 +73,7 @@ fn the_basis_errs_in_f32_by_at_most_what_is_asked() {
         let mut worst = 0.0;
         for i in 0..4000 {
             let [x, y, z] = random.unit::<3>();
-            let size = 2f64.powi(-((i % 27) as i32));
+            let size = 2f64.powi(-(i % 27));
             let z = match i % 3 {
                 0 => z.abs(),
                 1 => size * (1.0 + z) / 2.0,

@@ -81,6 +81,7 @@ pub static Y_LOBE: Family = Family {
     stem: "hsh_y_lobe",
     what: |spec| sentence(spec, Below::Zero, "about y"),
     kernel: |spec| y(spec, Below::Zero),
+    unproven: &[EQUATION_13],
     shown: |order| shown(&Y_LOBE, order),
     ..ROTATION
 };
@@ -91,6 +92,7 @@ pub static Y_RECORD: Family = Family {
     stem: "hsh_y_record",
     what: |spec| sentence(spec, Below::GoesOn, "about y"),
     kernel: |spec| y(spec, Below::GoesOn),
+    unproven: &[EQUATION_13],
     shown: |order| shown(&Y_RECORD, order),
     ..ROTATION
 };
