@@ -2,7 +2,9 @@
 //! (docs/MATH.md#the-h-basis, docs/MATH.md#half-life-2).
 
 use crate::coefficients::Coefficients;
-use crate::scalar::{Element, Scalar};
+#[cfg(any(feature = "order2", feature = "order3", feature = "order5"))]
+use crate::scalar::Element;
+use crate::scalar::Scalar;
 
 /// The frame of a point of a surface: three unit vectors across each other, in the world. Its x is the tangent, along which a
 /// normal map's first texture coordinate grows, its y the bitangent, its z the normal. Of a normal map that is mirrored it is

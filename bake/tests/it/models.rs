@@ -211,3 +211,22 @@ fn two_obj_files_are_two_sets() {
 fn dot3(a: [f32; 3], b: [f32; 3]) -> f32 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
+
+#[test]
+fn a_texture_that_is_mirrored_at_a_seam_keeps_both_hands() {
+    // Two squares in the plane y = 0 that meet along x, the texture mirrored there: the seam's vertices have one place and one
+    // pair of coordinates, and a bitangent to each side.
+    let text = "v 0 0 1\nv 1 0 1\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nv 1 0 -1\nvt 0 1\nvt 1 1\nvt 0 0\nvt 1 0\n\
+                f 1/1 2/2 4/4\nf 1/1 4/4 3/3\nf 3/3 4/4 6/2\nf 3/3 6/2 5/1\n";
+    let model = Model::from_obj("seam.obj", text.as_bytes(), None).expect("a model");
+    assert_eq!(model.places.len(), 8, "six places, and the two of the seam once more");
+    for (place, tangent) in model.places.iter().zip(&model.mesh.tangents) {
+        assert!((tangent[0] - 1.0).abs() < 1e-6 && tangent[3].abs() == 1.0, "{tangent:?}");
+        // v grows away from the seam: upwards in the picture beyond it, downwards before it.
+        if place[2] != 0.0 {
+            assert_eq!(tangent[3] > 0.0, place[2] < 0.0, "{place:?} {tangent:?}");
+        }
+    }
+    let seam: f32 = model.places.iter().zip(&model.mesh.tangents).filter(|(p, _)| p[2] == 0.0).map(|(_, t)| t[3]).sum();
+    assert_eq!(seam, 0.0, "one of each hand at either end");
+}
