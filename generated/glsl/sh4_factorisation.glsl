@@ -479,4 +479,572 @@ ZONAL_HIGHP vec3[16] sh4_zhf_tailored_rgb(ZONAL_HIGHP vec3[16] f) {
     );
 }
 
+// `zhf_dot:4`: The integral of a sum of zonal lobes of order 4, turned, times a signal: w_lj
+// multiplies y_l^0 about lobe j of band l, and is what `zhf_weights:4` makes times sqrt((2l+1) / 4 pi)
+// (Nowrouzezahrai et al. 2012, section 7.2).
+// q: the rotation, a unit quaternion (x, y, z, w).
+// w: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// g: the coefficients of the other signal, index l(l+1)+m.
+// Returns the integral of the product.
+// Operations: 306 (148 mul, 0 add, 158 fma); 13 constants, 45 live values.
+// Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
+//     the worst of 256 measured, 1.5e-7; not proven).
+ZONAL_HIGHP float sh4_zhf_dot(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] w, ZONAL_HIGHP float[16] g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    float t0 = 2.0 * q.z;
+    float t1 = 2.0 * q.y;
+    float t2 = q.w * t1;
+    float t3 = q.x * t0 - t2;
+    float t4 = 2.0 * q.x;
+    float t5 = q.w * t4;
+    float t6 = t5 + q.y * t0;
+    float t7 = 0.5 * t6;
+    float t8 = t7 + 0.8660254 * t3;
+    float t9 = q.w * t0;
+    float t10 = t9 + q.x * t1;
+    float t11 = 1.0 - q.z * t0;
+    float t12 = t11 - q.x * t4;
+    float t13 = 0.5 * t12;
+    float t14 = t13 + 0.8660254 * t10;
+    float t15 = t11 - q.y * t1;
+    float t16 = q.x * t1 - t9;
+    float t17 = 0.5 * t16;
+    float t18 = t17 + 0.8660254 * t15;
+    float t19 = w[1] * (g[2] * t8 - g[1] * t14 - g[3] * t18) + w[0] * g[0] + w[2] * (g[2] * t6 - g[1] * t12 - g[3] * t16);
+    float t20 = 1.0 - q.x * t4 - q.y * t1;
+    float t21 = q.y * t0 - t5;
+    float t22 = t2 + q.x * t0;
+    float t23 = 0.7745967 * t12;
+    float t24 = 0.4472136 * t10 - t23 + 0.4472136 * t21;
+    float t25 = 0.7745967 * t16;
+    float t26 = 0.4472136 * t15 - t25 + 0.4472136 * t22;
+    float t27 = 1.7320508 * t26 * t24;
+    float t28 = 0.7745967 * t6;
+    float t29 = 0.4472136 * t3 - t28 + 0.4472136 * t20;
+    float t30 = 1.7320508 * t29;
+    float t31 = t29 * t29;
+    float t32 = 0.8660254 * (t26 * t26 - t24 * t24);
+    float t33 = g[4] * t27 - g[5] * (t24 * t30) + (1.5 * t31 - 0.5) * g[6] - g[7] * (t26 * t30) + g[8] * t32;
+    float t34 = 1.7320508 * t22 * t21;
+    float t35 = 1.7320508 * t20;
+    float t36 = t20 * t20;
+    float t37 = 0.8660254 * (t22 * t22 - t21 * t21);
+    float t38 = g[4] * t34 - g[5] * (t21 * t35) + (1.5 * t36 - 0.5) * g[6] - g[7] * (t22 * t35) + g[8] * t37;
+    float t39 = t23 - 0.4472136 * t10 + 0.4472136 * t21;
+    float t40 = t25 - 0.4472136 * t15 + 0.4472136 * t22;
+    float t41 = 1.7320508 * t40 * t39;
+    float t42 = t28 - 0.4472136 * t3 + 0.4472136 * t20;
+    float t43 = 1.7320508 * t42;
+    float t44 = t42 * t42;
+    float t45 = 0.8660254 * (t40 * t40 - t39 * t39);
+    float t46 = g[4] * t41 - g[5] * (t39 * t43) + (1.5 * t44 - 0.5) * g[6] - g[7] * (t40 * t43) + g[8] * t45;
+    float t47 = t19 + w[3] * (g[2] * t20 - g[1] * t21 - g[3] * t22) + w[4] * t33 + w[5] * t38 + w[6] * t46;
+    float t48 = t23 + 0.4472136 * t10 + 0.4472136 * t21;
+    float t49 = t25 + 0.4472136 * t15 + 0.4472136 * t22;
+    float t50 = 1.7320508 * t49 * t48;
+    float t51 = t28 + 0.4472136 * t3 + 0.4472136 * t20;
+    float t52 = 1.7320508 * t51;
+    float t53 = t51 * t51;
+    float t54 = 0.8660254 * (t49 * t49 - t48 * t48);
+    float t55 = g[4] * t50 - g[5] * (t48 * t52) + (1.5 * t53 - 0.5) * g[6] - g[7] * (t49 * t52) + g[8] * t54;
+    float t56 = 1.7320508 * t16 * t12;
+    float t57 = 1.7320508 * t6;
+    float t58 = t6 * t6;
+    float t59 = 0.8660254 * (t16 * t16 - t12 * t12);
+    float t60 = g[4] * t56 - g[5] * (t12 * t57) + (1.5 * t58 - 0.5) * g[6] - g[7] * (t16 * t57) + g[8] * t59;
+    float t61 = 2.236068 * t6;
+    float t62 = 0.91287094 * t16;
+    float t63 = 0.91287094 * t12;
+    float t64 = 3.0618622 * t58 - 0.61237246;
+    float t65 = g[10] * (t56 * t61) - g[9] * (t59 * t63 + t56 * t62) - g[11] * (t12 * t64) + g[12] * ((2.5 * t58 - 1.5) * t6);
+    float t66 = t47 + w[7] * t55 + w[8] * t60 + w[9] * (t65 - g[13] * (t16 * t64) + g[14] * (t59 * t61) + g[15] * (t56 * t63 - t59 * t62));
+    float t67 = 2.236068 * t51;
+    float t68 = 0.91287094 * t49;
+    float t69 = 0.91287094 * t48;
+    float t70 = 3.0618622 * t53 - 0.61237246;
+    float t71 = g[10] * (t50 * t67) - g[9] * (t54 * t69 + t50 * t68) - g[11] * (t48 * t70) + g[12] * ((2.5 * t53 - 1.5) * t51);
+    float t72 = t66 + w[10] * (t71 - g[13] * (t49 * t70) + g[14] * (t54 * t67) + g[15] * (t50 * t69 - t54 * t68));
+    float t73 = 2.236068 * t29;
+    float t74 = 0.91287094 * t26;
+    float t75 = 0.91287094 * t24;
+    float t76 = 3.0618622 * t31 - 0.61237246;
+    float t77 = g[10] * (t27 * t73) - g[9] * (t32 * t75 + t27 * t74) - g[11] * (t24 * t76) + g[12] * ((2.5 * t31 - 1.5) * t29);
+    float t78 = t72 + w[11] * (t77 - g[13] * (t26 * t76) + g[14] * (t32 * t73) + g[15] * (t27 * t75 - t32 * t74));
+    float t79 = 2.236068 * t42;
+    float t80 = 0.91287094 * t40;
+    float t81 = 0.91287094 * t39;
+    float t82 = 3.0618622 * t44 - 0.61237246;
+    float t83 = g[10] * (t41 * t79) - g[9] * (t45 * t81 + t41 * t80) - g[11] * (t39 * t82) + g[12] * ((2.5 * t44 - 1.5) * t42);
+    float t84 = t78 + w[12] * (t83 - g[13] * (t40 * t82) + g[14] * (t45 * t79) + g[15] * (t41 * t81 - t45 * t80));
+    float t85 = 1.7320508 * t18 * t14;
+    float t86 = 2.236068 * t8;
+    float t87 = 0.91287094 * t18;
+    float t88 = 0.8660254 * (t18 * t18 - t14 * t14);
+    float t89 = 0.91287094 * t14;
+    float t90 = t8 * t8;
+    float t91 = 3.0618622 * t90 - 0.61237246;
+    float t92 = g[10] * (t85 * t86) - g[9] * (t88 * t89 + t85 * t87) - g[11] * (t14 * t91) + g[12] * ((2.5 * t90 - 1.5) * t8);
+    float t93 = t84 + w[13] * (t92 - g[13] * (t18 * t91) + g[14] * (t88 * t86) + g[15] * (t85 * t89 - t88 * t87));
+    float t94 = t13 - 0.8660254 * t10;
+    float t95 = t17 - 0.8660254 * t15;
+    float t96 = 1.7320508 * t95 * t94;
+    float t97 = t7 - 0.8660254 * t3;
+    float t98 = 2.236068 * t97;
+    float t99 = 0.91287094 * t95;
+    float t100 = 0.8660254 * (t95 * t95 - t94 * t94);
+    float t101 = 0.91287094 * t94;
+    float t102 = t97 * t97;
+    float t103 = 3.0618622 * t102 - 0.61237246;
+    float t104 = g[10] * (t96 * t98) - g[9] * (t100 * t101 + t96 * t99) - g[11] * (t94 * t103) + g[12] * ((2.5 * t102 - 1.5) * t97);
+    float t105 = t93 + w[14] * (t104 - g[13] * (t95 * t103) + g[14] * (t100 * t98) + g[15] * (t96 * t101 - t100 * t99));
+    float t106 = 2.236068 * t20;
+    float t107 = 0.91287094 * t22;
+    float t108 = 0.91287094 * t21;
+    float t109 = 3.0618622 * t36 - 0.61237246;
+    float t110 = g[10] * (t34 * t106) - g[9] * (t37 * t108 + t34 * t107) - g[11] * (t21 * t109) + g[12] * ((2.5 * t36 - 1.5) * t20);
+    float t111 = t105 + w[15] * (t110 - g[13] * (t22 * t109) + g[14] * (t37 * t106) + g[15] * (t34 * t108 - t37 * t107));
+    return t111;
+}
+
+// `zhf_dot:4:rgb`: The integral of a sum of zonal lobes of order 4, turned, times a signal: w_lj
+// multiplies y_l^0 about lobe j of band l, and is what `zhf_weights:4` makes times sqrt((2l+1) / 4 pi)
+// (Nowrouzezahrai et al. 2012, section 7.2).
+// q: the rotation, a unit quaternion (x, y, z, w).
+// w: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// g: the coefficients of the other signal, index l(l+1)+m.
+// Returns the integral of the product.
+// Operations: 504 (180 mul, 0 add, 324 fma); 13 constants, 45 live values.
+// Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
+//     the worst of 256 measured, 1.5e-7; not proven).
+ZONAL_HIGHP vec3 sh4_zhf_dot_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] w, ZONAL_HIGHP vec3[16] g) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    float t0 = 2.0 * q.z;
+    float t1 = 2.0 * q.y;
+    float t2 = q.w * t1;
+    float t3 = q.x * t0 - t2;
+    float t4 = 2.0 * q.x;
+    float t5 = q.w * t4;
+    float t6 = t5 + q.y * t0;
+    float t7 = 0.5 * t6;
+    float t8 = t7 + 0.8660254 * t3;
+    float t9 = q.w * t0;
+    float t10 = t9 + q.x * t1;
+    float t11 = 1.0 - q.z * t0;
+    float t12 = t11 - q.x * t4;
+    float t13 = 0.5 * t12;
+    float t14 = t13 + 0.8660254 * t10;
+    float t15 = t11 - q.y * t1;
+    float t16 = q.x * t1 - t9;
+    float t17 = 0.5 * t16;
+    float t18 = t17 + 0.8660254 * t15;
+    vec3 t19 = w[1] * (g[2] * t8 - g[1] * t14 - g[3] * t18) + w[0] * g[0] + w[2] * (g[2] * t6 - g[1] * t12 - g[3] * t16);
+    float t20 = 1.0 - q.x * t4 - q.y * t1;
+    float t21 = q.y * t0 - t5;
+    float t22 = t2 + q.x * t0;
+    float t23 = 0.7745967 * t12;
+    float t24 = 0.4472136 * t10 - t23 + 0.4472136 * t21;
+    float t25 = 0.7745967 * t16;
+    float t26 = 0.4472136 * t15 - t25 + 0.4472136 * t22;
+    float t27 = 1.7320508 * t26 * t24;
+    float t28 = 0.7745967 * t6;
+    float t29 = 0.4472136 * t3 - t28 + 0.4472136 * t20;
+    float t30 = 1.7320508 * t29;
+    float t31 = t29 * t29;
+    float t32 = 0.8660254 * (t26 * t26 - t24 * t24);
+    vec3 t33 = g[4] * t27 - g[5] * (t24 * t30) + (1.5 * t31 - 0.5) * g[6] - g[7] * (t26 * t30) + g[8] * t32;
+    float t34 = 1.7320508 * t22 * t21;
+    float t35 = 1.7320508 * t20;
+    float t36 = t20 * t20;
+    float t37 = 0.8660254 * (t22 * t22 - t21 * t21);
+    vec3 t38 = g[4] * t34 - g[5] * (t21 * t35) + (1.5 * t36 - 0.5) * g[6] - g[7] * (t22 * t35) + g[8] * t37;
+    float t39 = t23 - 0.4472136 * t10 + 0.4472136 * t21;
+    float t40 = t25 - 0.4472136 * t15 + 0.4472136 * t22;
+    float t41 = 1.7320508 * t40 * t39;
+    float t42 = t28 - 0.4472136 * t3 + 0.4472136 * t20;
+    float t43 = 1.7320508 * t42;
+    float t44 = t42 * t42;
+    float t45 = 0.8660254 * (t40 * t40 - t39 * t39);
+    vec3 t46 = g[4] * t41 - g[5] * (t39 * t43) + (1.5 * t44 - 0.5) * g[6] - g[7] * (t40 * t43) + g[8] * t45;
+    vec3 t47 = t19 + w[3] * (g[2] * t20 - g[1] * t21 - g[3] * t22) + w[4] * t33 + w[5] * t38 + w[6] * t46;
+    float t48 = t23 + 0.4472136 * t10 + 0.4472136 * t21;
+    float t49 = t25 + 0.4472136 * t15 + 0.4472136 * t22;
+    float t50 = 1.7320508 * t49 * t48;
+    float t51 = t28 + 0.4472136 * t3 + 0.4472136 * t20;
+    float t52 = 1.7320508 * t51;
+    float t53 = t51 * t51;
+    float t54 = 0.8660254 * (t49 * t49 - t48 * t48);
+    vec3 t55 = g[4] * t50 - g[5] * (t48 * t52) + (1.5 * t53 - 0.5) * g[6] - g[7] * (t49 * t52) + g[8] * t54;
+    float t56 = 1.7320508 * t16 * t12;
+    float t57 = 1.7320508 * t6;
+    float t58 = t6 * t6;
+    float t59 = 0.8660254 * (t16 * t16 - t12 * t12);
+    vec3 t60 = g[4] * t56 - g[5] * (t12 * t57) + (1.5 * t58 - 0.5) * g[6] - g[7] * (t16 * t57) + g[8] * t59;
+    float t61 = 2.236068 * t6;
+    float t62 = 0.91287094 * t16;
+    float t63 = 0.91287094 * t12;
+    float t64 = 3.0618622 * t58 - 0.61237246;
+    vec3 t65 = g[10] * (t56 * t61) - g[9] * (t59 * t63 + t56 * t62) - g[11] * (t12 * t64) + g[12] * ((2.5 * t58 - 1.5) * t6);
+    vec3 t66 = t47 + w[7] * t55 + w[8] * t60 + w[9] * (t65 - g[13] * (t16 * t64) + g[14] * (t59 * t61) + g[15] * (t56 * t63 - t59 * t62));
+    float t67 = 2.236068 * t51;
+    float t68 = 0.91287094 * t49;
+    float t69 = 0.91287094 * t48;
+    float t70 = 3.0618622 * t53 - 0.61237246;
+    vec3 t71 = g[10] * (t50 * t67) - g[9] * (t54 * t69 + t50 * t68) - g[11] * (t48 * t70) + g[12] * ((2.5 * t53 - 1.5) * t51);
+    vec3 t72 = t66 + w[10] * (t71 - g[13] * (t49 * t70) + g[14] * (t54 * t67) + g[15] * (t50 * t69 - t54 * t68));
+    float t73 = 2.236068 * t29;
+    float t74 = 0.91287094 * t26;
+    float t75 = 0.91287094 * t24;
+    float t76 = 3.0618622 * t31 - 0.61237246;
+    vec3 t77 = g[10] * (t27 * t73) - g[9] * (t32 * t75 + t27 * t74) - g[11] * (t24 * t76) + g[12] * ((2.5 * t31 - 1.5) * t29);
+    vec3 t78 = t72 + w[11] * (t77 - g[13] * (t26 * t76) + g[14] * (t32 * t73) + g[15] * (t27 * t75 - t32 * t74));
+    float t79 = 2.236068 * t42;
+    float t80 = 0.91287094 * t40;
+    float t81 = 0.91287094 * t39;
+    float t82 = 3.0618622 * t44 - 0.61237246;
+    vec3 t83 = g[10] * (t41 * t79) - g[9] * (t45 * t81 + t41 * t80) - g[11] * (t39 * t82) + g[12] * ((2.5 * t44 - 1.5) * t42);
+    vec3 t84 = t78 + w[12] * (t83 - g[13] * (t40 * t82) + g[14] * (t45 * t79) + g[15] * (t41 * t81 - t45 * t80));
+    float t85 = 1.7320508 * t18 * t14;
+    float t86 = 2.236068 * t8;
+    float t87 = 0.91287094 * t18;
+    float t88 = 0.8660254 * (t18 * t18 - t14 * t14);
+    float t89 = 0.91287094 * t14;
+    float t90 = t8 * t8;
+    float t91 = 3.0618622 * t90 - 0.61237246;
+    vec3 t92 = g[10] * (t85 * t86) - g[9] * (t88 * t89 + t85 * t87) - g[11] * (t14 * t91) + g[12] * ((2.5 * t90 - 1.5) * t8);
+    vec3 t93 = t84 + w[13] * (t92 - g[13] * (t18 * t91) + g[14] * (t88 * t86) + g[15] * (t85 * t89 - t88 * t87));
+    float t94 = t13 - 0.8660254 * t10;
+    float t95 = t17 - 0.8660254 * t15;
+    float t96 = 1.7320508 * t95 * t94;
+    float t97 = t7 - 0.8660254 * t3;
+    float t98 = 2.236068 * t97;
+    float t99 = 0.91287094 * t95;
+    float t100 = 0.8660254 * (t95 * t95 - t94 * t94);
+    float t101 = 0.91287094 * t94;
+    float t102 = t97 * t97;
+    float t103 = 3.0618622 * t102 - 0.61237246;
+    vec3 t104 = g[10] * (t96 * t98) - g[9] * (t100 * t101 + t96 * t99) - g[11] * (t94 * t103) + g[12] * ((2.5 * t102 - 1.5) * t97);
+    vec3 t105 = t93 + w[14] * (t104 - g[13] * (t95 * t103) + g[14] * (t100 * t98) + g[15] * (t96 * t101 - t100 * t99));
+    float t106 = 2.236068 * t20;
+    float t107 = 0.91287094 * t22;
+    float t108 = 0.91287094 * t21;
+    float t109 = 3.0618622 * t36 - 0.61237246;
+    vec3 t110 = g[10] * (t34 * t106) - g[9] * (t37 * t108 + t34 * t107) - g[11] * (t21 * t109) + g[12] * ((2.5 * t36 - 1.5) * t20);
+    vec3 t111 = t105 + w[15] * (t110 - g[13] * (t22 * t109) + g[14] * (t37 * t106) + g[15] * (t34 * t108 - t37 * t107));
+    return t111;
+}
+
+// `zhf_dot_lobes:4`: The integral of a sum of zonal lobes of order 4, turned, times another such sum
+// that is not: w_lj and v_lj multiply y_l^0 about lobe j of band l, and are what `zhf_weights:4` makes
+// times sqrt((2l+1) / 4 pi) (Nowrouzezahrai et al. 2012, section 7.2).
+// q: the rotation, a unit quaternion (x, y, z, w).
+// w: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// v: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// Returns the integral of the product.
+// Operations: 363 (91 mul, 3 add, 269 fma); 10 constants, 72 live values.
+// Error: f32 rounding at most 6.6e-7 of the product of both factors' norms, for every unit q (3 times
+//     the worst of 256 measured, 2.2e-7; not proven).
+ZONAL_HIGHP float sh4_zhf_dot_lobes(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] w, ZONAL_HIGHP float[16] v) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    float t0 = 2.0 * q.z;
+    float t1 = 1.0 - q.z * t0;
+    float t2 = 2.0 * q.y;
+    float t3 = t1 - q.y * t2;
+    float t4 = q.w * t0;
+    float t5 = q.x * t2 - t4;
+    float t6 = 0.5 * t5;
+    float t7 = t6 + 0.8660254 * t3;
+    float t8 = t4 + q.x * t2;
+    float t9 = 2.0 * q.x;
+    float t10 = t1 - q.x * t9;
+    float t11 = 0.5 * t10;
+    float t12 = t11 + 0.8660254 * t8;
+    float t13 = 0.5 * t12;
+    float t14 = t13 + 0.8660254 * t7;
+    float t15 = t11 + 0.8660254 * t5;
+    float t16 = q.w * t2;
+    float t17 = t16 + q.x * t0;
+    float t18 = q.w * t9;
+    float t19 = q.y * t0 - t18;
+    float t20 = 0.5 * t19;
+    float t21 = t20 + 0.8660254 * t17;
+    float t22 = v[2] * (w[2] * t10 + w[1] * t12 + w[3] * t19) + v[1] * (w[2] * t15 + w[1] * t14 + w[3] * t21);
+    float t23 = q.x * t0 - t16;
+    float t24 = t18 + q.y * t0;
+    float t25 = 0.5 * t24;
+    float t26 = t25 + 0.8660254 * t23;
+    float t27 = 1.0 - q.x * t9 - q.y * t2;
+    float t28 = 0.7745967 * t24;
+    float t29 = 0.4472136 * t23 - t28 + 0.4472136 * t27;
+    float t30 = 0.4472136 * t17;
+    float t31 = 0.7745967 * t5;
+    float t32 = 0.4472136 * t3 - t31 + t30;
+    float t33 = 0.7745967 * t10;
+    float t34 = 0.4472136 * t8 - t33 + 0.4472136 * t19;
+    float t35 = 0.7745967 * t34;
+    float t36 = 0.4472136 * t32 - t35 + 0.4472136 * t29;
+    float t37 = t36 * t36 - 0.33333334;
+    float t38 = t30 - 0.7745967 * t19 + 0.4472136 * t27;
+    float t39 = t38 * t38 - 0.33333334;
+    float t40 = t28 - 0.4472136 * t23 + 0.4472136 * t27;
+    float t41 = t31 - 0.4472136 * t3 + t30;
+    float t42 = t33 - 0.4472136 * t8 + 0.4472136 * t19;
+    float t43 = 0.7745967 * t42;
+    float t44 = 0.4472136 * t41 - t43 + 0.4472136 * t40;
+    float t45 = t44 * t44 - 0.33333334;
+    float t46 = t28 + 0.4472136 * t23 + 0.4472136 * t27;
+    float t47 = t31 + 0.4472136 * t3 + t30;
+    float t48 = t33 + 0.4472136 * t8 + 0.4472136 * t19;
+    float t49 = 0.7745967 * t48;
+    float t50 = 0.4472136 * t47 - t49 + 0.4472136 * t46;
+    float t51 = t50 * t50 - 0.33333334;
+    float t52 = 0.4472136 * t5 - t33 + 0.4472136 * t24;
+    float t53 = t52 * t52 - 0.33333334;
+    float t54 = t29 * t29 - 0.33333334;
+    float t55 = t27 * t27 - 0.33333334;
+    float t56 = t40 * t40 - 0.33333334;
+    float t57 = t46 * t46 - 0.33333334;
+    float t58 = t24 * t24 - 0.33333334;
+    float t59 = v[5] * (w[5] * t55 + w[4] * t54 + w[6] * t56 + w[7] * t57 + w[8] * t58) + v[4] * (w[5] * t39 + w[4] * t37 + w[6] * t45 + w[7] * t51 + w[8] * t53);
+    float t60 = t35 - 0.4472136 * t32 + 0.4472136 * t29;
+    float t61 = t60 * t60 - 0.33333334;
+    float t62 = 0.7745967 * t19 - t30 + 0.4472136 * t27;
+    float t63 = t62 * t62 - 0.33333334;
+    float t64 = t43 - 0.4472136 * t41 + 0.4472136 * t40;
+    float t65 = t64 * t64 - 0.33333334;
+    float t66 = t49 - 0.4472136 * t47 + 0.4472136 * t46;
+    float t67 = t66 * t66 - 0.33333334;
+    float t68 = t33 - 0.4472136 * t5 + 0.4472136 * t24;
+    float t69 = t68 * t68 - 0.33333334;
+    float t70 = t35 + 0.4472136 * t32 + 0.4472136 * t29;
+    float t71 = t70 * t70 - 0.33333334;
+    float t72 = t30 + 0.7745967 * t19 + 0.4472136 * t27;
+    float t73 = t72 * t72 - 0.33333334;
+    float t74 = t43 + 0.4472136 * t41 + 0.4472136 * t40;
+    float t75 = t74 * t74 - 0.33333334;
+    float t76 = t49 + 0.4472136 * t47 + 0.4472136 * t46;
+    float t77 = t76 * t76 - 0.33333334;
+    float t78 = t33 + 0.4472136 * t5 + 0.4472136 * t24;
+    float t79 = t78 * t78 - 0.33333334;
+    float t80 = t59 + v[6] * (w[5] * t63 + w[4] * t61 + w[6] * t65 + w[7] * t67 + w[8] * t69) + v[7] * (w[5] * t73 + w[4] * t71 + w[6] * t75 + w[7] * t77 + w[8] * t79);
+    float t81 = t34 * t34 - 0.33333334;
+    float t82 = t19 * t19 - 0.33333334;
+    float t83 = t42 * t42 - 0.33333334;
+    float t84 = t48 * t48 - 0.33333334;
+    float t85 = t10 * t10 - 0.33333334;
+    float t86 = t22 + v[3] * (w[2] * t24 + w[1] * t26 + w[3] * t27) + w[0] * v[0] + 1.5 * (t80 + v[8] * (w[5] * t82 + w[4] * t81 + w[6] * t83 + w[7] * t84 + w[8] * t85));
+    float t87 = w[10] * (t48 * t84 - 0.26666668 * t48) + w[9] * (t10 * t85 - 0.26666668 * t10) + w[11] * (t34 * t81 - 0.26666668 * t34);
+    float t88 = t87 + w[12] * (t42 * t83 - 0.26666668 * t42) + w[13] * (t12 * (t12 * t12 - 0.33333334) - 0.26666668 * t12);
+    float t89 = t11 - 0.8660254 * t8;
+    float t90 = t88 + w[14] * (t89 * (t89 * t89 - 0.33333334) - 0.26666668 * t89) + w[15] * (t19 * t82 - 0.26666668 * t19);
+    float t91 = w[10] * (t76 * t77 - 0.26666668 * t76) + w[9] * (t78 * t79 - 0.26666668 * t78) + w[11] * (t70 * t71 - 0.26666668 * t70);
+    float t92 = 0.7745967 * t12;
+    float t93 = t92 + 0.4472136 * t7 + 0.4472136 * t26;
+    float t94 = t91 + w[12] * (t74 * t75 - 0.26666668 * t74) + w[13] * (t93 * (t93 * t93 - 0.33333334) - 0.26666668 * t93);
+    float t95 = t6 - 0.8660254 * t3;
+    float t96 = 0.7745967 * t89;
+    float t97 = t25 - 0.8660254 * t23;
+    float t98 = t96 + 0.4472136 * t95 + 0.4472136 * t97;
+    float t99 = t94 + w[14] * (t98 * (t98 * t98 - 0.33333334) - 0.26666668 * t98) + w[15] * (t72 * t73 - 0.26666668 * t72);
+    float t100 = w[10] * (t50 * t51 - 0.26666668 * t50) + w[9] * (t52 * t53 - 0.26666668 * t52) + w[11] * (t36 * t37 - 0.26666668 * t36);
+    float t101 = 0.4472136 * t7 - t92 + 0.4472136 * t26;
+    float t102 = t100 + w[12] * (t44 * t45 - 0.26666668 * t44) + w[13] * (t101 * (t101 * t101 - 0.33333334) - 0.26666668 * t101);
+    float t103 = 0.4472136 * t95 - t96 + 0.4472136 * t97;
+    float t104 = t102 + w[14] * (t103 * (t103 * t103 - 0.33333334) - 0.26666668 * t103) + w[15] * (t38 * t39 - 0.26666668 * t38);
+    float t105 = w[10] * (t66 * t67 - 0.26666668 * t66) + w[9] * (t68 * t69 - 0.26666668 * t68) + w[11] * (t60 * t61 - 0.26666668 * t60);
+    float t106 = t92 - 0.4472136 * t7 + 0.4472136 * t26;
+    float t107 = t105 + w[12] * (t64 * t65 - 0.26666668 * t64) + w[13] * (t106 * (t106 * t106 - 0.33333334) - 0.26666668 * t106);
+    float t108 = t96 - 0.4472136 * t95 + 0.4472136 * t97;
+    float t109 = t107 + w[14] * (t108 * (t108 * t108 - 0.33333334) - 0.26666668 * t108) + w[15] * (t62 * t63 - 0.26666668 * t62);
+    float t110 = 0.5 * t48;
+    float t111 = t110 + 0.8660254 * t47;
+    float t112 = w[10] * (t111 * (t111 * t111 - 0.33333334) - 0.26666668 * t111) + w[9] * (t15 * (t15 * t15 - 0.33333334) - 0.26666668 * t15);
+    float t113 = 0.5 * t34;
+    float t114 = t113 + 0.8660254 * t32;
+    float t115 = 0.5 * t42;
+    float t116 = t115 + 0.8660254 * t41;
+    float t117 = t112 + w[11] * (t114 * (t114 * t114 - 0.33333334) - 0.26666668 * t114) + w[12] * (t116 * (t116 * t116 - 0.33333334) - 0.26666668 * t116);
+    float t118 = 0.5 * t89;
+    float t119 = t118 + 0.8660254 * t95;
+    float t120 = t117 + w[13] * (t14 * (t14 * t14 - 0.33333334) - 0.26666668 * t14) + w[14] * (t119 * (t119 * t119 - 0.33333334) - 0.26666668 * t119);
+    float t121 = v[10] * t99 + v[9] * t90 + v[11] * t104 + v[12] * t109 + v[13] * (t120 + w[15] * (t21 * (t21 * t21 - 0.33333334) - 0.26666668 * t21));
+    float t122 = t11 - 0.8660254 * t5;
+    float t123 = t110 - 0.8660254 * t47;
+    float t124 = w[10] * (t123 * (t123 * t123 - 0.33333334) - 0.26666668 * t123) + w[9] * (t122 * (t122 * t122 - 0.33333334) - 0.26666668 * t122);
+    float t125 = t113 - 0.8660254 * t32;
+    float t126 = t115 - 0.8660254 * t41;
+    float t127 = t124 + w[11] * (t125 * (t125 * t125 - 0.33333334) - 0.26666668 * t125) + w[12] * (t126 * (t126 * t126 - 0.33333334) - 0.26666668 * t126);
+    float t128 = t13 - 0.8660254 * t7;
+    float t129 = t118 - 0.8660254 * t95;
+    float t130 = t127 + w[13] * (t128 * (t128 * t128 - 0.33333334) - 0.26666668 * t128) + w[14] * (t129 * (t129 * t129 - 0.33333334) - 0.26666668 * t129);
+    float t131 = t20 - 0.8660254 * t17;
+    float t132 = w[10] * (t46 * t57 - 0.26666668 * t46) + w[9] * (t24 * t58 - 0.26666668 * t24) + w[11] * (t29 * t54 - 0.26666668 * t29);
+    float t133 = t132 + w[12] * (t40 * t56 - 0.26666668 * t40) + w[13] * (t26 * (t26 * t26 - 0.33333334) - 0.26666668 * t26);
+    float t134 = t133 + w[14] * (t97 * (t97 * t97 - 0.33333334) - 0.26666668 * t97) + w[15] * (t27 * t55 - 0.26666668 * t27);
+    float t135 = t121 + v[14] * (t130 + w[15] * (t131 * (t131 * t131 - 0.33333334) - 0.26666668 * t131)) + v[15] * t134;
+    return t86 + 2.5 * t135;
+}
+
+// `zhf_dot_lobes:4:rgb`: The integral of a sum of zonal lobes of order 4, turned, times another such
+// sum that is not: w_lj and v_lj multiply y_l^0 about lobe j of band l, and are what `zhf_weights:4`
+// makes times sqrt((2l+1) / 4 pi) (Nowrouzezahrai et al. 2012, section 7.2).
+// q: the rotation, a unit quaternion (x, y, z, w).
+// w: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// v: the weights of the lobes, 2l+1 for band l from l^2 on, in the order of the band's lobes.
+// Returns the integral of the product.
+// Operations: 565 (127 mul, 3 add, 435 fma); 10 constants, 72 live values.
+// Error: f32 rounding at most 6.6e-7 of the product of both factors' norms, for every unit q (3 times
+//     the worst of 256 measured, 2.2e-7; not proven).
+ZONAL_HIGHP vec3 sh4_zhf_dot_lobes_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] w, ZONAL_HIGHP vec3[16] v) {
+#ifdef GL_ES
+    precision highp float;
+    precision highp int;
+#endif
+    float t0 = 2.0 * q.z;
+    float t1 = 1.0 - q.z * t0;
+    float t2 = 2.0 * q.y;
+    float t3 = t1 - q.y * t2;
+    float t4 = q.w * t0;
+    float t5 = q.x * t2 - t4;
+    float t6 = 0.5 * t5;
+    float t7 = t6 + 0.8660254 * t3;
+    float t8 = t4 + q.x * t2;
+    float t9 = 2.0 * q.x;
+    float t10 = t1 - q.x * t9;
+    float t11 = 0.5 * t10;
+    float t12 = t11 + 0.8660254 * t8;
+    float t13 = 0.5 * t12;
+    float t14 = t13 + 0.8660254 * t7;
+    float t15 = t11 + 0.8660254 * t5;
+    float t16 = q.w * t2;
+    float t17 = t16 + q.x * t0;
+    float t18 = q.w * t9;
+    float t19 = q.y * t0 - t18;
+    float t20 = 0.5 * t19;
+    float t21 = t20 + 0.8660254 * t17;
+    vec3 t22 = v[2] * (w[2] * t10 + w[1] * t12 + w[3] * t19) + v[1] * (w[2] * t15 + w[1] * t14 + w[3] * t21);
+    float t23 = q.x * t0 - t16;
+    float t24 = t18 + q.y * t0;
+    float t25 = 0.5 * t24;
+    float t26 = t25 + 0.8660254 * t23;
+    float t27 = 1.0 - q.x * t9 - q.y * t2;
+    float t28 = 0.7745967 * t24;
+    float t29 = 0.4472136 * t23 - t28 + 0.4472136 * t27;
+    float t30 = 0.4472136 * t17;
+    float t31 = 0.7745967 * t5;
+    float t32 = 0.4472136 * t3 - t31 + t30;
+    float t33 = 0.7745967 * t10;
+    float t34 = 0.4472136 * t8 - t33 + 0.4472136 * t19;
+    float t35 = 0.7745967 * t34;
+    float t36 = 0.4472136 * t32 - t35 + 0.4472136 * t29;
+    float t37 = t36 * t36 - 0.33333334;
+    float t38 = t30 - 0.7745967 * t19 + 0.4472136 * t27;
+    float t39 = t38 * t38 - 0.33333334;
+    float t40 = t28 - 0.4472136 * t23 + 0.4472136 * t27;
+    float t41 = t31 - 0.4472136 * t3 + t30;
+    float t42 = t33 - 0.4472136 * t8 + 0.4472136 * t19;
+    float t43 = 0.7745967 * t42;
+    float t44 = 0.4472136 * t41 - t43 + 0.4472136 * t40;
+    float t45 = t44 * t44 - 0.33333334;
+    float t46 = t28 + 0.4472136 * t23 + 0.4472136 * t27;
+    float t47 = t31 + 0.4472136 * t3 + t30;
+    float t48 = t33 + 0.4472136 * t8 + 0.4472136 * t19;
+    float t49 = 0.7745967 * t48;
+    float t50 = 0.4472136 * t47 - t49 + 0.4472136 * t46;
+    float t51 = t50 * t50 - 0.33333334;
+    float t52 = 0.4472136 * t5 - t33 + 0.4472136 * t24;
+    float t53 = t52 * t52 - 0.33333334;
+    float t54 = t29 * t29 - 0.33333334;
+    float t55 = t27 * t27 - 0.33333334;
+    float t56 = t40 * t40 - 0.33333334;
+    float t57 = t46 * t46 - 0.33333334;
+    float t58 = t24 * t24 - 0.33333334;
+    vec3 t59 = v[5] * (w[5] * t55 + w[4] * t54 + w[6] * t56 + w[7] * t57 + w[8] * t58) + v[4] * (w[5] * t39 + w[4] * t37 + w[6] * t45 + w[7] * t51 + w[8] * t53);
+    float t60 = t35 - 0.4472136 * t32 + 0.4472136 * t29;
+    float t61 = t60 * t60 - 0.33333334;
+    float t62 = 0.7745967 * t19 - t30 + 0.4472136 * t27;
+    float t63 = t62 * t62 - 0.33333334;
+    float t64 = t43 - 0.4472136 * t41 + 0.4472136 * t40;
+    float t65 = t64 * t64 - 0.33333334;
+    float t66 = t49 - 0.4472136 * t47 + 0.4472136 * t46;
+    float t67 = t66 * t66 - 0.33333334;
+    float t68 = t33 - 0.4472136 * t5 + 0.4472136 * t24;
+    float t69 = t68 * t68 - 0.33333334;
+    float t70 = t35 + 0.4472136 * t32 + 0.4472136 * t29;
+    float t71 = t70 * t70 - 0.33333334;
+    float t72 = t30 + 0.7745967 * t19 + 0.4472136 * t27;
+    float t73 = t72 * t72 - 0.33333334;
+    float t74 = t43 + 0.4472136 * t41 + 0.4472136 * t40;
+    float t75 = t74 * t74 - 0.33333334;
+    float t76 = t49 + 0.4472136 * t47 + 0.4472136 * t46;
+    float t77 = t76 * t76 - 0.33333334;
+    float t78 = t33 + 0.4472136 * t5 + 0.4472136 * t24;
+    float t79 = t78 * t78 - 0.33333334;
+    vec3 t80 = t59 + v[6] * (w[5] * t63 + w[4] * t61 + w[6] * t65 + w[7] * t67 + w[8] * t69) + v[7] * (w[5] * t73 + w[4] * t71 + w[6] * t75 + w[7] * t77 + w[8] * t79);
+    float t81 = t34 * t34 - 0.33333334;
+    float t82 = t19 * t19 - 0.33333334;
+    float t83 = t42 * t42 - 0.33333334;
+    float t84 = t48 * t48 - 0.33333334;
+    float t85 = t10 * t10 - 0.33333334;
+    vec3 t86 = t22 + v[3] * (w[2] * t24 + w[1] * t26 + w[3] * t27) + w[0] * v[0] + 1.5 * (t80 + v[8] * (w[5] * t82 + w[4] * t81 + w[6] * t83 + w[7] * t84 + w[8] * t85));
+    vec3 t87 = w[10] * (t48 * t84 - 0.26666668 * t48) + w[9] * (t10 * t85 - 0.26666668 * t10) + w[11] * (t34 * t81 - 0.26666668 * t34);
+    vec3 t88 = t87 + w[12] * (t42 * t83 - 0.26666668 * t42) + w[13] * (t12 * (t12 * t12 - 0.33333334) - 0.26666668 * t12);
+    float t89 = t11 - 0.8660254 * t8;
+    vec3 t90 = t88 + w[14] * (t89 * (t89 * t89 - 0.33333334) - 0.26666668 * t89) + w[15] * (t19 * t82 - 0.26666668 * t19);
+    vec3 t91 = w[10] * (t76 * t77 - 0.26666668 * t76) + w[9] * (t78 * t79 - 0.26666668 * t78) + w[11] * (t70 * t71 - 0.26666668 * t70);
+    float t92 = 0.7745967 * t12;
+    float t93 = t92 + 0.4472136 * t7 + 0.4472136 * t26;
+    vec3 t94 = t91 + w[12] * (t74 * t75 - 0.26666668 * t74) + w[13] * (t93 * (t93 * t93 - 0.33333334) - 0.26666668 * t93);
+    float t95 = t6 - 0.8660254 * t3;
+    float t96 = 0.7745967 * t89;
+    float t97 = t25 - 0.8660254 * t23;
+    float t98 = t96 + 0.4472136 * t95 + 0.4472136 * t97;
+    vec3 t99 = t94 + w[14] * (t98 * (t98 * t98 - 0.33333334) - 0.26666668 * t98) + w[15] * (t72 * t73 - 0.26666668 * t72);
+    vec3 t100 = w[10] * (t50 * t51 - 0.26666668 * t50) + w[9] * (t52 * t53 - 0.26666668 * t52) + w[11] * (t36 * t37 - 0.26666668 * t36);
+    float t101 = 0.4472136 * t7 - t92 + 0.4472136 * t26;
+    vec3 t102 = t100 + w[12] * (t44 * t45 - 0.26666668 * t44) + w[13] * (t101 * (t101 * t101 - 0.33333334) - 0.26666668 * t101);
+    float t103 = 0.4472136 * t95 - t96 + 0.4472136 * t97;
+    vec3 t104 = t102 + w[14] * (t103 * (t103 * t103 - 0.33333334) - 0.26666668 * t103) + w[15] * (t38 * t39 - 0.26666668 * t38);
+    vec3 t105 = w[10] * (t66 * t67 - 0.26666668 * t66) + w[9] * (t68 * t69 - 0.26666668 * t68) + w[11] * (t60 * t61 - 0.26666668 * t60);
+    float t106 = t92 - 0.4472136 * t7 + 0.4472136 * t26;
+    vec3 t107 = t105 + w[12] * (t64 * t65 - 0.26666668 * t64) + w[13] * (t106 * (t106 * t106 - 0.33333334) - 0.26666668 * t106);
+    float t108 = t96 - 0.4472136 * t95 + 0.4472136 * t97;
+    vec3 t109 = t107 + w[14] * (t108 * (t108 * t108 - 0.33333334) - 0.26666668 * t108) + w[15] * (t62 * t63 - 0.26666668 * t62);
+    float t110 = 0.5 * t48;
+    float t111 = t110 + 0.8660254 * t47;
+    vec3 t112 = w[10] * (t111 * (t111 * t111 - 0.33333334) - 0.26666668 * t111) + w[9] * (t15 * (t15 * t15 - 0.33333334) - 0.26666668 * t15);
+    float t113 = 0.5 * t34;
+    float t114 = t113 + 0.8660254 * t32;
+    float t115 = 0.5 * t42;
+    float t116 = t115 + 0.8660254 * t41;
+    vec3 t117 = t112 + w[11] * (t114 * (t114 * t114 - 0.33333334) - 0.26666668 * t114) + w[12] * (t116 * (t116 * t116 - 0.33333334) - 0.26666668 * t116);
+    float t118 = 0.5 * t89;
+    float t119 = t118 + 0.8660254 * t95;
+    vec3 t120 = t117 + w[13] * (t14 * (t14 * t14 - 0.33333334) - 0.26666668 * t14) + w[14] * (t119 * (t119 * t119 - 0.33333334) - 0.26666668 * t119);
+    vec3 t121 = v[10] * t99 + v[9] * t90 + v[11] * t104 + v[12] * t109 + v[13] * (t120 + w[15] * (t21 * (t21 * t21 - 0.33333334) - 0.26666668 * t21));
+    float t122 = t11 - 0.8660254 * t5;
+    float t123 = t110 - 0.8660254 * t47;
+    vec3 t124 = w[10] * (t123 * (t123 * t123 - 0.33333334) - 0.26666668 * t123) + w[9] * (t122 * (t122 * t122 - 0.33333334) - 0.26666668 * t122);
+    float t125 = t113 - 0.8660254 * t32;
+    float t126 = t115 - 0.8660254 * t41;
+    vec3 t127 = t124 + w[11] * (t125 * (t125 * t125 - 0.33333334) - 0.26666668 * t125) + w[12] * (t126 * (t126 * t126 - 0.33333334) - 0.26666668 * t126);
+    float t128 = t13 - 0.8660254 * t7;
+    float t129 = t118 - 0.8660254 * t95;
+    vec3 t130 = t127 + w[13] * (t128 * (t128 * t128 - 0.33333334) - 0.26666668 * t128) + w[14] * (t129 * (t129 * t129 - 0.33333334) - 0.26666668 * t129);
+    float t131 = t20 - 0.8660254 * t17;
+    vec3 t132 = w[10] * (t46 * t57 - 0.26666668 * t46) + w[9] * (t24 * t58 - 0.26666668 * t24) + w[11] * (t29 * t54 - 0.26666668 * t29);
+    vec3 t133 = t132 + w[12] * (t40 * t56 - 0.26666668 * t40) + w[13] * (t26 * (t26 * t26 - 0.33333334) - 0.26666668 * t26);
+    vec3 t134 = t133 + w[14] * (t97 * (t97 * t97 - 0.33333334) - 0.26666668 * t97) + w[15] * (t27 * t55 - 0.26666668 * t27);
+    vec3 t135 = t121 + v[14] * (t130 + w[15] * (t131 * (t131 * t131 - 0.33333334) - 0.26666668 * t131)) + v[15] * t134;
+    return t86 + 2.5 * t135;
+}
+
 #endif

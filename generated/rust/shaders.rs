@@ -273,7 +273,7 @@ pub mod sh2 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 2,
         group: "hemispheres",
@@ -414,6 +414,10 @@ pub mod sh3 {
             ("zhf_weights:3:rgb", "sh3_zhf_weights_rgb"),
             ("zhf_tailored:3", "sh3_zhf_tailored"),
             ("zhf_tailored:3:rgb", "sh3_zhf_tailored_rgb"),
+            ("zhf_dot:3", "sh3_zhf_dot"),
+            ("zhf_dot:3:rgb", "sh3_zhf_dot_rgb"),
+            ("zhf_dot_lobes:3", "sh3_zhf_dot_lobes"),
+            ("zhf_dot_lobes:3:rgb", "sh3_zhf_dot_lobes_rgb"),
         ],
     };
 
@@ -565,7 +569,7 @@ pub mod sh3 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 3,
         group: "hemispheres",
@@ -625,6 +629,33 @@ pub mod sh3 {
             ("hsh_rotate_record:3:eq13:rgb", "sh3_hsh_rotate_record_eq13_rgb"),
             ("hsh_rotate_table:3", "sh3_hsh_rotate_table"),
             ("hsh_rotate_table:3:rgb", "sh3_hsh_rotate_table_rgb"),
+            ("hsh_gradient:3", "sh3_hsh_gradient"),
+            ("hsh_gradient:3:rgb", "sh3_hsh_gradient_rgb"),
+        ],
+    };
+
+    /// Shading: the integral of light times reflectance, by isotropic decomposition and directly.
+    pub const SHADING: Shaders = Shaders {
+        order: 3,
+        group: "shading",
+        wgsl: include_str!("../wgsl/sh3_shading.wgsl"),
+        glsl: include_str!("../glsl/sh3_shading.glsl"),
+        kernels: &[
+            ("isd_matrix:3", "sh3_isd_matrix"),
+            ("isd_matrix:3:rgb", "sh3_isd_matrix_rgb"),
+            ("isd_weights:3", "sh3_isd_weights"),
+            ("isd_weights:3:rgb", "sh3_isd_weights_rgb"),
+            ("isd_shade:3", "sh3_isd_shade"),
+            ("isd_shade:3:rgb", "sh3_isd_shade_rgb"),
+            ("isd_shade_zonal:3", "sh3_isd_shade_zonal"),
+            ("isd_shade_zonal:3:rgb", "sh3_isd_shade_zonal_rgb"),
+            ("shade:3:zyz", "sh3_shade"),
+            ("shade:3:rgb", "sh3_shade_rgb"),
+            ("shade:3", "sh3_shade"),
+            ("shade_isotropic:3", "sh3_shade_isotropic"),
+            ("shade_isotropic:3:rgb", "sh3_shade_isotropic_rgb"),
+            ("shade_zonal:3", "sh3_shade_zonal"),
+            ("shade_zonal:3:rgb", "sh3_shade_zonal_rgb"),
         ],
     };
 }
@@ -753,6 +784,10 @@ pub mod sh4 {
             ("zhf_weights:4:rgb", "sh4_zhf_weights_rgb"),
             ("zhf_tailored:4", "sh4_zhf_tailored"),
             ("zhf_tailored:4:rgb", "sh4_zhf_tailored_rgb"),
+            ("zhf_dot:4", "sh4_zhf_dot"),
+            ("zhf_dot:4:rgb", "sh4_zhf_dot_rgb"),
+            ("zhf_dot_lobes:4", "sh4_zhf_dot_lobes"),
+            ("zhf_dot_lobes:4:rgb", "sh4_zhf_dot_lobes_rgb"),
         ],
     };
 
@@ -870,7 +905,7 @@ pub mod sh4 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 4,
         group: "hemispheres",
@@ -910,6 +945,32 @@ pub mod sh4 {
             ("hsh_rotate_record:4:rgb", "sh4_hsh_rotate_record_rgb"),
             ("hsh_rotate_table:4", "sh4_hsh_rotate_table"),
             ("hsh_rotate_table:4:rgb", "sh4_hsh_rotate_table_rgb"),
+            ("hsh_gradient:4", "sh4_hsh_gradient"),
+            ("hsh_gradient:4:rgb", "sh4_hsh_gradient_rgb"),
+        ],
+    };
+
+    /// Shading: the integral of light times reflectance, by isotropic decomposition and directly.
+    pub const SHADING: Shaders = Shaders {
+        order: 4,
+        group: "shading",
+        wgsl: include_str!("../wgsl/sh4_shading.wgsl"),
+        glsl: include_str!("../glsl/sh4_shading.glsl"),
+        kernels: &[
+            ("isd_matrix:4", "sh4_isd_matrix"),
+            ("isd_matrix:4:rgb", "sh4_isd_matrix_rgb"),
+            ("isd_weights:4", "sh4_isd_weights"),
+            ("isd_weights:4:rgb", "sh4_isd_weights_rgb"),
+            ("isd_shade:4", "sh4_isd_shade"),
+            ("isd_shade:4:rgb", "sh4_isd_shade_rgb"),
+            ("isd_shade_zonal:4", "sh4_isd_shade_zonal"),
+            ("isd_shade_zonal:4:rgb", "sh4_isd_shade_zonal_rgb"),
+            ("shade:4", "sh4_shade"),
+            ("shade:4:rgb", "sh4_shade_rgb"),
+            ("shade_isotropic:4", "sh4_shade_isotropic"),
+            ("shade_isotropic:4:rgb", "sh4_shade_isotropic_rgb"),
+            ("shade_zonal:4", "sh4_shade_zonal"),
+            ("shade_zonal:4:rgb", "sh4_shade_zonal_rgb"),
         ],
     };
 }
@@ -1162,7 +1223,7 @@ pub mod sh5 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 5,
         group: "hemispheres",
@@ -1200,6 +1261,30 @@ pub mod sh5 {
             ("hsh_rotate_lobe:5:rgb", "sh5_hsh_rotate_lobe_rgb"),
             ("hsh_rotate_record:5", "sh5_hsh_rotate_record"),
             ("hsh_rotate_record:5:rgb", "sh5_hsh_rotate_record_rgb"),
+        ],
+    };
+
+    /// Shading: the integral of light times reflectance, by isotropic decomposition and directly.
+    pub const SHADING: Shaders = Shaders {
+        order: 5,
+        group: "shading",
+        wgsl: include_str!("../wgsl/sh5_shading.wgsl"),
+        glsl: include_str!("../glsl/sh5_shading.glsl"),
+        kernels: &[
+            ("isd_matrix:5", "sh5_isd_matrix"),
+            ("isd_matrix:5:rgb", "sh5_isd_matrix_rgb"),
+            ("isd_weights:5", "sh5_isd_weights"),
+            ("isd_weights:5:rgb", "sh5_isd_weights_rgb"),
+            ("isd_shade:5", "sh5_isd_shade"),
+            ("isd_shade:5:rgb", "sh5_isd_shade_rgb"),
+            ("isd_shade_zonal:5", "sh5_isd_shade_zonal"),
+            ("isd_shade_zonal:5:rgb", "sh5_isd_shade_zonal_rgb"),
+            ("shade:5", "sh5_shade"),
+            ("shade:5:rgb", "sh5_shade_rgb"),
+            ("shade_isotropic:5", "sh5_shade_isotropic"),
+            ("shade_isotropic:5:rgb", "sh5_shade_isotropic_rgb"),
+            ("shade_zonal:5", "sh5_shade_zonal"),
+            ("shade_zonal:5:rgb", "sh5_shade_zonal_rgb"),
         ],
     };
 }
@@ -1429,7 +1514,7 @@ pub mod sh6 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 6,
         group: "hemispheres",
@@ -1467,6 +1552,24 @@ pub mod sh6 {
             ("hsh_rotate_lobe:6:rgb", "sh6_hsh_rotate_lobe_rgb"),
             ("hsh_rotate_record:6", "sh6_hsh_rotate_record"),
             ("hsh_rotate_record:6:rgb", "sh6_hsh_rotate_record_rgb"),
+            ("hsh_gradient:6", "sh6_hsh_gradient"),
+            ("hsh_gradient:6:rgb", "sh6_hsh_gradient_rgb"),
+        ],
+    };
+
+    /// Shading: the integral of light times reflectance, by isotropic decomposition and directly.
+    pub const SHADING: Shaders = Shaders {
+        order: 6,
+        group: "shading",
+        wgsl: include_str!("../wgsl/sh6_shading.wgsl"),
+        glsl: include_str!("../glsl/sh6_shading.glsl"),
+        kernels: &[
+            ("shade:6", "sh6_shade"),
+            ("shade:6:rgb", "sh6_shade_rgb"),
+            ("shade_isotropic:6", "sh6_shade_isotropic"),
+            ("shade_isotropic:6:rgb", "sh6_shade_isotropic_rgb"),
+            ("shade_zonal:6", "sh6_shade_zonal"),
+            ("shade_zonal:6:rgb", "sh6_shade_zonal_rgb"),
         ],
     };
 }
@@ -1630,7 +1733,7 @@ pub mod sh7 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 7,
         group: "hemispheres",
@@ -1819,7 +1922,7 @@ pub mod sh8 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 8,
         group: "hemispheres",
@@ -2008,7 +2111,7 @@ pub mod sh9 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 9,
         group: "hemispheres",
@@ -2197,7 +2300,7 @@ pub mod sh10 {
         ],
     };
 
-    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations.
+    /// Hemispherical harmonics: the basis, sums over it, conversions, rotations, gradients.
     pub const HEMISPHERES: Shaders = Shaders {
         order: 10,
         group: "hemispheres",
@@ -2269,6 +2372,8 @@ pub const ALL: &[Shaders] = &[
     sh3::IRRADIANCES,
     #[cfg(feature = "order3")]
     sh3::HEMISPHERES,
+    #[cfg(feature = "order3")]
+    sh3::SHADING,
     #[cfg(feature = "order4")]
     sh4::EVALUATION,
     #[cfg(feature = "order4")]
@@ -2289,6 +2394,8 @@ pub const ALL: &[Shaders] = &[
     sh4::IRRADIANCES,
     #[cfg(feature = "order4")]
     sh4::HEMISPHERES,
+    #[cfg(feature = "order4")]
+    sh4::SHADING,
     #[cfg(feature = "order5")]
     sh5::EVALUATION,
     #[cfg(feature = "order5")]
@@ -2309,6 +2416,8 @@ pub const ALL: &[Shaders] = &[
     sh5::IRRADIANCES,
     #[cfg(feature = "order5")]
     sh5::HEMISPHERES,
+    #[cfg(feature = "order5")]
+    sh5::SHADING,
     #[cfg(feature = "order6")]
     sh6::EVALUATION,
     #[cfg(feature = "order6")]
@@ -2329,6 +2438,8 @@ pub const ALL: &[Shaders] = &[
     sh6::IRRADIANCES,
     #[cfg(feature = "order6")]
     sh6::HEMISPHERES,
+    #[cfg(feature = "order6")]
+    sh6::SHADING,
     #[cfg(feature = "order7")]
     sh7::EVALUATION,
     #[cfg(feature = "order7")]
