@@ -10,7 +10,6 @@ use zonal_codegen::emit::language::{GLSL, WGSL};
 use zonal_codegen::families::axis::SWAP_YZ;
 use zonal_codegen::families::basis::{EVAL, EVAL_ONCE};
 use zonal_codegen::families::family::Measure;
-use zonal_codegen::families::hemisphere::gradient::HSH_GRADIENT;
 use zonal_codegen::families::monomial::{EVAL_MONOMIAL, TO_MONOMIAL};
 use zonal_codegen::families::tilt::{TILT_SCALE, TILT_UNSCALE};
 use zonal_codegen::families::{Family, Form, Group, Spec};
@@ -44,11 +43,11 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    const OTHERS: [&Family; 8] =
-        [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE, &HSH_GRADIENT];
+    const OTHERS: [&Family; 7] = [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
+    const TURNING: [Group; 6] =
+        [Group::Evaluate, Group::Rotate, Group::Tilt, Group::SmallAngle, Group::Factorise, Group::Piece];
     let is_other = |spec: &Spec| {
-        matches!(spec.family.group, Group::Light | Group::Multiply | Group::Irradiance | Group::Shade)
-            || matches!(spec.family.measure, Measure::Product)
+        !TURNING.contains(&spec.family.group) || matches!(spec.family.measure, Measure::Product | Measure::Whole)
     };
     let turns = |spec: &Spec| !OTHERS.contains(&spec.family) && !is_other(spec);
     catalog::standard().into_iter().filter(|spec| !spec.rgb && spec.form == Form::Unrolled && turns(spec)).collect()

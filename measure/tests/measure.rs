@@ -336,3 +336,43 @@ fn ringing_errs_as_was_found_by_other_means() {
     let sunrise = all.iter().find(|map| map.light == "sunrise").expect("is a map");
     assert!(sunrise.errors[2] < 1.1 * sunrise.errors[0] && sunrise.errors[4] > 2.0 * sunrise.errors[0], "{sunrise:?}");
 }
+
+/// What Soler et al. 2015 say of their Figure 13, and of shading: sharing ruins profiles with local support and no others, and
+/// whatever the mother functions, the integral is that of the bands.
+#[test]
+fn isotropic_decomposition_is_as_its_paper_says() {
+    let shading = &fresh().shading;
+    let condition = |mother: &str, shared: bool, bands: usize| {
+        let mut rows = shading.conditions.iter().filter(|row| row.mother == mother && row.shared == shared);
+        let row = rows.next().expect("is measured");
+        row.conditions[row.bands.iter().position(|known| *known == bands).expect("is measured")]
+    };
+    for bands in [8, 12] {
+        assert!(condition("Legendre", true, bands) <= condition("Legendre", false, bands), "{bands} bands");
+        for mother in ["Gaussian", "clamped Phong", "Gauss-Legendre"] {
+            let [own, shared] = [false, true].map(|shared| condition(mother, shared, bands));
+            assert!(own < 1e5 && shared > 1e6, "{mother}, {bands} bands: {own:e}, shared {shared:e}");
+        }
+    }
+    for form in &shading.forms {
+        let [decomposed, direct, isotropic, zonal, direct_zonal] = form.operations[..] else { panic!("five forms") };
+        for channels in [0, 1] {
+            assert!(isotropic[channels] < direct[channels] && direct[channels] < decomposed[channels], "{form:?}");
+            assert!(direct_zonal[channels] < zonal[channels], "{form:?}");
+        }
+    }
+    for reflectance in ["phong:20", "ward:0.3", "ward:0.25:0.6"] {
+        let of = |mother: &str| -> Vec<_> {
+            let rows = shading.convergence.iter().filter(|row| row.reflectance == reflectance && row.mother == mother);
+            rows.map(|row| (row.bands, row.error)).collect()
+        };
+        let (harmonic, gaussian) = (of("harmonic"), of("Gaussian"));
+        assert_eq!((harmonic.len(), gaussian.len()), (6, 3), "{reflectance}");
+        assert!(harmonic.windows(2).all(|pair| pair[1].1 < pair[0].1), "{reflectance}: {harmonic:?}");
+        assert!(harmonic[5].1 < 0.01, "{reflectance}: {harmonic:?}");
+        for (bands, error) in gaussian {
+            let (_, same) = harmonic.iter().find(|row| row.0 == bands).expect("is measured");
+            assert!((error - same).abs() <= 1e-3 * same, "{reflectance}, {bands} bands: {error:e}, {same:e}");
+        }
+    }
+}

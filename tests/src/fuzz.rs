@@ -11,6 +11,7 @@ use zonal_cli::inputs;
 use zonal_codegen::catalog;
 use zonal_codegen::environment::Map;
 use zonal_codegen::families::Spec;
+use zonal_codegen::families::isd::directions;
 use zonal_codegen::families::product::plan::Records;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::promise::samples::Random;
@@ -43,6 +44,9 @@ const PLANS: &str = "[[plan]]\norders = [2, 2, 3]\noperations = 27\nseed = 1\ntr
                      pairs = [\"10 10: 00 20\", \"11 10: 21\", \"11 11: 00 20 22\"]\n\
                      [[plan]]\norders = [2, 2, 2]\nsquare = true\noperations = 20\nseed = 1\ntries = 1\npairs = [\"10 10: 00\"]\n\
                      [[plan.rings]]\nclasses = [1, 1]\nnodes = 1\nexponent = 1\n";
+/// Directions of one band.
+const DIRECTIONS: &str = "[[set]]\nbands = 1\nseed = 1\ntries = 1\ncondition = 1.0\n\
+                          directions = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]\n";
 /// Inputs of `rotate:3:rgb`: nested, flat, and grey.
 const INPUTS: &str = "[{\"q\": [0, 0, 0, 1], \"c\": [[1, 2, 3], [4, 5, 6], [7, 8, 9], [1, 2, 3], [4, 5, 6], [7, 8, 9], \
                       [1, 2, 3], [4, 5, 6], [7, 8, 9]]}, {\"q\": [0.5, -0.5, 5e-1, 0.5], \"c\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}]";
@@ -113,6 +117,11 @@ fn kinds() -> Vec<Kind> {
             name: "plans",
             seeds: texts(&[PLANS]),
             read: |bytes| Records::read(&String::from_utf8_lossy(bytes)).is_ok(),
+        },
+        Kind {
+            name: "directions",
+            seeds: texts(&[DIRECTIONS]),
+            read: |bytes| directions::Records::read(&String::from_utf8_lossy(bytes)).is_ok(),
         },
         Kind { name: "inputs", seeds: texts(&[INPUTS]), read: read_inputs },
         Kind {

@@ -121,7 +121,8 @@ fn directions_are_those_of_the_golden_values_and_reach_twenty_orders() {
 #[test]
 fn the_search_finds_a_set_again_and_the_command_keeps_it() {
     let (once, again) = (search(4, 7, 2, || ()), search(4, 7, 2, || ()));
-    assert!(once == again && once.condition < 3.0, "{once:?}");
+    // Two starts alone: what is kept has 2.6, random directions ten and more.
+    assert!(once == again && once.condition < 4.0, "{once:?}");
     assert!(search(4, 8, 2, || ()) != once);
     let folder = Folder::new();
     let arguments = ["search-directions", "--bands", "2-3", "--tries", "1", "--out", "sets.toml"];
