@@ -64,7 +64,7 @@ fn stretched(half: f32) -> [f32; 2] {
 macro_rules! kernels {
     ($module:ident, $count:literal) => {
         /// Kernels of an order with what they need of a quaternion.
-        mod $module {
+        pub mod $module {
             use super::*;
             const C: usize = $count;
 
