@@ -81,6 +81,9 @@ struct Draw {
     /// The approximate rotation: LF3, tilt, "Taylor 1.5", "LF3 on B" and so on.
     #[arg(long, default_value = "LF3")]
     method: String,
+    /// What is yellow in the picture of differences, as a share of the mean.
+    #[arg(long, default_value_t = 0.02)]
+    bright: f64,
     /// The file to write.
     #[arg(short, long, default_value = "cache.png")]
     output: PathBuf,
@@ -113,10 +116,11 @@ fn draw<const C: usize>(draw: &Draw, basis: Basis<C>) -> Result<(), Failure> {
     let sampling = Sampling { rays: draw.rays as usize, seed: draw.seed };
     let setup = Setup { scene: &scene, gloss, view: &view, truth: &truth, sampling };
     let (cache, seconds) = filled(&setup, basis, error, &|| progress.inc(1));
-    let bytes = strip(&squares(&setup, &cache, &draw.method, 0.1), view.side)?;
+    let bytes = strip(&squares(&setup, &cache, &draw.method, draw.bright), view.side)?;
     let (folder, name) = files::split(&draw.output);
     files::write_below(folder, &[(name.as_str(), &bytes)], Replace::forced(draw.force))?;
-    let text = page::rows(&table(&setup, &cache, seconds));
+    let records = cache.records.len();
+    let text = format!("{records} records in {seconds:.1} s\n\n{}", page::rows(&table(&setup, &cache, seconds)));
     progress.finish_and_clear();
     out(&text)
 }

@@ -13,7 +13,7 @@ use zonal_picture::camera::Camera;
 use zonal_picture::tone;
 
 /// How often a frame is made; the shortest time counts.
-const TIMES: usize = 3;
+const TIMES: usize = 5;
 /// The errors a that are compared.
 pub const ERRORS: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
 /// The limits that are compared; the last is held where the first is at a = 0.1.
