@@ -1,5 +1,6 @@
 //! The ways to turn records agree where they should, and the limit between them is what the mathematics says.
 
+use serde_json::Value;
 use zonal_cache::basis::{Basis, HSH6, Light, SH6, SH10};
 use zonal_cache::methods::{Limit, Method};
 use zonal_codegen::promise::samples::Random;
@@ -85,6 +86,37 @@ fn rotations_of_hemispherical_harmonics_agree_where_angles_are_small() {
     let near = distance(&y, &table.turn(z.map(|x| x / norm), 0.0, &c).0);
     // Half a degree times the generator's norm, some eight at order 6.
     assert!((1e-4..0.1).contains(&near), "{near}");
+}
+
+fn meets<const C: usize>(case: &Value) {
+    let numbers = |name: &str| -> Vec<f64> {
+        case[name].as_array().expect("numbers").iter().map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let [given, wanted] = ["h", "best_extension"].map(|name| -> Light<C> {
+        let numbers = numbers(name);
+        std::array::from_fn(|i| [numbers[i] as f32; 3])
+    });
+    let beta = case["deg"].as_f64().expect("an angle").to_radians() as f32;
+    let found = zonal_cache::table::of_order(C.isqrt()).turn(beta, &given);
+    // f32 rounds entries and sums.
+    assert!(distance(&found, &wanted) < 1e-6, "{} {}", case["n"], distance(&found, &wanted));
+}
+
+#[test]
+fn the_table_meets_the_golden_values() {
+    let text = std::fs::read_to_string("../tests/golden/hsh_rotation.json").expect("the file is there");
+    let file: Value = serde_json::from_str(&text).expect("it is JSON");
+    let cases = file["cases"].as_array().expect("cases").iter().filter(|case| case["best_extension"].is_array());
+    let mut tried = 0;
+    for case in cases {
+        match case["n"].as_u64() {
+            Some(3) => meets::<9>(case),
+            Some(4) => meets::<16>(case),
+            other => panic!("order {other:?} is not tried"),
+        }
+        tried += 1;
+    }
+    assert_eq!(tried, 4);
 }
 
 #[test]
