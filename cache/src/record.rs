@@ -29,7 +29,8 @@ pub struct Sampling {
 pub struct Record<const C: usize> {
     /// Where, and the frame in which it is stored.
     pub place: Place,
-    /// The harmonic mean of the distances to what is seen, held between 0.05 and 1.
+    /// The harmonic mean of the distances to what is seen, or what the light is over its derivative if that is less, held
+    /// between 0.05 and 1.
     pub radius: f64,
     /// The coefficients.
     pub light: Light<C>,
@@ -40,10 +41,10 @@ pub struct Record<const C: usize> {
 /// Sums in f64.
 #[derive(Clone)]
 pub struct Sums<const C: usize> {
-    /// The coefficients.
-    pub light: [[f64; 3]; C],
+    /// The coefficients, a channel after the other.
+    pub light: [[f64; C]; 3],
     /// Their derivatives.
-    pub slopes: [[[f64; 3]; C]; 2],
+    pub slopes: [[[f64; C]; 3]; 2],
     /// The inverse distances.
     inverse: f64,
     /// How many samples met something.
@@ -52,7 +53,7 @@ pub struct Sums<const C: usize> {
 
 impl<const C: usize> Default for Sums<C> {
     fn default() -> Self {
-        Self { light: [[0.0; 3]; C], slopes: [[[0.0; 3]; C]; 2], inverse: 0.0, met: 0 }
+        Self { light: [[0.0; C]; 3], slopes: [[[0.0; C]; 3]; 2], inverse: 0.0, met: 0 }
     }
 }
 
@@ -73,17 +74,17 @@ impl<const C: usize> Sums<C> {
             return;
         }
         let share = share(basis.moving, direction, distance, normal);
-        for i in 0..C {
-            for k in 0..3 {
-                self.light[i][k] += share.values[i] * radiance[k];
-                self.slopes[0][i][k] += share.slopes[0][i] * radiance[k];
-                self.slopes[1][i][k] += share.slopes[1][i] * radiance[k];
+        for k in 0..3 {
+            for i in 0..C {
+                self.light[k][i] += share.values[i] * radiance[k];
+                self.slopes[0][k][i] += share.slopes[0][i] * radiance[k];
+                self.slopes[1][k][i] += share.slopes[1][i] * radiance[k];
             }
         }
     }
 
     fn add(&mut self, other: &Self) {
-        let add = |a: &mut [[f64; 3]; C], b: &[[f64; 3]; C]| {
+        let add = |a: &mut [[f64; C]; 3], b: &[[f64; C]; 3]| {
             a.as_flattened_mut().iter_mut().zip(b.as_flattened()).for_each(|(a, b)| *a += b);
         };
         add(&mut self.light, &other.light);
@@ -124,8 +125,13 @@ impl<const C: usize> Record<C> {
 
     /// Returns a record of a place with sums for its coefficients.
     pub fn from_sums(place: Place, sums: &Sums<C>) -> Self {
-        let single = |c: &[[f64; 3]; C]| c.map(|c| c.map(|x| x as f32));
-        let radius = if sums.met > 0 { sums.met as f64 / sums.inverse } else { MOST };
+        let single = |c: &[[f64; C]; 3]| -> Light<C> { std::array::from_fn(|i| [0, 1, 2].map(|k| c[k][i] as f32)) };
+        let mean = if sums.met > 0 { sums.met as f64 / sums.inverse } else { MOST };
+        // Where the light changes fast, by a touching surface, its derivatives reach less far than that.
+        let norm = |c: &[[f64; C]; 3]| c.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt();
+        let slope = norm(&sums.slopes[0]).hypot(norm(&sums.slopes[1]));
+        let reach = if slope > 0.0 { norm(&sums.light) / slope } else { MOST };
+        let radius = mean.min(reach);
         let slopes = [single(&sums.slopes[0]), single(&sums.slopes[1])];
         Self { place, radius: radius.clamp(LEAST, MOST), light: single(&sums.light), slopes }
     }

@@ -5,8 +5,8 @@ use crate::gloss::{Gloss, Slices};
 use crate::methods::Method;
 use crate::place::Place;
 use crate::scene::{Material, Scene, Seen, sobol};
+use cpu_time::{ProcessTime, ThreadTime};
 use rayon::prelude::*;
-use std::time::Instant;
 use zonal_picture::camera::{Camera, View as _};
 use zonal_picture::vector::{add, dot};
 
@@ -39,7 +39,7 @@ pub struct Shown {
     pub radiance: Vec<[f64; 3]>,
     /// The rotations.
     pub count: Count,
-    /// How long it took on one thread, in seconds.
+    /// The processor time that it took, in seconds.
     pub seconds: f64,
 }
 
@@ -80,7 +80,7 @@ impl View {
         method: &Method<C>,
         limit: f32,
     ) -> Shown {
-        let start = Instant::now();
+        let start = ThreadTime::now();
         let mut count = Count::default();
         let radiance = self.glossy.iter().map(|pixel| {
             let Some(light) = cache.light(&pixel.place, method, limit, &mut count) else { return [0.0; 3] };
@@ -97,7 +97,7 @@ impl View {
 
     /// Returns what the glossy pixels show by so many rays a pixel, dealt as the lobe is high, on all threads.
     pub fn brute_force(&self, scene: &Scene, rays: usize, seed: u32, tick: impl Fn() + Sync) -> Shown {
-        let start = Instant::now();
+        let start = ProcessTime::now();
         let one = |pixel: &Pixel| {
             let own = seed ^ (pixel.number as u32 + 1).wrapping_mul(0x85eb_ca6b);
             let (normal, origin) = (pixel.place.normal(), pixel.place.point.origin());

@@ -54,9 +54,9 @@ fn differ<const C: usize>(basis: &Basis<C>) {
         for i in 0..C {
             for k in 0..3 {
                 // Five points: what is left is h⁴ times the fifth derivative, some thousands.
-                let [a, b, c, d] = [0, 1, 2, 3].map(|j| at[j][i][k]);
+                let [a, b, c, d] = [0, 1, 2, 3].map(|j| at[j][k][i]);
                 let wanted = (8.0 * (c - b) - (d - a)) / (12.0 * h);
-                let slope = found.slopes[e][i][k];
+                let slope = found.slopes[e][k][i];
                 assert!((slope - wanted).abs() < 1e-6, "{}{} {i} {e}: {slope} {wanted}", basis.name, basis.order);
             }
         }
