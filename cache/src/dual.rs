@@ -49,8 +49,8 @@ impl Neg for Dual {
 impl Mul for Dual {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        let slopes = std::array::from_fn(|k| self.slopes[k] * other.value + self.value * other.slopes[k]);
-        Self { value: self.value * other.value, slopes }
+        let (Self { value: a, slopes: [b, c] }, Self { value: d, slopes: [e, f] }) = (self, other);
+        Self { value: a * d, slopes: [b * d + a * e, c * d + a * f] }
     }
 }
 

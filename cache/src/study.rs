@@ -88,6 +88,17 @@ pub struct Step {
     pub truth: f64,
 }
 
+/// What brute force takes to err as much as a cache.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equal {
+    /// How many rays a pixel.
+    pub rays: f64,
+    /// For how many seconds.
+    pub seconds: f64,
+    /// Whether it came so far; else this is the most that was tried.
+    pub is_reached: bool,
+}
+
 /// A camera that reuses a cache.
 #[derive(Clone, Debug)]
 pub struct Stop {
@@ -101,8 +112,8 @@ pub struct Stop {
     pub seconds: f64,
     /// Its error against brute force.
     pub truth: f64,
-    /// How many rays a pixel brute force takes to err as much, and for how many seconds.
-    pub equal: [f64; 2],
+    /// How brute force comes to err as much.
+    pub equal: Equal,
     /// How many times as long that is, and how many times it is at a picture of 850 by 850 pixels.
     pub times: [f64; 2],
 }
@@ -211,6 +222,8 @@ pub fn exposure(picture: &[[f64; 3]]) -> f64 {
 pub struct Tour {
     /// The cameras.
     pub stops: Vec<Stop>,
+    /// How many records the first would add in a picture of twice as many pixels a side.
+    pub doubled: usize,
     /// From the cache, one a camera, then brute force of the first.
     pub squares: Vec<Square>,
 }
@@ -230,6 +243,29 @@ pub struct Plan<'a> {
     pub rays: usize,
 }
 
+/// Returns what brute force takes to err as little as `error` against the truth: its rays are doubled until it does, and the
+/// last two are interpolated.
+fn equal(view: &View, scene: &Scene, truth: &[[f64; 3]], error: f64, plan: &Plan) -> Equal {
+    let mut before: Option<(f64, f64, f64)> = None;
+    let mut rays = 4;
+    loop {
+        let shown = view.brute_force(scene, rays, plan.sampling.seed.wrapping_add(1), || ());
+        let now = (rays as f64, shown.seconds, rms(&shown.radiance, truth));
+        let is_reached = now.2 <= error;
+        if is_reached || 4 * rays > plan.rays {
+            let share = match before {
+                Some((_, _, last)) if is_reached => (last / error).ln() / (last / now.2).ln(),
+                _ => 1.0,
+            };
+            let (few, seconds, _) = before.unwrap_or(now);
+            let mixed = |a: f64, b: f64| (a.ln() + share * (b / a).ln()).exp();
+            return Equal { rays: mixed(few, now.0), seconds: mixed(seconds.max(1e-9), now.1.max(1e-9)), is_reached };
+        }
+        before = Some(now);
+        rays *= 2;
+    }
+}
+
 /// Returns what cameras, one after the other, do with one cache of a scene whose glossy surface is flat.
 pub fn tour<const C: usize>(
     scene: &Scene,
@@ -238,8 +274,6 @@ pub fn tour<const C: usize>(
     plan: &Plan,
     tick: &(dyn Fn() + Sync),
 ) -> Tour {
-    /// How many rays a pixel the picture takes from which the equal time is told.
-    const FEW: usize = 16;
     let slices = Slices::new(basis, &gloss);
     // The wall is flat: the frames of all its points are one, and no record is turned.
     let method = &basis.methods[0];
@@ -253,10 +287,8 @@ pub fn tour<const C: usize>(
         let filling = start.elapsed().as_secs_f64();
         let shown = view.cached(&cache, &slices, method, cache.limit(Limit::Closed));
         let truth = view.brute_force(scene, plan.rays, plan.sampling.seed, tick).radiance;
-        let few = view.brute_force(scene, FEW, plan.sampling.seed + 1, || ());
         let error = rms(&shown.radiance, &truth);
-        // The error of brute force falls with the root of its rays.
-        let times = (rms(&few.radiance, &truth) / error).powi(2);
+        let equal = equal(&view, scene, &truth, error, plan);
         let picture = view.with(&shown.radiance);
         let truth = view.with(&truth);
         let exposure = exposure(&truth);
@@ -268,10 +300,15 @@ pub fn tour<const C: usize>(
             filling,
             seconds: shown.seconds,
             truth: error,
-            equal: [FEW as f64 * times, few.seconds * times],
-            times: [1.0, larger].map(|pixels| pixels * few.seconds * times / (filling + pixels * shown.seconds)),
+            equal,
+            times: [1.0, larger].map(|pixels| pixels * equal.seconds / (filling + pixels * shown.seconds)),
         });
     }
     squares.extend(last);
-    Tour { stops, squares }
+    let mut cache = Cache::new(basis, plan.error);
+    if let Some(&azimuth) = plan.azimuths.first() {
+        let view = View::new(scene, &Camera { azimuth, ..CAMERA }, 2 * plan.side);
+        cache.fill(scene, view.places(), plan.sampling, tick);
+    }
+    Tour { stops, doubled: cache.records.len(), squares }
 }
