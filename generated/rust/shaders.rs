@@ -1749,6 +1749,10 @@ pub mod sh7 {
             ("hsh_to_monomial:7:rgb", "sh7_hsh_to_monomial_rgb"),
             ("sh_to_hsh:7", "sh7_sh_to_hsh"),
             ("sh_to_hsh:7:rgb", "sh7_sh_to_hsh_rgb"),
+            ("hsh_extend:7", "sh7_hsh_extend"),
+            ("hsh_extend:7:rgb", "sh7_hsh_extend_rgb"),
+            ("hsh_extend:5+7", "sh7_of_order_5_hsh_extend"),
+            ("hsh_extend:5+7:rgb", "sh7_of_order_5_hsh_extend_rgb"),
         ],
     };
 }
@@ -1928,6 +1932,10 @@ pub mod sh8 {
             ("hsh_to_monomial:8:rgb", "sh8_hsh_to_monomial_rgb"),
             ("sh_to_hsh:8", "sh8_sh_to_hsh"),
             ("sh_to_hsh:8:rgb", "sh8_sh_to_hsh_rgb"),
+            ("hsh_extend:8", "sh8_hsh_extend"),
+            ("hsh_extend:8:rgb", "sh8_hsh_extend_rgb"),
+            ("hsh_extend:6+8", "sh8_of_order_6_hsh_extend"),
+            ("hsh_extend:6+8:rgb", "sh8_of_order_6_hsh_extend_rgb"),
         ],
     };
 }
@@ -2107,6 +2115,8 @@ pub mod sh9 {
             ("hsh_to_monomial:9:rgb", "sh9_hsh_to_monomial_rgb"),
             ("sh_to_hsh:9", "sh9_sh_to_hsh"),
             ("sh_to_hsh:9:rgb", "sh9_sh_to_hsh_rgb"),
+            ("hsh_extend:9", "sh9_hsh_extend"),
+            ("hsh_extend:9:rgb", "sh9_hsh_extend_rgb"),
         ],
     };
 }
@@ -2286,6 +2296,8 @@ pub mod sh10 {
             ("hsh_to_monomial:10:rgb", "sh10_hsh_to_monomial_rgb"),
             ("sh_to_hsh:10", "sh10_sh_to_hsh"),
             ("sh_to_hsh:10:rgb", "sh10_sh_to_hsh_rgb"),
+            ("hsh_extend:10", "sh10_hsh_extend"),
+            ("hsh_extend:10:rgb", "sh10_hsh_extend_rgb"),
         ],
     };
 }

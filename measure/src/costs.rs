@@ -43,7 +43,8 @@ pub struct Costs {
 
 /// The kernels that turn a signal, in the order of the catalogue.
 pub fn specs() -> Vec<Spec> {
-    const OTHERS: [&Family; 7] = [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
+    const OTHERS: [&Family; 7] =
+        [&EVAL, &EVAL_ONCE, &SWAP_YZ, &EVAL_MONOMIAL, &TO_MONOMIAL, &TILT_SCALE, &TILT_UNSCALE];
     const TURNING: [Group; 6] =
         [Group::Evaluate, Group::Rotate, Group::Tilt, Group::SmallAngle, Group::Factorise, Group::Piece];
     let is_other = |spec: &Spec| {

@@ -50,7 +50,7 @@ pub static HSH_TO_SH: Family = Family {
         )
     },
     kernel: |spec| from_hemisphere(spec.factor_orders(), Below::Zero),
-    shown: |order| shown(&HSH_TO_SH, order),
+    shown: |order| if order <= SHOWN { shown(&HSH_TO_SH, order) } else { vec![] },
     ..TO_THE_SPHERE
 };
 
@@ -77,7 +77,7 @@ const TO_THE_SPHERE: Family = Family {
     ..OF_CONVERSIONS
 };
 
-/// Up to which order the catalogue has maps between two orders, and to the sphere.
+/// Up to which order of the hemisphere the catalogue has maps to and from more bands of the sphere.
 const SHOWN: usize = 6;
 
 /// The square map, and that from two orders less.
@@ -85,7 +85,7 @@ fn shown(family: &'static Family, order: usize) -> Vec<Spec> {
     let spec = Spec::new(family, order);
     match order {
         2 | 3 => spec.both(),
-        _ if order > SHOWN => vec![],
+        _ if order > SHOWN + 2 => spec.both(),
         _ => [spec.clone().both(), spec.of_factors([order - 2, order]).both()].concat(),
     }
 }
