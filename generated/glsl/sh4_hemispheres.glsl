@@ -1758,7 +1758,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGH
 // 4 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a difference. To
 // be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 / r. A hit seen at
 // a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -1767,9 +1767,9 @@ ZONAL_HIGHP vec3[16] sh4_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGH
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 132 (79 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
-// Error: f32 rounding at most 6e-6 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     2e-6; not proven).
+// Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 3.5e-6; not proven).
 ZONAL_HIGHP float[16] sh4_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e, ZONAL_HIGHP float r, ZONAL_HIGHP vec3 m, ZONAL_HIGHP float light) {
 #ifdef GL_ES
     precision highp float;
@@ -1843,7 +1843,7 @@ ZONAL_HIGHP float[16] sh4_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // order 4 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a
 // difference. To be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 /
 // r. A hit seen at a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -1852,9 +1852,9 @@ ZONAL_HIGHP float[16] sh4_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 164 (111 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
-// Error: f32 rounding at most 6e-6 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     2e-6; not proven).
+// Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 3.5e-6; not proven).
 ZONAL_HIGHP vec3[16] sh4_hsh_gradient_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e, ZONAL_HIGHP float r, ZONAL_HIGHP vec3 m, ZONAL_HIGHP vec3 light) {
 #ifdef GL_ES
     precision highp float;

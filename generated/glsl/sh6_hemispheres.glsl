@@ -3363,7 +3363,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 // 6 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a difference. To
 // be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 / r. A hit seen at
 // a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -3372,9 +3372,9 @@ ZONAL_HIGHP vec3[36] sh6_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 276 (162 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
-// Error: f32 rounding at most 1.3e-5 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     4.1e-6; not proven).
+// Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 8.2e-6; not proven).
 ZONAL_HIGHP float[36] sh6_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e, ZONAL_HIGHP float r, ZONAL_HIGHP vec3 m, ZONAL_HIGHP float light) {
 #ifdef GL_ES
     precision highp float;
@@ -3514,7 +3514,7 @@ ZONAL_HIGHP float[36] sh6_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // order 6 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a
 // difference. To be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 /
 // r. A hit seen at a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -3523,9 +3523,9 @@ ZONAL_HIGHP float[36] sh6_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 348 (234 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
-// Error: f32 rounding at most 1.3e-5 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     4.1e-6; not proven).
+// Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 8.2e-6; not proven).
 ZONAL_HIGHP vec3[36] sh6_hsh_gradient_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e, ZONAL_HIGHP float r, ZONAL_HIGHP vec3 m, ZONAL_HIGHP vec3 light) {
 #ifdef GL_ES
     precision highp float;

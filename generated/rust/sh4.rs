@@ -7026,7 +7026,7 @@ pub fn hsh_rotate_table_rgb<T: Real>(cs: &[[T; 2]; 2], m: &[T; 136], c: &[[T; 3]
 /// be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 / r. A hit seen at
 /// a cosine below 0.1 counts as one seen at 0.1.
 ///
-/// - dir: the direction, of unit length; its z is taken as at least 1e-36.
+/// - dir: the direction of the sample, of unit length, above the horizon.
 /// - e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 ///   zero.
 /// - r: the distance from the point to what the sample hits, above zero.
@@ -7035,9 +7035,9 @@ pub fn hsh_rotate_table_rgb<T: Real>(cs: &[[T; 2]; 2], m: &[T; 136], c: &[[T; 3]
 /// - Returns what the sample adds to the derivative along e, index l(l+1)+m.
 /// - Operations: 132 (79 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 ///   reciprocals; 17 constants, 33 live values.
-/// - Error: f32 rounding at most 6e-6 of the norm of the coefficients, for dir of unit length, for e of
-///   unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured, 2e-6;
-///   not proven).
+/// - Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
+///   with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+///   worst of 256 measured, 3.5e-6; not proven).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn hsh_gradient<T: Real, V: Signal<T>>(dir: [T; 3], e: [T; 3], r: T, m: [T; 3], light: V) -> [V; 16] {

@@ -3227,7 +3227,7 @@ fn sh6_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec
 // 6 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a difference. To
 // be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 / r. A hit seen at
 // a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -3236,9 +3236,9 @@ fn sh6_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 276 (162 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
-// Error: f32 rounding at most 1.3e-5 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     4.1e-6; not proven).
+// Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 8.2e-6; not proven).
 fn sh6_hsh_gradient(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: f32) -> array<f32, 36> {
     let t0 = 1.0 / (r);
     let t1 = dir.y * e.y + dir.x * e.x;
@@ -3374,7 +3374,7 @@ fn sh6_hsh_gradient(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: f
 // order 6 as their point moves in the tangent plane: exact, where Gautron et al. 2004 take a
 // difference. To be multiplied by the sample's weight, 2 pi / N of N uniform ones; all scales as 1 /
 // r. A hit seen at a cosine below 0.1 counts as one seen at 0.1.
-// dir: the direction, of unit length; its z is taken as at least 1e-36.
+// dir: the direction of the sample, of unit length, above the horizon.
 // e: the direction in which the point moves, of unit length, in the tangent plane: its z counts as
 //     zero.
 // r: the distance from the point to what the sample hits, above zero.
@@ -3383,9 +3383,9 @@ fn sh6_hsh_gradient(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: f
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 348 (234 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
-// Error: f32 rounding at most 1.3e-5 of the norm of the coefficients, for dir of unit length, for e of
-//     unit length, for r from 1 to 1000, for m of unit length (3 times the worst of 256 measured,
-//     4.1e-6; not proven).
+// Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
+//     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
+//     worst of 256 measured, 8.2e-6; not proven).
 fn sh6_hsh_gradient_rgb(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: vec3<f32>) -> array<vec3<f32>, 36> {
     let t0 = 1.0 / (r);
     let t1 = dir.y * e.y + dir.x * e.x;

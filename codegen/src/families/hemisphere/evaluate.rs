@@ -85,7 +85,7 @@ pub static HSH_TO_MONOMIAL: Family = Family {
 };
 
 /// Declares the direction.
-pub fn direction(builder: &mut Builder) -> Vec<Id> {
+fn direction(builder: &mut Builder) -> Vec<Id> {
     builder.param(
         "dir",
         Shape::Vec3,

@@ -3,7 +3,7 @@
 
 use crate::families::family::{Acts, Family, Measure, Proof, Spec};
 use crate::families::hemisphere::COMMON;
-use crate::families::hemisphere::evaluate::{direction, hemispheric, stretch};
+use crate::families::hemisphere::evaluate::{hemispheric, stretch};
 use crate::families::parts::columns;
 use crate::families::parts::derivative::derivatives;
 use crate::families::parts::sums::inner;
@@ -31,7 +31,8 @@ pub static HSH_GRADIENT: Family = Family {
 /// L (dH + H (3 ω·e + m·e / cos ξ) / r), of which dH is the derivative along the motion of ω by −(e − ω (ω·e)) / r.
 fn gradient(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let dir = direction(&mut builder);
+    let doc = "the direction of the sample, of unit length, above the horizon";
+    let dir = builder.param("dir", Shape::Vec3, Domain::Hemisphere, doc);
     let doc = "the direction in which the point moves, of unit length, in the tangent plane: its z counts as zero";
     let e = builder.param("e", Shape::Vec3, Domain::Direction, doc);
     let doc = "the distance from the point to what the sample hits, above zero";
