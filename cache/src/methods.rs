@@ -2,7 +2,7 @@
 //! Křivánek et al. (2005, table 1) and Gautron et al. (2004, section 4) compare them. A method for small angles serves below a
 //! limit, the exact one above.
 
-use crate::basis::Light;
+use crate::light::Light;
 use crate::table;
 use zonal::{sh6, sh8, sh10};
 use zonal_measure::stability::recursion::Matrices;

@@ -3,8 +3,9 @@
 //! D of order 16 is by the recursion of Ivanic and Ruedenberg: the kernel `hsh_y_record:n:sh=16` says the same, but takes ten
 //! seconds to be built.
 
-use crate::basis::Light;
+use crate::light::Light;
 use std::sync::OnceLock;
+// Names a family: its table and this one have their entries in the same order.
 use zonal_codegen::families::hemisphere::table::places;
 use zonal_codegen::math::hemisphere::{SPHERICAL_ORDER, extension, overlap};
 use zonal_codegen::math::index::{coefficients, index};
