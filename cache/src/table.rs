@@ -38,6 +38,22 @@ fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Vec<Vec<(us
     coefficients(order).map(one).collect()
 }
 
+/// Returns hemispherical coefficients of order 10 at most as `S` spherical ones, of a function that goes on below the horizon:
+/// E, as `hsh_extend`, which the catalogue has up to order 6.
+pub fn extended<const C: usize, const S: usize>(c: &Light<C>) -> Light<S> {
+    static FACTORS: [OnceLock<Vec<Vec<(usize, f64)>>>; HIGHEST + 1] = [const { OnceLock::new() }; HIGHEST + 1];
+    let order = C.isqrt().min(HIGHEST);
+    let factors =
+        FACTORS[order].get_or_init(|| factors(order, |spherical, l, m| extension(order, spherical, l, m).to_f64()));
+    let mut out = [[0.0; 3]; S];
+    for (column, c) in factors.iter().zip(c) {
+        for &(at, factor) in column.iter().take_while(|(at, _)| *at < S) {
+            (0..3).for_each(|channel| out[at][channel] += factor as f32 * c[channel]);
+        }
+    }
+    out
+}
+
 impl Table {
     fn new(order: usize) -> Self {
         let up = factors(order, |spherical, l, m| extension(order, spherical, l, m).to_f64());
