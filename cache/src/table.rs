@@ -29,9 +29,12 @@ pub fn of_order(order: usize) -> &'static Table {
     TABLES[order].get_or_init(|| Table::new(order))
 }
 
+/// For each hemispherical coefficient the spherical places that it meets, ascending, with their factors.
+type Factors = Vec<Vec<(usize, f64)>>;
+
 /// What a function of l', l and m is for every spherical band l' that m leaves, for each hemispherical coefficient: the places
 /// among the spherical ones with their factors.
-fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Vec<Vec<(usize, f64)>> {
+fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Factors {
     let one = |(l, m): (usize, isize)| {
         (m.unsigned_abs()..SPHERICAL_ORDER).map(|spherical| (index(spherical, m), of(spherical, l, m))).collect()
     };
@@ -41,7 +44,7 @@ fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Vec<Vec<(us
 /// Returns hemispherical coefficients of order 10 at most as `S` spherical ones, of a function that goes on below the horizon:
 /// E, as `hsh_extend`, which the catalogue has up to order 6.
 pub fn extended<const C: usize, const S: usize>(c: &Light<C>) -> Light<S> {
-    static FACTORS: [OnceLock<Vec<Vec<(usize, f64)>>>; HIGHEST + 1] = [const { OnceLock::new() }; HIGHEST + 1];
+    static FACTORS: [OnceLock<Factors>; HIGHEST + 1] = [const { OnceLock::new() }; HIGHEST + 1];
     let order = C.isqrt().min(HIGHEST);
     let factors =
         FACTORS[order].get_or_init(|| factors(order, |spherical, l, m| extension(order, spherical, l, m).to_f64()));
