@@ -3,9 +3,6 @@
 use crate::dual::Dual;
 use crate::methods::{self, Method};
 
-/// Coefficients of red, green and blue.
-pub type Light<const C: usize> = [[f32; 3]; C];
-
 /// A basis of one order, `C` functions.
 #[derive(Clone, Copy)]
 pub struct Basis<const C: usize> {

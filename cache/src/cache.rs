@@ -1,7 +1,8 @@
 //! The cache: which records serve a place, by the weight of Ward et al. as Křivánek et al. use it, and what they bring
 //! together (Gautron et al. 2004, equations 23 and 24).
 
-use crate::basis::{Basis, Light};
+use crate::basis::Basis;
+use crate::light::Light;
 use crate::methods::{Limit, Method};
 use crate::place::Place;
 use crate::record::{Record, Sampling};

@@ -13,6 +13,7 @@ pub mod cache;
 pub mod dual;
 pub mod gloss;
 pub mod gradient;
+pub mod light;
 pub mod methods;
 pub mod page;
 pub mod picture;

@@ -2,7 +2,7 @@
 //! Křivánek et al. (2005, table 1) and Gautron et al. (2004, section 4) compare them. A method for small angles serves below a
 //! limit, the exact one above.
 
-use crate::basis::Light;
+use crate::light::Light;
 use crate::table;
 use zonal::{sh6, sh8, sh10};
 use zonal_measure::stability::recursion::Matrices;
@@ -107,12 +107,12 @@ mod of {
 
 /// With the best extension below the horizon, in spherical harmonics of two bands more (C D E).
 fn extended(q: [f32; 4], c: &Light<36>) -> Light<36> {
-    sh6::of_order_8_sh_to_hsh_rgb(&sh8::rotate_rgb(q, &sh8::of_order_6_hsh_extend_rgb(c)))
+    sh6::of_order_8_sh_to_hsh_rgb(&sh8::rotate_rgb(q, &table::extended(c)))
 }
 
 /// With the best extension below the horizon, in as many bands: the catalogue has no rotation of more.
 fn extended_10(q: [f32; 4], c: &Light<100>) -> Light<100> {
-    sh10::sh_to_hsh_rgb(&sh10::rotate_rgb(q, &sh10::hsh_extend_rgb(c)))
+    sh10::sh_to_hsh_rgb(&sh10::rotate_rgb(q, &table::extended(c)))
 }
 
 fn sheared(q: [f32; 4], c: &Light<36>) -> Light<36> {
@@ -160,14 +160,14 @@ pub static SH10: [Method<100>; 7] = spherical!(sh10, "10");
 pub static HSH6: [Method<36>; 5] = [
     method("ignored", "none", None, ignored),
     method("LF3 on B", "hsh_rotate_record:6", Some(sheared), of::sh6::table),
-    method("method 1, 8 bands", "hsh_extend:6+8, rotate:8, sh_to_hsh:8+6", None, extended),
+    method("method 1, 8 bands", "the matrix of hsh_extend:6+8, rotate:8, sh_to_hsh:8+6", None, extended),
     method("equation 13", "rotate:6:euler", None, of::sh6::equation_13),
     method("table C D_y E", "rotate_z:6, a table of hsh_y_record:6:sh=16, rotate_z:6", None, of::sh6::table),
 ];
 /// Of hemispherical harmonics of order 10.
 pub static HSH10: [Method<100>; 4] = [
     method("ignored", "none", None, ignored),
-    method("method 1, 10 bands", "hsh_extend:10, rotate:10, sh_to_hsh:10", None, extended_10),
+    method("method 1, 10 bands", "the matrix of hsh_extend:10, rotate:10, sh_to_hsh:10", None, extended_10),
     method("equation 13", "rotate:10:euler", None, of::sh10::equation_13),
     method("table C D_y E", "rotate_z:10, a table of hsh_y_record:10:sh=16, rotate_z:10", None, of::sh10::table),
 ];

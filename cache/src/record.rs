@@ -1,7 +1,8 @@
 //! A record of the cache: the light that arrives at a point, with its derivatives in the tangent plane.
 
-use crate::basis::{Basis, Light};
+use crate::basis::Basis;
 use crate::gradient::share;
+use crate::light::Light;
 use crate::place::Place;
 use crate::scene::{Scene, over_hemisphere, sobol};
 use rayon::prelude::*;

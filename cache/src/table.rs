@@ -3,8 +3,9 @@
 //! D of order 16 is by the recursion of Ivanic and Ruedenberg: the kernel `hsh_y_record:n:sh=16` says the same, but takes ten
 //! seconds to be built.
 
-use crate::basis::Light;
+use crate::light::Light;
 use std::sync::OnceLock;
+// Names a family: its table and this one have their entries in the same order.
 use zonal_codegen::families::hemisphere::table::places;
 use zonal_codegen::math::hemisphere::{SPHERICAL_ORDER, extension, overlap};
 use zonal_codegen::math::index::{coefficients, index};
@@ -28,13 +29,32 @@ pub fn of_order(order: usize) -> &'static Table {
     TABLES[order].get_or_init(|| Table::new(order))
 }
 
+/// For each hemispherical coefficient the spherical places that it meets, ascending, with their factors.
+type Factors = Vec<Vec<(usize, f64)>>;
+
 /// What a function of l', l and m is for every spherical band l' that m leaves, for each hemispherical coefficient: the places
 /// among the spherical ones with their factors.
-fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Vec<Vec<(usize, f64)>> {
+fn factors(order: usize, of: impl Fn(usize, usize, isize) -> f64) -> Factors {
     let one = |(l, m): (usize, isize)| {
         (m.unsigned_abs()..SPHERICAL_ORDER).map(|spherical| (index(spherical, m), of(spherical, l, m))).collect()
     };
     coefficients(order).map(one).collect()
+}
+
+/// Returns hemispherical coefficients of order 10 at most as `S` spherical ones, of a function that goes on below the horizon:
+/// E, as `hsh_extend`, which the catalogue has up to order 6.
+pub fn extended<const C: usize, const S: usize>(c: &Light<C>) -> Light<S> {
+    static FACTORS: [OnceLock<Factors>; HIGHEST + 1] = [const { OnceLock::new() }; HIGHEST + 1];
+    let order = C.isqrt().min(HIGHEST);
+    let factors =
+        FACTORS[order].get_or_init(|| factors(order, |spherical, l, m| extension(order, spherical, l, m).to_f64()));
+    let mut out = [[0.0; 3]; S];
+    for (column, c) in factors.iter().zip(c) {
+        for &(at, factor) in column.iter().take_while(|(at, _)| *at < S) {
+            (0..3).for_each(|channel| out[at][channel] += factor as f32 * c[channel]);
+        }
+    }
+    out
 }
 
 impl Table {

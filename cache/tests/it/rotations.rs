@@ -1,7 +1,8 @@
 //! The ways to turn records agree where they should, and the limit between them is what the mathematics says.
 
 use serde_json::Value;
-use zonal_cache::basis::{Basis, HSH6, Light, SH6, SH10};
+use zonal_cache::basis::{Basis, HSH6, SH6, SH10};
+use zonal_cache::light::Light;
 use zonal_cache::methods::{Limit, Method};
 use zonal_codegen::promise::samples::Random;
 
