@@ -345,7 +345,7 @@ ZONAL_HIGHP vec3 sh3_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 di
 //     values.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
-ZONAL_HIGHP float sh3_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] c) {
+ZONAL_HIGHP float sh3_shade_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] c) {
 #ifdef GL_ES
     precision highp float;
     precision highp int;

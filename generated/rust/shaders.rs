@@ -649,7 +649,7 @@ pub mod sh3 {
             ("isd_shade:3:rgb", "sh3_isd_shade_rgb"),
             ("isd_shade_zonal:3", "sh3_isd_shade_zonal"),
             ("isd_shade_zonal:3:rgb", "sh3_isd_shade_zonal_rgb"),
-            ("shade:3:zyz", "sh3_shade"),
+            ("shade:3:zyz", "sh3_shade_zyz"),
             ("shade:3:rgb", "sh3_shade_rgb"),
             ("shade:3", "sh3_shade"),
             ("shade_isotropic:3", "sh3_shade_isotropic"),

@@ -301,7 +301,7 @@ fn sh3_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, lambd
 //     values.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
-fn sh3_shade(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
+fn sh3_shade_zyz(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
     let t0 = q.w + 1e-15;
     let t1 = q.z * q.z + t0 * t0;
     let t2 = q.y + 1e-15;

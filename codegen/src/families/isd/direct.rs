@@ -24,7 +24,7 @@ const SHOWN: RangeInclusive<usize> = 3..=6;
 pub static SHADE: Family = Family {
     name: "shade",
     method: "zyz",
-    stem: "shade",
+    stem: "shade_zyz",
     usual: |order, rgb| !is_tensor(order, rgb),
     what: |spec| {
         format!(
