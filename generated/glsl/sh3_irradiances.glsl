@@ -817,7 +817,7 @@ ZONAL_HIGHP vec3[3] sh3_to_hl2_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c
 // coefficients. For bands from 1e-7 to 1e15 in size.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the least value, the direction x, y, z of unit length in which it is, the bound.
-// Operations: 499 (212 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
+// Operations: 500 (213 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
 //     reciprocal, inverse square root); 12 constants, 45 live values.
 // Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.4e-6; not proven).
@@ -1114,13 +1114,14 @@ ZONAL_HIGHP float[5] sh3_minimum(ZONAL_HIGHP float[9] c) {
     float t285 = t29 * t280 - t36 * t283;
     float t286 = t38 * t282 + t45 * t281;
     float t287 = t20 * t286 + t21 * t285;
-    float t288 = t109 - t250 - (t141 * t254 + t135 * t252 + t144 * t253) + t0 - 32.0 * sqrt(1e-15) * (abs(t0) + abs(t109) + t250);
+    float t288 = abs(t0) + abs(t109) + t250;
+    float t289 = t109 - t250 - (t141 * t254 + t135 * t252 + t144 * t253) + t0 - 32.0 * sqrt(1e-15 * (t288 * t288));
     return float[5](
         t266,
         t10 * t287 + t11 * t284,
         t10 * t284 - t11 * t287,
         t20 * t285 - t21 * t286,
-        t288
+        t289
     );
 }
 
@@ -1130,7 +1131,7 @@ ZONAL_HIGHP float[5] sh3_minimum(ZONAL_HIGHP float[9] c) {
 // shader clamps at no cost.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the coefficients of the faded function.
-// Operations: 437 (191 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
+// Operations: 438 (192 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
 //     reciprocal, inverse square root); 11 constants, 33 live values.
 // Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 6.3e-7; not proven).
@@ -1389,18 +1390,19 @@ ZONAL_HIGHP float[9] sh3_lerp_to_dc(ZONAL_HIGHP float[9] c) {
     float t247 = t234 + t246;
     float t248 = 1e-15 + t247;
     float t249 = 1.0 / (t140 + t248) * t139 * t139 + 1.0 / (t134 + t248) * t133 * t133 + 1.0 / (t142 + t248) * t141 * t141;
-    float t250 = max(t0 - (t109 - t247 - t249 + t0 - 32.0 * sqrt(1e-15) * (abs(t0) + abs(t109) + t247)), 1e-15);
-    float t251 = min(max(1.0 / (t250) * t0, 0.0), 1.0);
+    float t250 = abs(t0) + abs(t109) + t247;
+    float t251 = 1.0 / (max(t0 - (t109 - t247 - t249 + t0 - 32.0 * sqrt(1e-15 * (t250 * t250))), 1e-15)) * t0;
+    float t252 = min(max(t251, 0.0), 1.0);
     return float[9](
         c[0],
-        c[1] * t251,
-        c[2] * t251,
-        c[3] * t251,
-        c[4] * t251,
-        c[5] * t251,
-        c[6] * t251,
-        c[7] * t251,
-        c[8] * t251
+        c[1] * t252,
+        c[2] * t252,
+        c[3] * t252,
+        c[4] * t252,
+        c[5] * t252,
+        c[6] * t252,
+        c[7] * t252,
+        c[8] * t252
     );
 }
 

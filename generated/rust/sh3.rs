@@ -4042,7 +4042,7 @@ pub fn sh3_to_hl2_coefficients_irradiance_rgb<T: Real>(c: &[[T; 3]; 9]) -> [[T; 
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the least value, the direction x, y, z of unit length in which it is, the bound.
-/// - Operations: 499 (212 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
+/// - Operations: 500 (213 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
 ///   reciprocal, inverse square root); 12 constants, 45 live values.
 /// - Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
 ///   256 measured, 1.4e-6; not proven).
@@ -4337,13 +4337,14 @@ pub fn minimum<T: Real>(c: &[T; 9]) -> [T; 5] {
     let t285 = t29.fms(t280, t36 * t283);
     let t286 = t45.fma(t281, t38 * t282);
     let t287 = t21.fma(t285, t20 * t286);
-    let t288 = (T::abs(t0) + T::abs(t109) + t250).fnma(T::lit(32.0) * T::root(T::TINY), t109 - t250 - t144.fma(t253, t135.fma(t252, t141 * t254)) + t0);
+    let t288 = T::abs(t0) + T::abs(t109) + t250;
+    let t289 = T::lit(32.0).fnma(T::root(T::TINY * (t288 * t288)), t109 - t250 - t144.fma(t253, t135.fma(t252, t141 * t254)) + t0);
     [
         t0 - t266,
         t11.fma(t284, t10 * t287),
         t10.fms(t284, t11 * t287),
         t20.fms(t285, t21 * t286),
-        t288,
+        t289,
     ]
 }
 
@@ -4354,7 +4355,7 @@ pub fn minimum<T: Real>(c: &[T; 9]) -> [T; 5] {
 ///
 /// - c: the coefficients of one channel, index l(l+1)+m.
 /// - Returns the coefficients of the faded function.
-/// - Operations: 437 (191 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
+/// - Operations: 438 (192 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
 ///   reciprocal, inverse square root); 11 constants, 33 live values.
 /// - Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
 ///   256 measured, 6.3e-7; not proven).
@@ -4611,18 +4612,19 @@ pub fn lerp_to_dc<T: Real>(c: &[T; 9]) -> [T; 9] {
     let t247 = t234 + T::max(t246, T::lit(0.0));
     let t248 = T::TINY + t247;
     let t249 = t141.fma(t141 * T::recip(t142 + t248), t133.fma(t133 * T::recip(t134 + t248), t139 * (t139 * T::recip(t140 + t248))));
-    let t250 = (T::abs(t0) + T::abs(t109) + t247).fnma(T::lit(32.0) * T::root(T::TINY), t109 - t247 - t249 + t0);
-    let t251 = T::min(T::max(t0 * T::recip(T::max(t0 - t250, T::TINY)), T::lit(0.0)), T::lit(1.0));
+    let t250 = T::abs(t0) + T::abs(t109) + t247;
+    let t251 = T::max(t0 - T::lit(32.0).fnma(T::root(T::TINY * (t250 * t250)), t109 - t247 - t249 + t0), T::TINY);
+    let t252 = T::min(T::max(t0 * T::recip(t251), T::lit(0.0)), T::lit(1.0));
     [
         c[0],
-        c[1] * t251,
-        c[2] * t251,
-        c[3] * t251,
-        c[4] * t251,
-        c[5] * t251,
-        c[6] * t251,
-        c[7] * t251,
-        c[8] * t251,
+        c[1] * t252,
+        c[2] * t252,
+        c[3] * t252,
+        c[4] * t252,
+        c[5] * t252,
+        c[6] * t252,
+        c[7] * t252,
+        c[8] * t252,
     ]
 }
 

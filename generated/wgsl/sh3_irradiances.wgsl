@@ -661,7 +661,7 @@ fn sh3_to_hl2_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<
 // coefficients. For bands from 1e-7 to 1e15 in size.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the least value, the direction x, y, z of unit length in which it is, the bound.
-// Operations: 499 (212 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
+// Operations: 500 (213 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
 //     reciprocal, inverse square root); 12 constants, 45 live values.
 // Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.4e-6; not proven).
@@ -954,13 +954,14 @@ fn sh3_minimum(c: array<f32, 9>) -> array<f32, 5> {
     let t285 = t29 * t280 - t36 * t283;
     let t286 = t38 * t282 + t45 * t281;
     let t287 = t20 * t286 + t21 * t285;
-    let t288 = t109 - t250 - (t141 * t254 + t135 * t252 + t144 * t253) + t0 - 32.0 * sqrt(1e-15) * (abs(t0) + abs(t109) + t250);
+    let t288 = abs(t0) + abs(t109) + t250;
+    let t289 = t109 - t250 - (t141 * t254 + t135 * t252 + t144 * t253) + t0 - 32.0 * sqrt(1e-15 * (t288 * t288));
     return array<f32, 5>(
         t266,
         t10 * t287 + t11 * t284,
         t10 * t284 - t11 * t287,
         t20 * t285 - t21 * t286,
-        t288
+        t289
     );
 }
 
@@ -970,7 +971,7 @@ fn sh3_minimum(c: array<f32, 9>) -> array<f32, 5> {
 // shader clamps at no cost.
 // c: the coefficients of one channel, index l(l+1)+m.
 // Returns the coefficients of the faded function.
-// Operations: 437 (191 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
+// Operations: 438 (192 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
 //     reciprocal, inverse square root); 11 constants, 33 live values.
 // Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 6.3e-7; not proven).
@@ -1225,18 +1226,19 @@ fn sh3_lerp_to_dc(c: array<f32, 9>) -> array<f32, 9> {
     let t247 = t234 + t246;
     let t248 = 1e-15 + t247;
     let t249 = 1.0 / (t140 + t248) * t139 * t139 + 1.0 / (t134 + t248) * t133 * t133 + 1.0 / (t142 + t248) * t141 * t141;
-    let t250 = max(t0 - (t109 - t247 - t249 + t0 - 32.0 * sqrt(1e-15) * (abs(t0) + abs(t109) + t247)), 1e-15);
-    let t251 = min(max(1.0 / (t250) * t0, 0.0), 1.0);
+    let t250 = abs(t0) + abs(t109) + t247;
+    let t251 = 1.0 / (max(t0 - (t109 - t247 - t249 + t0 - 32.0 * sqrt(1e-15 * (t250 * t250))), 1e-15)) * t0;
+    let t252 = min(max(t251, 0.0), 1.0);
     return array<f32, 9>(
         c[0],
-        c[1] * t251,
-        c[2] * t251,
-        c[3] * t251,
-        c[4] * t251,
-        c[5] * t251,
-        c[6] * t251,
-        c[7] * t251,
-        c[8] * t251
+        c[1] * t252,
+        c[2] * t252,
+        c[3] * t252,
+        c[4] * t252,
+        c[5] * t252,
+        c[6] * t252,
+        c[7] * t252,
+        c[8] * t252
     );
 }
 

@@ -12,7 +12,7 @@ use zonal_codegen::families::Spec;
 pub fn family(spec: &Spec) -> String {
     let text = Spec { rgb: false, ..spec.clone() }.to_string();
     let mut parts: Vec<&str> = text.split(':').collect();
-    if spec.family.one_order.is_none() {
+    if !spec.family.one_order {
         parts.remove(1);
     }
     if !spec.family.method.is_empty() && (spec.family.usual)(spec.order, false) {

@@ -140,7 +140,7 @@ fn unknown_methods_are_refused() {
         &["`rotat` is no family", "did you mean `rotate`?", "^^^^^"],
     );
     refused("name = \"a\"\n[[kernel]]\nspec = \"rotate:5:zyx\"\n", "3:18", &["`zyx` is no method", "`zyz`"]);
-    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:5:rbg\"\n", "3:16", &["`rbg` is no option", "`rgb`"]);
+    refused("name = \"a\"\n[[kernel]]\nspec = \"eval:5:rbg\"\n", "3:16", &["`rbg` is no method of `eval`", "`rgb`"]);
     refused("name = \"a\"\n[[kernel]]\nspec = \"\"\n", "3:9", &["is no family"]);
     let folder = Folder::new();
     let message = fails(&folder, &["show", "rotate:5:zxz"]);

@@ -292,7 +292,7 @@ fn messages_say_what_there_is() {
     for (spec, part) in [
         ("evaluate:3", "did you mean `eval`?"),
         ("evl:3", "did you mean `eval`?"),
-        ("eval:3:nope", "known are rgb, f16, bands=0+1+2"),
+        ("eval:3:nope", "known are nested, once, rgb, f16, bands=0+1+2"),
         ("rotate:5:nope", "known are zyz, "),
         ("rotate:5:lopo", "did you mean `loop`?"),
     ] {

@@ -215,9 +215,10 @@ fn least(g: &mut Graph, c: &[Id]) -> Least {
     let (of_mean, of_lowest) = (g.abs(mean), g.abs(lowest));
     let size = g.add(of_mean, of_lowest);
     let size = g.add(size, mu);
-    let root = g.sqrt(tiny);
-    let unit = g.scale(&Exact::int(DOUBT), root);
-    let doubt = g.mul(size, unit);
+    let (square, unit) = (g.mul(size, size), g.tiny());
+    let square = g.mul(square, unit);
+    let root = g.sqrt(square);
+    let doubt = g.scale(&Exact::int(DOUBT), root);
     let bound = g.sub(dual, doubt);
     for &([p, q], [cos, sin]) in turns.iter().rev() {
         let back = g.neg(sin);
