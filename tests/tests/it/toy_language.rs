@@ -189,14 +189,20 @@ fn compiler(arguments: &[&str], text: &str) -> Result<(), String> {
     }
 }
 
-/// Every family once at a low order, in straight lines and as a loop where it has one, for one channel and three; and the
-/// toys, which hold every operation.
+/// Every family once at a low order, in straight lines and as a loop where it has one, for one channel and three, or for one
+/// where the catalogue has three alone; and the toys, which hold every operation.
 fn sample() -> &'static [Function] {
     static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(|| {
         let low = |shown: fn(usize) -> Vec<Spec>| [4, 3, 2, 5].into_iter().map(shown).find(|specs| !specs.is_empty());
         let specs: Vec<Spec> = ALL
             .iter()
-            .flat_map(|family| low(family.shown).unwrap_or_else(|| panic!("{family:?} is shown late")))
+            .flat_map(|family| {
+                let mut specs = low(family.shown).unwrap_or_else(|| panic!("{family:?} is shown late"));
+                if specs.iter().all(|spec| spec.rgb) {
+                    specs.push(specs[0].base());
+                }
+                specs
+            })
             .collect();
         build(&[specs, toys::specs()].concat())
     });

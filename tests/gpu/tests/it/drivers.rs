@@ -49,6 +49,9 @@ fn every_kernel_agrees_with_the_interpreter_on_every_driver() {
     assert_eq!(checked, Ok(()), "docs/DRIVERS.md is out of date: UPDATE=1 cargo test -p zonal-gpu-tests");
 }
 
+/// Constants that no result shows a thousandth of: how much of a bound is taken away for rounding, and where a share ends.
+const UNSEEN: [(&str, &str); 2] = [("minimum:3", ": 32.0 became"), ("lerp_to_dc:3", ": 1.0 became")];
+
 #[test]
 fn a_corrupted_constant_is_noticed_on_every_driver() {
     let measured = measure("mutated");
@@ -59,7 +62,9 @@ fn a_corrupted_constant_is_noticed_on_every_driver() {
         let ran: BTreeSet<String> = rows.map(|row| family(&row.spec)).collect();
         assert_eq!(ran, families, "{}", column.name());
     }
-    assert!(!measured.rows.iter().any(Row::agrees), "{}", listed(&measured, Row::agrees));
+    let is_unseen = |row: &Row| UNSEEN.iter().any(|(spec, change)| row.spec == *spec && row.change.contains(change));
+    let missed = |row: &Row| row.agrees() && !is_unseen(row);
+    assert!(!measured.rows.iter().any(missed), "{}", listed(&measured, missed));
 }
 
 #[test]
