@@ -219,7 +219,10 @@ impl Cases {
                 wanted.extend(results.iter().enumerate().map(|(channel, result)| (result[i].0, unit(channel))));
             }
         }
-        let flushed = (1 + built.code.cost(1).total) as f64 * NORMAL;
+        // What is flushed may be multiplied by as much as a signal of norm one is.
+        let of_units = wanted.iter().filter(|(_, unit)| *unit > SUBNORMAL);
+        let gain = of_units.map(|(value, unit): &(f64, f64)| (value / unit).abs()).fold(1.0, f64::max);
+        let flushed = (1 + built.code.cost(1).total) as f64 * gain * NORMAL;
         let is_one = matches!(family.measure, Measure::Product | Measure::Norm);
         let norms = is_one.then(|| family.measure.size(params, &samples[0]));
         Self { count, inputs, wanted, result: shape.len(), channels, by_band, norms, flushed }
