@@ -2,18 +2,17 @@
 //! go.
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use zonal_cli::terminal::{Failure, out};
 // Names a family: the search for its directions is a command.
 use zonal_codegen::families::isd::directions::{HIGHEST_BAND, Record, Records, best};
 use zonal_codegen::families::isd::search;
-use zonal_codegen::files::{self, Replace};
-use zonal_codegen::input;
+use zonal_codegen::files::Replace;
 use zonal_codegen::plan::text::table;
-use zonal_codegen::scene::diagnostic::Diagnostic;
+
+use crate::sought;
 
 /// The largest file of sets that is read, in bytes.
 const MAX_BYTES: usize = 1 << 24;
@@ -46,44 +45,19 @@ pub struct Arguments {
 }
 
 fn bands(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let (from, to) = text.split_once('-').unwrap_or((text, text));
-    let number = |text: &str| text.parse::<usize>().map_err(|_| format!("`{text}` is no number; write it as 5 or 2-6"));
-    let (from, to) = (number(from)?, number(to)?);
-    match 1 <= from && from <= to && to <= HIGHEST_BAND {
-        true => Ok(from..=to),
-        false => Err(format!("bands are 1 to {HIGHEST_BAND}, the smaller first")),
-    }
+    sought::range(text, 1..=HIGHEST_BAND, "bands")
 }
 
 fn known(path: &Path) -> Result<Vec<Record>, Failure> {
-    let text = match input::read_text(path, MAX_BYTES) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => {
-            let message = format!("{}: cannot be read ({error})", path.display());
-            return Err(Diagnostic::nowhere(message, "check the path").into());
-        }
-    };
-    let records = Records::read(&text).map_err(|error| {
-        let message = format!("{}: holds no directions: {error}", path.display());
-        Diagnostic::nowhere(message, "name a file that `--out` wrote, or a new one")
-    })?;
-    Ok(records.set)
+    sought::known(path, MAX_BYTES, "directions", |text| Records::read(text).map(|records| records.set))
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    // What cannot be added to or replaced is better known before the search than after it.
     let mut all = arguments.out.as_deref().map(known).transpose()?;
     let replace = Replace::forced(arguments.force);
-    if let Some(path) = &arguments.out {
-        let (folder, name) = files::split(path);
-        files::check(folder, &[(&name, HEAD.as_bytes())], replace)?;
-    }
+    sought::check(&arguments.out, HEAD, replace)?;
     let tries = arguments.tries as usize;
-    let steps = tries * arguments.bands.clone().count();
-    let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {pos}/{len} {elapsed}").expect("is a template");
-    let bar = ProgressBar::new(steps as u64).with_style(style.progress_chars("=> "));
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = sought::bar(tries * arguments.bands.clone().count(), 20);
     let head = ["bands", "condition", "kept", "seconds"];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for bands in arguments.bands.clone() {
@@ -99,9 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         // Written as the search goes on: the last sets take the longest.
         if let (Some(path), Some(all)) = (&arguments.out, &mut all) {
             search::keep(all, found);
-            let text = toml::to_string(&Records { set: all.clone() })
-                .map_err(|error| Diagnostic::nowhere(format!("cannot write the directions: {error}"), ""))?;
-            files::write_text(path, &format!("{HEAD}\n{text}"), replace)?;
+            sought::write(path, HEAD, "directions", &Records { set: all.clone() }, replace)?;
         }
     }
     bar.finish_and_clear();

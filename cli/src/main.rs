@@ -7,6 +7,7 @@ mod hand_over;
 mod init;
 mod products;
 mod search;
+mod sought;
 mod told;
 mod vectors;
 

@@ -1,20 +1,18 @@
 //! The command that searches for plans of products: which tasks, how long, and where the finds go.
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use zonal_cli::terminal::{Failure, out};
 // Names a family: the search for its plans is a command.
 use zonal_codegen::families::product;
 use zonal_codegen::families::product::plan::{Record, Records, Task, kept};
 use zonal_codegen::families::product::search;
-use zonal_codegen::files::{self, Replace};
-use zonal_codegen::input;
+use zonal_codegen::files::Replace;
 use zonal_codegen::plan::text::table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 
-use crate::spec_of;
+use crate::{sought, spec_of};
 
 /// The largest file of plans that is read, in bytes.
 const MAX_BYTES: usize = 1 << 24;
@@ -53,19 +51,7 @@ fn task_of(text: &str) -> Result<Task, Failure> {
 }
 
 fn known(path: &Path) -> Result<Vec<Record>, Failure> {
-    let text = match input::read_text(path, MAX_BYTES) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(error) => {
-            let message = format!("{}: cannot be read ({error})", path.display());
-            return Err(Diagnostic::nowhere(message, "check the path").into());
-        }
-    };
-    let records = Records::read(&text).map_err(|error| {
-        let message = format!("{}: holds no plans: {error}", path.display());
-        Diagnostic::nowhere(message, "name a file that `--out` wrote, or a new one")
-    })?;
-    Ok(records.plan)
+    sought::known(path, MAX_BYTES, "plans", |text| Records::read(text).map(|records| records.plan))
 }
 
 fn name(task: &Task) -> String {
@@ -81,18 +67,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         true => kept().iter().map(Record::task).collect(),
         false => arguments.specs.iter().map(|text| task_of(text)).collect::<Result<_, _>>()?,
     };
-    // What cannot be added to or replaced is better known before the search than after it.
     let mut all = arguments.out.as_deref().map(known).transpose()?;
     let replace = Replace::forced(arguments.force);
-    if let Some(path) = &arguments.out {
-        let (folder, name) = files::split(path);
-        files::check(folder, &[(&name, HEAD.as_bytes())], replace)?;
-    }
+    sought::check(&arguments.out, HEAD, replace)?;
     let tries = arguments.tries as usize;
-    let steps: usize = tasks.iter().map(|task| search::steps(task, tries)).sum();
-    let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {pos}/{len} {elapsed}").expect("is a template");
-    let bar = ProgressBar::new(steps as u64).with_style(style.progress_chars("=> "));
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = sought::bar(tasks.iter().map(|task| search::steps(task, tries)).sum(), 20);
     let head = ["product", "operations", "kernels use", "pairs", "rings", "seconds"];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for task in &tasks {
@@ -118,9 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     if let (Some(path), Some(plan)) = (&arguments.out, all) {
-        let text = toml::to_string(&Records { plan })
-            .map_err(|error| Diagnostic::nowhere(format!("cannot write the plans: {error}"), ""))?;
-        files::write_text(path, &format!("{HEAD}\n{text}"), replace)?;
+        sought::write(path, HEAD, "plans", &Records { plan }, replace)?;
     }
     out(&table(&lines))
 }

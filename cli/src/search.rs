@@ -1,7 +1,6 @@
 //! The command that searches for lobe directions: which searches, for how long, and where their states and their finds go.
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -10,9 +9,10 @@ use zonal_cli::terminal::{Failure, out};
 use zonal_codegen::families::zhf::lobes::{HIGHEST_SIZE, Mode, Record, Records, chosen};
 use zonal_codegen::families::zhf::search::{self, Search, Task};
 use zonal_codegen::files::{self, Replace};
-use zonal_codegen::input;
 use zonal_codegen::plan::text::table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
+
+use crate::sought;
 
 /// The largest file of sets or states that is read, in bytes.
 const MAX_BYTES: usize = 1 << 26;
@@ -60,33 +60,12 @@ pub struct Arguments {
 }
 
 fn sizes(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let (from, to) = text.split_once('-').unwrap_or((text, text));
-    let number = |text: &str| text.parse::<usize>().map_err(|_| format!("`{text}` is no number; write it as 5 or 2-6"));
-    let (from, to) = (number(from)?, number(to)?);
-    match 2 <= from && from <= to && to <= HIGHEST_SIZE {
-        true => Ok(from..=to),
-        false => Err(format!("sizes are 2 to {HIGHEST_SIZE}, the smaller first")),
-    }
-}
-
-/// The text of a file, or none if there is no such file.
-fn read(path: &Path) -> Result<Option<String>, Failure> {
-    match input::read_text(path, MAX_BYTES) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => {
-            Err(Diagnostic::nowhere(format!("{}: cannot be read ({error})", path.display()), "check the path").into())
-        }
-    }
+    sought::range(text, 2..=HIGHEST_SIZE, "sizes")
 }
 
 fn known(path: &Path) -> Result<Vec<Record>, Failure> {
-    let Some(text) = read(path)? else { return Ok(Vec::new()) };
-    let records: Records = toml::from_str(&text).map_err(|error| {
-        let message = format!("{}: holds no lobe sets: {}", path.display(), error.message());
-        Diagnostic::nowhere(message, "name a file that `--out` wrote, or a new one")
-    })?;
-    Ok(records.set)
+    let parse = |text: &str| toml::from_str(text).map(|records: Records| records.set);
+    sought::known(path, MAX_BYTES, "lobe sets", |text| parse(text).map_err(|error| error.message().to_owned()))
 }
 
 fn zeros(record: &Record) -> f64 {
@@ -134,27 +113,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let fault = |error: search::SearchError| Diagnostic::nowhere(error.to_string(), "see `zonal search-lobes --help`");
     let mut searches = tasks.iter().map(|task| Search::new(*task)).collect::<Result<Vec<_>, _>>().map_err(fault)?;
     if let Some(path) = &arguments.resume
-        && let Some(text) = read(path)?
+        && let Some(text) = sought::read(path, MAX_BYTES)?
     {
         searches = search::resume(&text, &tasks).map_err(|error| {
             let help = "go on with the options that it was made with, or name another file";
             Diagnostic::nowhere(format!("{}: {error}", path.display()), help)
         })?;
     }
-    // What cannot be added to or replaced is better known before the search than after it.
     let mut all = arguments.out.as_deref().map(known).transpose()?;
     let replace = Replace::forced(arguments.force);
-    for path in [&arguments.resume, &arguments.out].into_iter().flatten() {
-        let (folder, name) = files::split(path);
-        files::check(folder, &[(&name, HEAD.as_bytes())], replace)?;
-    }
+    sought::check([&arguments.resume, &arguments.out].into_iter().flatten(), HEAD, replace)?;
 
     let tries = arguments.tries as usize;
     let made: usize = searches.iter().map(|search| search.tries.min(tries)).sum();
-    let style = ProgressStyle::with_template("{msg:40} [{bar:40}] {pos}/{len} {elapsed}").expect("is a template");
-    let bar = ProgressBar::new((tries * searches.len()) as u64).with_style(style.progress_chars("=> "));
+    let bar = sought::bar(tries * searches.len(), 40);
     bar.set_position(made as u64);
-    bar.enable_steady_tick(Duration::from_millis(200));
     let share = arguments.seconds.map(|seconds| Duration::from_secs(seconds) / searches.len() as u32);
     for i in 0..searches.len() {
         let start = Instant::now();
@@ -172,9 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     if let (Some(path), Some(all)) = (&arguments.out, &mut all) {
         searches.iter().flat_map(|search| &search.found).for_each(|record| search::keep(all, record.clone()));
-        let text = toml::to_string(&Records { set: all.clone() })
-            .map_err(|error| Diagnostic::nowhere(format!("cannot write the sets: {error}"), ""))?;
-        files::write_text(path, &format!("{HEAD}\n{text}"), replace)?;
+        sought::write(path, HEAD, "sets", &Records { set: all.clone() }, replace)?;
     }
     out(&shown(&searches))
 }

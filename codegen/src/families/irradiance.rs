@@ -4,10 +4,12 @@
 use crate::families::basis;
 use crate::families::family::{Family, Group, MAX_ORDER, Measure, Spec};
 use crate::families::monomial::{AXES, MAX_FLOOR_ORDER, Monomials};
+use crate::families::parts::columns::BandScale;
 use crate::families::parts::once::once;
 use crate::families::parts::params::{direction, signal};
 use crate::families::parts::zonal::cosine_lobe;
-use crate::ir::kernel::{Builder, Shape};
+use crate::ir::graph::{Graph, Id};
+use crate::ir::kernel::{Builder, Kernel, Shape};
 use crate::math::exact::Exact;
 
 /// The orders that the catalogue has: those of DirectXMath.
@@ -30,14 +32,11 @@ pub static IRRADIANCE: Family = Family {
     choices: &[OVER_PI],
     what: sentence,
     kernel: |spec| {
-        let of_band = if spec.has(OVER_PI[0]) { over_pi_or_one } else { lobe_or_one };
-        let mut builder = Builder::new();
-        let dir = direction(&mut builder);
-        let c = signal(&mut builder, spec.order);
-        let is_seen = |place: usize| !cosine_lobe(place.isqrt()).is_zero();
-        let places: Vec<Option<usize>> = (0..c.len()).map(|place| is_seen(place).then_some(place)).collect();
-        let sum = basis::sum(&mut builder.graph, &dir, &c, &places, of_band);
-        builder.finish(vec![sum], Shape::Scalar, "the irradiance")
+        kernel(spec, |g, dir, c, of_band| {
+            let is_seen = |place: usize| !cosine_lobe(place.isqrt()).is_zero();
+            let places: Vec<Option<usize>> = (0..c.len()).map(|place| is_seen(place).then_some(place)).collect();
+            basis::sum(g, dir, c, &places, of_band)
+        })
     },
     shown: |order| shown(&IRRADIANCE, order),
     ..Family::PLAIN
@@ -58,15 +57,7 @@ pub static IRRADIANCE_ONCE: Family = Family {
     measure: Measure::Whole,
     choices: &[OVER_PI],
     what: sentence,
-    kernel: |spec| {
-        let of_band = if spec.has(OVER_PI[0]) { over_pi_or_one } else { lobe_or_one };
-        let mut builder = Builder::new();
-        let dir = direction(&mut builder);
-        let c = signal(&mut builder, spec.order);
-        let seen = &c[..c.len().min(9)];
-        let sum = once(&mut builder.graph, [dir[0], dir[1], dir[2]], seen, of_band);
-        builder.finish(vec![sum], Shape::Scalar, "the irradiance")
-    },
+    kernel: |spec| kernel(spec, |g, dir, c, of_band| once(g, [dir[0], dir[1], dir[2]], &c[..c.len().min(9)], of_band)),
     shown: |order| shown(&IRRADIANCE_ONCE, order),
     ..Family::PLAIN
 };
@@ -119,6 +110,16 @@ pub static IRRADIANCE_PREPARED: Family = Family {
     shown: |order| prepared(&IRRADIANCE_PREPARED, order),
     ..PREPARED
 };
+
+/// A kernel by what sums the coefficients at the direction, each band times its factor.
+fn kernel(spec: &Spec, sum: impl FnOnce(&mut Graph, &[Id], &[Id], BandScale) -> Id) -> Kernel {
+    let of_band = if spec.has(OVER_PI[0]) { over_pi_or_one } else { lobe_or_one };
+    let mut builder = Builder::new();
+    let dir = direction(&mut builder);
+    let c = signal(&mut builder, spec.order);
+    let sum = sum(&mut builder.graph, &dir, &c, of_band);
+    builder.finish(vec![sum], Shape::Scalar, "the irradiance")
+}
 
 /// Whether one channel is best done at once.
 fn is_once(order: usize, rgb: bool) -> bool {

@@ -5,6 +5,7 @@
 
 use super::exact::{Exact, Real};
 use super::index::{coefficients, degrees};
+use super::inverse::inverse;
 use super::tables::{ladder, legendre_rationals, swap_yz};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -153,25 +154,6 @@ fn prior(l: usize) -> Real {
     fifth_root(&Real::from_ratio(1, BigInt::from(l + 1).pow(8)))
 }
 
-/// Solves x G = b for each of some rows b, G symmetric and positive: by elimination without a choice of pivots.
-fn solve(mut g: Vec<Vec<Real>>, mut b: Vec<Vec<Real>>) -> Vec<Vec<Real>> {
-    let size = g.len();
-    // Columns of G are eliminated, and those of b alike.
-    for at in 0..size {
-        let lead = Real::from_ratio(1, 1) / &g[at][at];
-        for other in (0..size).filter(|&other| other != at) {
-            let factor = &g[at][other] * &lead;
-            for row in g.iter_mut().chain(&mut b) {
-                row[other] = &row[other] - &(&factor * &row[at]);
-            }
-        }
-        for row in g.iter_mut().chain(&mut b) {
-            row[at] = &row[at] * &lead;
-        }
-    }
-    b
-}
-
 /// E of an order m: spherical bands from m on, hemispherical ones from m to below `order`.
 fn extension_block(order: usize, m: usize) -> Vec<Vec<Real>> {
     let c = &C_REAL[m][..order - m];
@@ -182,9 +164,13 @@ fn extension_block(order: usize, m: usize) -> Vec<Vec<Real>> {
         let sum = terms.fold(Real::zero(), |sum, ((x, y), power)| sum + &(x * y) * power);
         if i == j { sum + &weight } else { sum }
     };
-    let g = (0..order - m).map(|i| (0..order - m).map(|j| gram(i, j)).collect()).collect();
-    let b = powers.iter().enumerate().map(|(l, power)| c.iter().map(|row| &row[l] * power).collect()).collect();
-    solve(g, b)
+    let g: Vec<Vec<Real>> = (0..order - m).map(|i| (0..order - m).map(|j| gram(i, j)).collect()).collect();
+    let g = inverse(&g).expect("a Gram matrix with a weight added is positive");
+    let entry = |l: usize, power: &Real, j: usize| {
+        c.iter().zip(&g).fold(Real::zero(), |sum, (row, g)| sum + &(&row[l] * power) * &g[j])
+    };
+    let row = |(l, power): (usize, &Real)| (0..order - m).map(|j| entry(l, power, j)).collect();
+    powers.iter().enumerate().map(row).collect()
 }
 
 /// E for each m.

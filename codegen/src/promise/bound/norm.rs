@@ -23,7 +23,8 @@ impl Matrix {
         &self.entries[row * self.columns..(row + 1) * self.columns]
     }
 
-    fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
+    /// The rows, in order.
+    pub fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
         self.entries.chunks_exact(self.columns)
     }
 

@@ -14,16 +14,9 @@ use std::ops::Range;
 impl Prover<'_> {
     /// Values, each linear in coefficients of which each band has norm one.
     pub(super) fn sum(&self, bands: &[usize]) -> Option<Both> {
-        let inputs = self.coefficients();
-        let outputs: Vec<Operand> =
-            self.listing.outputs.iter().copied().filter(|&output| self.is_signal(output)).collect();
-        let (_, scalars) = self.cone(&inputs, &outputs)?;
-        let (domain, _) = self.domain(scalars)?;
-        let section = Section::new(self.listing, domain, &inputs, &outputs, |operand| self.start(operand))?;
-        let measure = |run: &Run, mode: usize, _: f64| {
+        self.at_once(|section, run, mode, _| {
             let weights = section.weights(run, mode);
-            let value = |row: usize| {
-                let mut rest = weights.row(row);
+            let value = |mut rest: &[f64]| {
                 let mut sum = 0.0;
                 for l in bands {
                     let (band, others) = rest.split_at(2 * l + 1);
@@ -32,20 +25,24 @@ impl Prover<'_> {
                 }
                 sum * SLACK
             };
-            (0..outputs.len()).map(value).fold(0.0, larger_of)
-        };
-        Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
+            weights.rows().map(value).fold(0.0, larger_of)
+        })
     }
 
     /// The whole result as a vector, for a signal of norm one.
     pub(super) fn vector(&self) -> Option<Both> {
+        self.at_once(|section, run, mode, enough| section.weights(run, mode).weight_norm(enough))
+    }
+
+    /// A measure of all results that are linear in the coefficients, at its largest within the domain.
+    fn at_once(&self, measure: impl Fn(&Section, &Run, usize, f64) -> f64 + Sync) -> Option<Both> {
         let inputs = self.coefficients();
         let outputs: Vec<Operand> =
             self.listing.outputs.iter().copied().filter(|&output| self.is_signal(output)).collect();
         let (_, scalars) = self.cone(&inputs, &outputs)?;
         let (domain, _) = self.domain(scalars)?;
         let section = Section::new(self.listing, domain, &inputs, &outputs, |operand| self.start(operand))?;
-        let measure = |run: &Run, mode: usize, enough: f64| section.weights(run, mode).weight_norm(enough);
+        let measure = |run: &Run, mode: usize, enough: f64| measure(&section, run, mode, enough);
         Some(sweep(&section, domain, section.starts(), self.roundoff, 0.0, &measure))
     }
 
