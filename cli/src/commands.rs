@@ -131,11 +131,29 @@ fn refuse(folder: &Path, what: &str) -> Result<(), Failure> {
     Err(Diagnostic::nowhere(message, "name a new folder, or one that zonal wrote; orphans are removed from it").into())
 }
 
+/// Refuses orphans that zonal did not write.
+fn refuse_foreign(folder: &Path, found: &[Difference], counts: impl Fn(&str) -> bool) -> Result<(), Failure> {
+    for difference in found {
+        if let Difference::Orphaned(path) = difference
+            && counts(path)
+            && !files::is_generated(&folder.join(path))
+        {
+            return refuse(folder, &format!("zonal did not write its `{path}`"));
+        }
+    }
+    Ok(())
+}
+
 pub fn catalog(folder: &Path, check: bool, replace: Replace) -> Result<(), Failure> {
     let start = Instant::now();
     let is_used = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
     if is_used && !check && !folder.join(catalog::COSTS).is_file() {
         return refuse(folder, &format!("it holds files, but no {}", catalog::COSTS));
+    }
+    // Before the work, of what lies beside the folders: there only the two tables are the catalogue's.
+    let is_beside = |path: &str| !path.contains('/') && ![catalog::COSTS, catalog::MANIFEST].contains(&path);
+    if !check {
+        refuse_foreign(folder, &files::differences(folder, &[], &catalog::BESIDE)?, is_beside)?;
     }
     let bar = progress("generating and validating the catalogue");
     let all = catalog::files()?;
@@ -151,13 +169,7 @@ pub fn catalog(folder: &Path, check: bool, replace: Replace) -> Result<(), Failu
         let help = format!("run `zonal catalog --dir {}`", folder.display());
         return Err(Diagnostic::nowhere(message, help).into());
     }
-    for difference in &found {
-        if let Difference::Orphaned(path) = difference
-            && !files::is_generated(&folder.join(path))
-        {
-            return refuse(folder, &format!("zonal did not write its `{path}`"));
-        }
-    }
+    refuse_foreign(folder, &found, |_| true)?;
     let changed = files::write(folder, &all, replace)?;
     let removed = files::remove_orphans(folder, &all, &catalog::BESIDE)?;
     out(&format!(

@@ -270,6 +270,7 @@ pub mod sh2 {
             ("window:2:rgb", "sh2_window_rgb"),
             ("eval_geomerics", "eval_geomerics"),
             ("eval_zh3", "eval_zh3_hallucinated"),
+            ("eval_zh3:stored", "eval_zh3_stored"),
         ],
     };
 
@@ -566,6 +567,7 @@ pub mod sh3 {
             ("lerp_to_dc:3", "sh3_lerp_to_dc"),
             ("window:3", "sh3_window"),
             ("window:3:rgb", "sh3_window_rgb"),
+            ("to_zh3", "to_zonal_quadratic"),
         ],
     };
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 use zonal_codegen::catalog;
 use zonal_codegen::families::family::Measure;
-use zonal_codegen::families::{Group, Spec};
+use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::listing::Listing;
@@ -227,11 +227,7 @@ pub struct Proven {
 
 /// The kernels of the catalogue that have a bound.
 pub fn proven() -> Vec<Proven> {
-    // Names a family: what came with the hemisphere and with shading awaits its million inputs.
-    let awaits = |spec: &Spec| {
-        matches!(spec.family.group, Group::Hemisphere | Group::Shade) || spec.family.name.starts_with("zhf_dot")
-    };
-    let specs: Vec<Spec> = catalog::standard().into_iter().filter(|spec| !spec.rgb && !awaits(spec)).collect();
+    let specs: Vec<Spec> = catalog::standard().into_iter().filter(|spec| !spec.rgb).collect();
     let prove = |spec: &Spec| {
         let code = spec.code();
         let bound = proofs::bound(spec, &code)?;

@@ -103,6 +103,8 @@ pub static ALL: &[&Family] = &[
     &ringing::window::WINDOW,
     &ringing::probes::EVAL_GEOMERICS,
     &ringing::probes::EVAL_ZH3,
+    &ringing::probes::EVAL_ZH3_STORED,
+    &ringing::probes::TO_ZH3,
     &hemisphere::evaluate::HSH_BASIS,
     &hemisphere::evaluate::HSH_EVAL,
     &hemisphere::evaluate::HSH_EVAL_MONOMIAL,

@@ -14,12 +14,15 @@ use crate::papers::FRAMES as FRAMES_PRINTED;
 use crate::svg::{Axis, Panel, Picture, Series, Stroke, file as picture, key};
 
 /// The bases that are shown on maps.
-const UPPER: [&str; 7] = [
+const UPPER: [&str; 10] = [
     "SH, order 3, of the whole sphere",
     "SH, order 3, least squares",
     "H6",
     "HSH, order 3",
     "H4",
+    "SH, order 2, Geomerics",
+    "SH, order 2, ZH3, guessed",
+    "SH, order 2, ZH3, stored",
     "SH, order 2, of the whole sphere",
     "Half-Life 2",
 ];
@@ -100,7 +103,8 @@ fn irradiance(hemisphere: &Hemisphere) -> File {
              over the upper hemisphere (Habel and Wimmer 2010, equation 16), the sum over {SIGNALS} seeded signals of each \
              kind, over the sum of the squares, times 1000. Least squares and orthonormal bases are fitted above the horizon; \
              *of the whole sphere* are the plain coefficients; *from SH* goes through the matrix T_h, of the bands 0 to 2, \
-             or of the bands to 4."
+             or of the bands to 4. Geomerics' and ZH3's are made of the plain coefficients and are not linear, so that they \
+             neither blend nor filter."
         ),
         kinds.collect::<Vec<_>>().join("\n"),
         "![The error over the number of coefficients](irradiance_bases.svg)".to_owned(),

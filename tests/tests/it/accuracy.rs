@@ -1,15 +1,18 @@
 //! What the files' heads promise, measured over inputs that the promise was not made from.
 
 use rayon::prelude::*;
+use zonal_codegen::emit::Function;
 use zonal_codegen::ir::eval::Contraction;
 use zonal_codegen::math::linear::spectral_norm;
 use zonal_codegen::promise::accuracy::{Accuracy, method_errors, round_up, rounding};
 use zonal_tests::catalogue;
 
+/// What is proven is measured with more inputs in `bounds`.
 #[test]
-fn every_kernel_keeps_its_rounding_bound() {
-    let functions: Vec<_> = catalogue().iter().filter(|function| !function.spec.rgb).collect();
-    assert!(functions.len() > 200);
+fn every_kernel_that_is_measured_keeps_its_rounding_bound() {
+    let is_measured = |function: &&Function| !function.spec.rgb && !function.built.accuracy.proven;
+    let functions: Vec<_> = catalogue().iter().filter(is_measured).collect();
+    assert!(functions.len() > 200, "{}", functions.len());
     functions.par_iter().for_each(|function| {
         let promised = function.built.accuracy.rounding_f32;
         for contraction in [Contraction::Separate, Contraction::Fused] {

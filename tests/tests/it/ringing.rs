@@ -182,6 +182,47 @@ fn reconstructions_of_four_numbers_meet_the_golden_values() {
     }
 }
 
+/// The stored zonal band is the one next to band 2, by quadrature; what is zonal already is met, and a signal without band 1
+/// keeps its first band alone. Inputs that vanish or are not numbers stay what they are.
+#[test]
+fn the_stored_zonal_band_is_the_nearest() {
+    let (make, at, eval, basis) = (wide("to_zh3"), wide("eval_zh3:stored"), wide("eval:3"), wide("basis:3"));
+    let nodes: Vec<([f64; 3], f64)> = Sphere::new(6).nodes().collect();
+    let mut random = Random::new(31);
+    for _ in 0..40 {
+        let c: Vec<f64> = (0..9).map(|_| random.signed()).collect();
+        let length = (c[1] * c[1] + c[2] * c[2] + c[3] * c[3]).sqrt();
+        let axis = [-c[3], -c[1], c[2]].map(|x| x / length);
+        // y_2 about the axis, of norm one.
+        let zonal = |dir: &[f64; 3]| {
+            let cosine: f64 = dir.iter().zip(axis).map(|(a, b)| a * b).sum();
+            (5.0 / (16.0 * std::f64::consts::PI)).sqrt() * (3.0 * cosine * cosine - 1.0)
+        };
+        let value = |c: &[f64], dir: &[f64; 3]| eval.run(&[dir.to_vec(), c.to_vec()])[0];
+        let want: f64 = nodes.iter().map(|(dir, weight)| weight * zonal(dir) * value(&c, dir)).sum();
+        let got = make.run(std::slice::from_ref(&c));
+        assert_eq!(got[..4], c[..4]);
+        assert!((got[4] - want).abs() < 1e-13, "{}, not {want}", got[4]);
+        let single = narrow("to_zh3").run(std::slice::from_ref(&c))[4];
+        assert!((single - want).abs() < 2e-6, "{single} in f32, not {want}");
+        let mut whole = c.clone();
+        let along = basis.run(&[axis.to_vec()]);
+        (4..9).for_each(|i| whole[i] = 0.7 * along[i]);
+        let kept = make.run(std::slice::from_ref(&whole));
+        for (dir, _) in nodes.iter().step_by(5) {
+            let [got, want] = [at.run(&[dir.to_vec(), kept.clone()])[0], value(&whole, dir)];
+            assert!((got - want).abs() < 1e-13, "{got}, not {want}");
+            let got = narrow("eval_zh3:stored").run(&[dir.to_vec(), kept.clone()])[0];
+            assert!((got - want).abs() < 2e-6, "{got} in f32, not {want}");
+        }
+    }
+    let flat = vec![1.0, 0.0, 0.0, 0.0, 0.3, 0.1, -0.2, 0.4, 0.5];
+    let kept = make.run(std::slice::from_ref(&flat));
+    assert_eq!(kept, [1.0, 0.0, 0.0, 0.0, 0.0]);
+    assert!((at.run(&[vec![0.0, 0.6, 0.8], kept])[0] - 0.25f64.sqrt() / std::f64::consts::PI.sqrt()).abs() < 1e-15);
+    assert!(make.run(&[vec![f64::NAN; 9]])[4].is_nan());
+}
+
 /// Geomerics' is never negative where band 0 is positive, whatever band 1 is; both are finite for everything.
 #[test]
 fn reconstructions_hold_at_their_ends() {
@@ -215,6 +256,8 @@ fn operations_are_those_of_the_derivation() {
         ("window:6", 44, 1),
         ("eval_geomerics", 22, 5),
         ("eval_zh3", 18, 2),
+        ("eval_zh3:stored", 12, 1),
+        ("to_zh3", 18, 1),
     ] {
         let cost = spec(text).code().cost(1);
         println!("{text}: {} and {} special", cost.total, cost.special);
