@@ -1,6 +1,6 @@
 //! What the commands print. All of it comes from the library; here it is only laid out.
 
-use super::{spec_of, told};
+use super::told;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use zonal_cli::projected::{Asked, Projected};
@@ -10,6 +10,7 @@ use zonal_codegen::builder;
 use zonal_codegen::catalog;
 use zonal_codegen::emit::Module;
 use zonal_codegen::emit::language::{self, Arrays};
+use zonal_codegen::families::several::several;
 use zonal_codegen::files::{self, Difference, Replace};
 use zonal_codegen::generate::{self, Row};
 use zonal_codegen::plan::text::table;
@@ -87,13 +88,18 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
 }
 
 pub fn show(spec: &str, target: &str, arrays: Option<&str>, form: Option<&str>) -> Result<(), Failure> {
-    let spec = spec_of(spec)?;
+    let text = spec;
+    let specs = several(text).map_err(|error| Diagnostic::of_spec("SPEC", text, error))?;
     let target = language::named(target).map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let bar = progress("building and measuring");
-    let functions = generate::build(std::slice::from_ref(&spec));
+    let functions = generate::build(&specs);
     let module = Module {
-        name: spec.name(),
-        origin: format!("`{spec}`"),
+        name: match &specs[..] {
+            [spec] => spec.name(),
+            // A name of a file, which needs no more than to be one.
+            _ => text.replace([':', '+', '='], "_"),
+        },
+        origin: format!("`{text}`"),
         functions,
         arrays: arrays.and_then(Arrays::named),
         form: form.and_then(|form| language::forms().into_iter().find(|known| *known == form)),

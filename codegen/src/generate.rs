@@ -24,8 +24,14 @@ pub enum GenerateError {
 /// Builds the kernels of specs, each once whatever its channels, in parallel.
 pub fn build(specs: &[Spec]) -> Vec<Function> {
     let bases: BTreeSet<Spec> = specs.iter().map(Spec::base).collect();
-    let built = threads::map(&bases, |spec| Arc::new(Built::new(spec)));
-    let built: BTreeMap<&Spec, Arc<Built>> = bases.iter().zip(built).collect();
+    // What pieces are of is measured once for all of them.
+    let wholes: BTreeSet<Spec> = bases.iter().map(Spec::whole).collect();
+    let built = threads::map(&wholes, |spec| Arc::new(Built::new(spec)));
+    let mut built: BTreeMap<Spec, Arc<Built>> = wholes.iter().cloned().zip(built).collect();
+    for spec in bases.iter().filter(|spec| spec.form.is_piece()) {
+        let piece = Arc::new(Built::piece(spec, &built[&spec.whole()]));
+        built.insert(spec.clone(), piece);
+    }
     let function = |spec: &Spec| Function { built: built[&spec.base()].clone(), spec: spec.clone(), name: None };
     specs.iter().map(function).collect()
 }

@@ -234,7 +234,7 @@ pub fn names() -> Vec<Named> {
     let own: Vec<String> = files(&folder)
         .iter()
         .map(|path| module_of(path.strip_prefix(&folder).expect("lies below")).first().cloned().unwrap_or_default())
-        .filter(|name| !["", "all", "family", "parts", "text", "toy"].contains(&name.as_str()))
+        .filter(|name| !["", "all", "family", "parts", "pieces", "several", "text", "toy"].contains(&name.as_str()))
         .collect();
     let specs: Vec<String> = family_names().iter().map(|name| format!("\"{name}:")).collect();
     let mut found = Vec::new();

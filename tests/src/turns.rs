@@ -124,7 +124,12 @@ pub fn inverse((domain, list): &Origin) -> Option<Origin> {
         Domain::Angle(_) => vec![-list[0]],
         Domain::HalfSine(_) | Domain::Grey => list.clone(),
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => return None,
-        Domain::Signal | Domain::Direction | Domain::Normal | Domain::MeanNormal(_) | Domain::Made(_) => return None,
+        Domain::Signal
+        | Domain::Direction
+        | Domain::Normal
+        | Domain::MeanNormal(_)
+        | Domain::Made(_)
+        | Domain::SetUp => return None,
     };
     Some((*domain, inverse))
 }
@@ -150,7 +155,12 @@ pub fn identity((domain, list): &Origin) -> Origin {
         Domain::Phases => [1.0, 0.0].repeat(list.len() / 2),
         Domain::Angle(_) => vec![0.0],
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.clone(),
-        Domain::Signal | Domain::Grey | Domain::HalfSine(_) | Domain::MeanNormal(_) | Domain::Made(_) => list.clone(),
+        Domain::Signal
+        | Domain::Grey
+        | Domain::HalfSine(_)
+        | Domain::MeanNormal(_)
+        | Domain::Made(_)
+        | Domain::SetUp => list.clone(),
     };
     (*domain, none)
 }
@@ -173,7 +183,7 @@ fn precise(domain: Domain, list: &[f64]) -> Vec<f64> {
         }
         Domain::Between(..) | Domain::Bent(..) | Domain::Zonal | Domain::Coefficients => list.to_vec(),
         Domain::Signal | Domain::Grey | Domain::Angle(_) | Domain::HalfSine(_) => list.to_vec(),
-        Domain::MeanNormal(_) | Domain::Made(_) => list.to_vec(),
+        Domain::MeanNormal(_) | Domain::Made(_) | Domain::SetUp => list.to_vec(),
     }
 }
 

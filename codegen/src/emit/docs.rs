@@ -1,7 +1,7 @@
 //! What stands above a function: what it computes, over which inputs, at what cost and within which error, in plain
 //! ASCII so that every compiler reads it.
 
-use crate::families::family::Spec;
+use crate::families::family::{Form, Spec};
 use crate::ir::code::Code;
 use crate::ir::kernel::Domain;
 use crate::ir::kernel::Param;
@@ -129,8 +129,10 @@ pub fn error(spec: &Spec, params: &[Param], accuracy: &Accuracy) -> String {
         }
         false => format!("{MARGIN} times the worst of {samples} measured, {measured:e}; not proven"),
     };
+    // A piece's domain is its own; its error is that of all pieces together.
+    let together = if spec.form.is_piece() { "with its other pieces " } else { "" };
     let mut text = format!(
-        "Error: {} rounding at most {:e} of {}, {domain} ({why}).",
+        "Error: {together}{} rounding at most {:e} of {}, {domain} ({why}).",
         if spec.half { "f16" } else { "f32" },
         accuracy.rounding_f32,
         accuracy.relative_to
@@ -158,7 +160,16 @@ fn sentences(built: &Built, spec: &Spec) -> (String, Vec<String>) {
     rest.push(format!("Returns {}.", built.code.result_doc()));
     rest.push(cost(built, spec.channels()));
     rest.push(error(spec, built.code.params(), &built.accuracy));
-    (format!("`{spec}`: {}", (spec.family.what)(spec)), rest)
+    let what = (spec.family.what)(spec);
+    let what = match spec.form {
+        Form::Unrolled | Form::Loop => what,
+        Form::SetUp => format!("The numbers that every band of `{}` takes, once for all of them. {what}", spec.whole()),
+        Form::Band(l) => format!(
+            "Band {l} of `{}` alone, so that a band is loaded, changed and stored at a time. {what}",
+            spec.whole()
+        ),
+    };
+    (format!("`{spec}`: {what}"), rest)
 }
 
 /// All that stands above a function, a sentence a line.

@@ -3,6 +3,7 @@
 //! one kernel of a family. It knows no family.
 
 pub use crate::families::group::Group;
+pub use crate::families::parts::form::Form;
 use crate::families::parts::small_angle::SmallAngle;
 use crate::ir::code::{Branch, Code};
 use crate::ir::kernel::Kernel;
@@ -337,15 +338,6 @@ impl Ord for Family {
     }
 }
 
-/// Unrolled or a loop over tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Form {
-    /// Straight lines, every index a constant.
-    Unrolled,
-    /// Tables and a loop.
-    Loop,
-}
-
 /// What to generate. A spec names exactly one function in each language.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Spec {
@@ -439,7 +431,7 @@ impl Spec {
     pub fn takes_half(&self) -> bool {
         let half = Self { half: true, ..self.clone() };
         self.family.half
-            && self.form == Form::Unrolled
+            && self.form != Form::Loop
             && self.order <= MAX_HALF_ORDER
             && (self.family.fault)(&half).is_none()
     }
@@ -468,14 +460,24 @@ impl Spec {
     pub fn code(&self) -> Code {
         match (self.form, self.family.looped, self.family.branch) {
             (Form::Loop, Some(looped), _) => Code::Loop((looped.kernel)(self.order)),
-            (_, _, Some(branch)) => Code::Branch(Box::new(branch(self))),
+            (Form::Unrolled, _, Some(branch)) => Code::Branch(Box::new(branch(self))),
             _ => Code::Straight(Listing::new(&self.kernel())),
         }
     }
 
-    /// Its unrolled kernel: the twin of a loop, the way of a branch that is taken where the condition does not hold.
+    /// Its unrolled kernel: the twin of a loop, the way of a branch that is taken where the condition does not hold, or the
+    /// piece that it names.
+    ///
+    /// # Panics
+    ///
+    /// If it names a piece that there is not, which no spec does that was read.
     pub fn kernel(&self) -> Kernel {
-        (self.family.kernel)(self)
+        let piece = match self.form {
+            Form::Unrolled | Form::Loop => return (self.family.kernel)(self),
+            Form::SetUp => self.pieces().and_then(|pieces| pieces.set_up()),
+            Form::Band(l) => self.pieces().map(|pieces| pieces.band(l)),
+        };
+        piece.unwrap_or_else(|| panic!("`{self}` is no piece"))
     }
 
     /// The spec of the kernel itself, without what only its text depends on: the number of channels.

@@ -2,10 +2,10 @@
 
 use crate::families::all::ALL;
 use crate::families::family::{
-    ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
+    Acts, ByBand, Family, Form, MAX_HALF_ORDER, MAX_LOOP_ORDER, MAX_ORDER, MIN_ORDER, Spec, Spelled,
 };
 use crate::families::parts::small_angle::SmallAngle;
-use crate::families::{choices, factors};
+use crate::families::{choices, factors, pieces};
 use crate::fault::hint;
 use std::fmt;
 use std::ops::Range;
@@ -139,8 +139,11 @@ impl Spec {
         if self.rgb {
             name += "_rgb";
         }
-        if self.form == Form::Loop {
-            name += "_loop";
+        match self.form {
+            Form::Unrolled => {}
+            Form::Loop => name += "_loop",
+            Form::SetUp => name += "_setup",
+            Form::Band(l) => name.insert_str(0, &format!("band_{l}_")),
         }
         if self.half {
             name += "_half";
@@ -188,8 +191,11 @@ impl fmt::Display for Spec {
         if self.rgb {
             write!(f, ":rgb")?;
         }
-        if self.form == Form::Loop {
-            write!(f, ":loop")?;
+        match self.form {
+            Form::Unrolled => {}
+            Form::Loop => write!(f, ":loop")?,
+            Form::SetUp => write!(f, ":{}", pieces::SET_UP)?,
+            Form::Band(l) => write!(f, ":{}{l}", pieces::BAND)?,
         }
         if self.half {
             write!(f, ":f16")?;
@@ -214,6 +220,9 @@ fn option_names(name: &str) -> Vec<&'static str> {
     if any(|family| family.some_bands) {
         options.push("bands=0+1+2");
     }
+    if any(|family| family.has_signal() && family.acts == Acts::Turns) {
+        options.extend(pieces::OPTIONS);
+    }
     options
 }
 
@@ -229,7 +238,7 @@ impl Piece<'_> {
     }
 }
 
-fn pieces(text: &str) -> Vec<Piece<'_>> {
+fn split(text: &str) -> Vec<Piece<'_>> {
     let mut start = 0;
     text.split(':')
         .map(|piece| {
@@ -333,7 +342,7 @@ impl FromStr for Spec {
     type Err = SpecError;
 
     fn from_str(text: &str) -> Result<Self, SpecError> {
-        let all = pieces(text);
+        let all = split(text);
         let [head, rest @ ..] = &all[..] else {
             unreachable!("splitting always gives one piece");
         };
@@ -370,6 +379,10 @@ impl FromStr for Spec {
         let known = method_names(head.text);
         let mut is_open = !known.is_empty();
         for option in options {
+            if let Some(form) = pieces::form(option.text) {
+                spec.form = form;
+                continue;
+            }
             match option.text {
                 "rgb" if spec.rgb => return Err(option.error("`rgb` stands twice".to_owned(), "leave one out")),
                 "rgb" => spec.rgb = true,
@@ -408,7 +421,7 @@ impl FromStr for Spec {
             let mut own = ALL.iter().filter(|family| family.name == head.text);
             let is_meant = |family: &&&Family| match spec.form {
                 Form::Loop => family.looped.is_some(),
-                Form::Unrolled => (family.usual)(order, spec.rgb),
+                _ => (family.usual)(order, spec.rgb),
             };
             spec.family = own.find(is_meant).expect("one of a family's methods is the usual one");
         }
@@ -444,7 +457,9 @@ impl Spec {
             let [message, help] = (family.outside)(order);
             return Err(whole.error(message, help));
         }
-        if let Some([message, help]) = factors::fault(self).or_else(|| (family.fault)(self)) {
+        if let Some([message, help]) =
+            factors::fault(self).or_else(|| (family.fault)(self)).or_else(|| pieces::fault(self))
+        {
             return Err(whole.error(message, help));
         }
         if let Some(by_band) = &family.by_band
@@ -471,7 +486,7 @@ impl Spec {
                 ),
             ));
         }
-        if self.form == Form::Unrolled && !family.orders.contains(&order) {
+        if self.form != Form::Loop && !family.orders.contains(&order) {
             let [message, help] = (family.outside)(order);
             return Err(match self.has_loop() {
                 true => whole.error(message, format!("write `{}:loop`", whole.text)),

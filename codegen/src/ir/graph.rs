@@ -100,6 +100,64 @@ impl Graph {
         self.as_made
     }
 
+    /// Returns what these nodes need that depends on a signal, themselves among it, in the order in which it was made.
+    pub fn linear(&self, outputs: &[Id]) -> Vec<Id> {
+        self.needed(outputs, |id| !self.kind(id).is_scalar())
+    }
+
+    /// Returns what these nodes need, themselves among it, in the order in which it is first met depth first, as a layout
+    /// goes.
+    pub fn met(&self, outputs: &[Id]) -> Vec<Id> {
+        let mut is_met = vec![false; self.nodes.len()];
+        let (mut order, mut stack) = (Vec::new(), outputs.iter().rev().copied().collect::<Vec<_>>());
+        while let Some(id) = stack.pop() {
+            if std::mem::replace(&mut is_met[id.0 as usize], true) {
+                continue;
+            }
+            order.push(id);
+            if let Node::Op(op) = self.node(id) {
+                let mut operands = op.into_operands();
+                operands.reverse();
+                stack.extend(operands);
+            }
+        }
+        order
+    }
+
+    /// Nodes that satisfy a condition, from these on through operands that do.
+    fn needed(&self, outputs: &[Id], counts: impl Fn(Id) -> bool) -> Vec<Id> {
+        let mut is_needed = vec![false; self.nodes.len()];
+        outputs.iter().filter(|&&id| counts(id)).for_each(|id| is_needed[id.0 as usize] = true);
+        // An operand was made before what it is an operand of.
+        for place in (0..self.nodes.len()).rev() {
+            if let (true, Node::Op(op)) = (is_needed[place], &self.nodes[place]) {
+                op.operands().filter(|&id| counts(id)).for_each(|id| is_needed[id.0 as usize] = true);
+            }
+        }
+        (0..self.nodes.len() as u32).map(Id).filter(|id| is_needed[id.0 as usize]).collect()
+    }
+
+    /// Takes the part of another graph that these nodes need, operation by operation, and returns where they are here. What
+    /// `leaf` gives stands for a node and all that it needs.
+    pub fn take(&mut self, from: &Self, outputs: &[Id], leaf: impl Fn(Id, &Node) -> Option<Id>) -> Vec<Id> {
+        let mut here: HashMap<Id, Id> = HashMap::new();
+        for id in from.needed(outputs, |_| true) {
+            let node = from.node(id);
+            let taken = match (leaf(id, node), node) {
+                (Some(given), _) => Some(given),
+                (None, Node::Op(op)) => {
+                    let known = op.operands().all(|operand| here.contains_key(&operand));
+                    known.then(|| self.apply(op.map(|operand| here[&operand])))
+                }
+                (None, Node::Input { .. }) => None,
+                (None, leaf) => Some(self.push(leaf.clone(), Kind::Scalar)),
+            };
+            taken.map(|taken| here.insert(id, taken));
+        }
+        self.as_made = from.as_made;
+        outputs.iter().map(|id| here[id]).collect()
+    }
+
     fn push(&mut self, node: Node, kind: Kind) -> Id {
         if let Some(&id) = self.known.get(&node) {
             return id;

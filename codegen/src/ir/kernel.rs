@@ -184,6 +184,8 @@ pub enum Domain {
     Coefficients,
     /// What another kernel returns.
     Made(Made),
+    /// What the set-up returns of a kernel that is in pieces.
+    SetUp,
 }
 
 /// A kernel that makes another one's parameter.
@@ -306,6 +308,7 @@ impl Domain {
             Self::Zonal => format!("for {name} of at most one each"),
             Self::Coefficients => format!("for {name} with each band of norm one"),
             Self::Made(_) => "for every angle".to_owned(),
+            Self::SetUp => format!("for {name} as the set-up makes it"),
         };
         Some(words)
     }

@@ -7,4 +7,5 @@ pub mod graph;
 pub mod kernel;
 pub mod listing;
 pub mod op;
+pub mod pieces;
 pub mod program;

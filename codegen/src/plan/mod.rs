@@ -17,6 +17,7 @@ use crate::emit::language::Target;
 use crate::emit::names::Use;
 use crate::emit::{Function, Module};
 use crate::families::family::Spec;
+use crate::families::several::several;
 use crate::generate::{self, Row};
 use crate::plan::check::{check_angle, check_collisions, check_convention, check_half, check_hemisphere, check_name};
 use crate::plan::contest::Contest;
@@ -66,22 +67,21 @@ fn no_environment(place: &Place) -> Diagnostic {
     Diagnostic::at(place, "the scene has no environment whose order could be taken", help)
 }
 
-/// The spec that a scene names, and whether it takes the order of the environment.
-fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Spec, bool), Diagnostic> {
+/// The specs that a scene names, and whether they take the order of the environment.
+fn parse(wanted: &Wanted, environment: Option<&EnvironmentPlan>) -> Result<(Vec<Spec>, bool), Diagnostic> {
     let Located { value, place } = &wanted.spec;
     let pieces: Vec<&str> = value.split(':').collect();
     if pieces.get(1) != Some(&"environment") {
-        let spec = value.parse::<Spec>();
-        return spec
-            .map(|spec| (spec, false))
+        return several(value)
+            .map(|specs| (specs, false))
             .map_err(|error| Diagnostic::at(&place.within(value, error.at), error.message, error.help));
     }
     let start = pieces[0].len() + 1;
     let plan = environment.ok_or_else(|| no_environment(&place.within(value, start..start + "environment".len())))?;
     let order = plan.order.to_string();
     let text = [&[pieces[0], &order], &pieces[2..]].concat().join(":");
-    let spec = text.parse::<Spec>().map_err(|error| Diagnostic::at(place, error.message, error.help))?;
-    Ok((spec, true))
+    let specs = several(&text).map_err(|error| Diagnostic::at(place, error.message, error.help))?;
+    Ok((specs, true))
 }
 
 impl Plan {
@@ -104,9 +104,24 @@ impl Plan {
             check_name(&environment.name, Use::Item, &scene.targets)?;
         }
         let mut environment = environment::plan(scene)?;
-        let parsed: Result<Vec<(Spec, bool)>, _> =
-            scene.kernels.iter().map(|wanted| parse(wanted, environment.as_ref())).collect();
-        let mut specs = parsed?;
+        // What a scene asks for, a row a function.
+        let (mut kernels, mut specs) = (vec![], vec![]);
+        for wanted in &scene.kernels {
+            let (all, takes_order) = parse(wanted, environment.as_ref())?;
+            if let (Some(name), 2..) = (&wanted.name, all.len()) {
+                let message =
+                    format!("`{}` is {} functions, which cannot all be `{}`", wanted.spec.value, all.len(), name.value);
+                return Err(Diagnostic::at(
+                    &name.place,
+                    message,
+                    "leave the name out, or ask for each piece by its own spec",
+                ));
+            }
+            for spec in all {
+                kernels.push(wanted.clone());
+                specs.push((spec, takes_order));
+            }
+        }
         check_convention(scene, &specs)?;
         if let Some(plan) = &mut environment {
             let whole = scene.rotations.iter().any(|rotation| rotation.order.value == Order::Environment);
@@ -130,14 +145,14 @@ impl Plan {
             kernels: vec![],
             places: vec![],
         };
-        plan.take_named(scene, &specs)?;
+        plan.take_named(scene, &kernels, &specs)?;
         plan.take_rotations(scene)?;
         check_collisions(&plan.module, &plan.places)?;
         Ok(plan)
     }
 
-    fn take_named(&mut self, scene: &Scene, specs: &[Spec]) -> Result<(), Diagnostic> {
-        for (place, (wanted, spec)) in scene.kernels.iter().zip(specs).enumerate() {
+    fn take_named(&mut self, scene: &Scene, kernels: &[Wanted], specs: &[Spec]) -> Result<(), Diagnostic> {
+        for (place, (wanted, spec)) in kernels.iter().zip(specs).enumerate() {
             if specs[..place].contains(spec) {
                 return Err(Diagnostic::at(&wanted.spec.place, format!("`{spec}` stands twice"), "leave one out"));
             }
@@ -146,7 +161,7 @@ impl Plan {
                 check_half(scene, &wanted.spec.place)?;
             }
         }
-        for (wanted, mut function) in scene.kernels.iter().zip(generate::build(specs)) {
+        for (wanted, mut function) in kernels.iter().zip(generate::build(specs)) {
             function.name = wanted.name.as_ref().map(|name| name.value.clone());
             let max_angle = wanted.max_angle.as_ref().map(|angle| angle.value);
             let error = |degrees: f64| accuracy::method_error(&function.spec, degrees.to_radians());

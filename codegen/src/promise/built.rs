@@ -24,6 +24,11 @@ impl Built {
         Self { spec: spec.clone(), code, accuracy }
     }
 
+    /// Builds and lays out a piece of a kernel, which is as exact as the whole: together they do the same operations.
+    pub fn piece(spec: &Spec, whole: &Self) -> Self {
+        Self { spec: spec.clone(), code: spec.code(), accuracy: whole.accuracy.clone() }
+    }
+
     /// What rounding may add up to an angle in radians; for a small rotation in f32 that is less than the head says, which
     /// is for the method's whole domain.
     pub fn rounding_within(&self, max_angle: f64) -> f64 {

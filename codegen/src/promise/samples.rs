@@ -195,7 +195,7 @@ fn draw(domain: Domain, len: usize, random: &mut Random, i: usize) -> Vec<f64> {
         // Errors may be largest on either side of where another way is taken.
         Domain::Bent(_, bend, _) if i % 4 == 3 => vec![bend * (1.0 + random.signed() / (1u64 << (i % 16)) as f64)],
         Domain::Bent(least, _, most) => vec![between(random, i, least, most)],
-        Domain::Zonal => (0..len).map(|_| random.signed()).collect(),
+        Domain::Zonal | Domain::SetUp => (0..len).map(|_| random.signed()).collect(),
         // What is found of nothing comes first.
         Domain::Coefficients if i == 0 => vec![0.0; len],
         Domain::Coefficients => signal(random, len),

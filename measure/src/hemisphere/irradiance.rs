@@ -65,11 +65,8 @@ fn first_four(whole: &[f64]) -> [f64; 5] {
     [whole[0], whole[1], whole[2], whole[3], 0.0]
 }
 
-static GEOMERICS: Bent = Bent {
-    count: 4,
-    held: first_four,
-    at: |dir, &[a, b, c, d, _]| zonal::sh2::eval_geomerics(dir, &[a, b, c, d]),
-};
+static GEOMERICS: Bent =
+    Bent { count: 4, held: first_four, at: |dir, &[a, b, c, d, _]| zonal::sh2::eval_geomerics(dir, &[a, b, c, d]) };
 static ZH3: Bent = Bent {
     count: 4,
     held: first_four,

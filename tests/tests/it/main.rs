@@ -33,6 +33,7 @@ mod operations;
 mod orders;
 mod packages;
 mod peers;
+mod pieces;
 mod plans;
 mod product_plans;
 mod products;

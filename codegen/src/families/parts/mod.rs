@@ -5,6 +5,7 @@ pub mod bands;
 pub mod bivariate;
 pub mod columns;
 pub mod derivative;
+pub mod form;
 pub mod legendre;
 pub mod once;
 pub mod orthogonal;
