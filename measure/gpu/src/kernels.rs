@@ -1,0 +1,73 @@
+//! What is compiled: every kernel of the catalogue as one function and, where it leaves bands apart, in pieces.
+
+use crate::shader;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use zonal_codegen::catalog;
+use zonal_codegen::emit::Function;
+use zonal_codegen::families::Spec;
+use zonal_codegen::generate;
+
+/// How a kernel is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Called {
+    /// By one function, with all coefficients.
+    Whole,
+    /// A band at a time.
+    Pieces,
+    /// A band at a time, of which channel after channel is turned, by the functions of one channel.
+    Channels,
+}
+
+/// A kernel to compile.
+pub struct Kernel {
+    /// The spec.
+    pub spec: String,
+    /// How it is called.
+    pub called: Called,
+    /// Its operations, for all channels.
+    pub operations: usize,
+    /// Its roots and reciprocals.
+    pub special: usize,
+    /// It, as SPIR-V.
+    pub spirv: Vec<u32>,
+}
+
+fn kernels_of(spec: &Spec, functions: &BTreeMap<Spec, Function>) -> Vec<Kernel> {
+    let function = &functions[spec];
+    let cost = function.built.code.cost(spec.channels());
+    let kernel = |called, text: String| Kernel {
+        spec: spec.to_string(),
+        called,
+        operations: cost.total,
+        special: cost.special,
+        spirv: shader::spirv(&text),
+    };
+    let mut all = vec![kernel(Called::Whole, shader::whole(function))];
+    let pieces: Vec<Function> = spec.in_pieces().iter().map(|piece| functions[piece].clone()).collect();
+    if !pieces.is_empty() {
+        all.push(kernel(Called::Pieces, shader::in_pieces(&pieces, spec.order, 1)));
+    }
+    // A kernel that channels share operations in is another one for a single channel.
+    let single: Vec<Spec> = spec.base().in_pieces();
+    if spec.rgb && !single.is_empty() {
+        let pieces: Vec<Function> = single.iter().map(|piece| functions[piece].clone()).collect();
+        all.push(kernel(Called::Channels, shader::in_pieces(&pieces, spec.order, spec.channels())));
+    }
+    all
+}
+
+/// Returns the shaders of these specs.
+pub fn shaders(specs: &[Spec]) -> Vec<Kernel> {
+    let with_pieces = |spec: &Spec| [vec![spec.clone()], spec.in_pieces(), spec.base().in_pieces()].concat();
+    let all: Vec<Spec> = specs.iter().flat_map(with_pieces).collect();
+    let functions: BTreeMap<Spec, Function> = all.iter().cloned().zip(generate::build(&all)).collect();
+    specs.par_iter().flat_map_iter(|spec| kernels_of(spec, &functions)).collect()
+}
+
+/// Returns the specs of the catalogue.
+pub fn catalogue() -> Vec<Spec> {
+    catalog::standard()
+}

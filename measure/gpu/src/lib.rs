@@ -1,0 +1,9 @@
+//! What kernels cost on AMD's GPUs: instructions, registers, spilled registers and throughput as the driver's own compiler
+//! counts them, for a device that is not there. Mesa's RADV compiles for whatever family it is told
+//! (`RADV_FORCE_FAMILY`); nothing runs.
+
+pub mod compile;
+pub mod device;
+pub mod kernels;
+pub mod page;
+pub mod shader;

@@ -1,0 +1,56 @@
+//! The command `cargo measure-gpu`: compiles the catalogue for GPUs that are not there and writes `docs/GPU.md` and
+//! `docs/gpu.json`.
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+use zonal_measure_gpu::compile::{self, GPUS};
+use zonal_measure_gpu::kernels::{catalogue, shaders};
+use zonal_measure_gpu::page;
+
+/// Compile every kernel of the catalogue for AMD's GPUs, by the driver's own compiler, and write what it counts.
+#[derive(Parser)]
+#[command(name = "cargo measure-gpu", version)]
+struct Arguments {
+    /// The folder of the page and its figures.
+    #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs"))]
+    output: PathBuf,
+    /// Compile a folder of shaders and print what is counted: how the program calls itself.
+    #[arg(long, hide = true)]
+    child: Option<PathBuf>,
+}
+
+fn bar(what: &'static str, steps: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:24} [{bar:40}] {pos}/{len} {elapsed}").expect("is a template");
+    let bar = ProgressBar::new(steps as u64).with_style(style.progress_chars("=> ")).with_message(what);
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    if let Some(folder) = &arguments.child {
+        return compile::child(folder);
+    }
+    let building = bar("building", 1);
+    let kernels = shaders(&catalogue());
+    building.finish();
+    let compiling = bar("compiling", GPUS.len());
+    let report = compile::compile(&std::env::current_exe()?, &kernels, || compiling.inc(1))?;
+    compiling.finish();
+    std::fs::write(arguments.output.join(page::JSON), page::json(&report)?)?;
+    std::fs::write(arguments.output.join(page::PAGE), page::markdown(&report))?;
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

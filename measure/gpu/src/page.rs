@@ -1,0 +1,281 @@
+//! `docs/GPU.md` and the figures behind it.
+
+use crate::compile::{GPUS, Report, Row};
+use crate::device::Counted;
+use crate::kernels::Called;
+use std::collections::BTreeMap;
+use zonal_codegen::families::{Form, Group, Spec};
+use zonal_codegen::plan::contest::SPECIAL_WEIGHT;
+
+/// The page.
+pub const PAGE: &str = "GPU.md";
+/// The figures.
+pub const JSON: &str = "gpu.json";
+
+/// The GPUs that the page shows: the others are in the figures.
+const SHOWN: [usize; 2] = [1, 2];
+/// Orders of the tables.
+const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
+
+/// Returns the figures, a line a kernel.
+///
+/// # Errors
+///
+/// None that a report gives rise to.
+pub fn json(report: &Report) -> Result<String, serde_json::Error> {
+    let rows: Result<Vec<String>, _> = report.rows.iter().map(serde_json::to_string).collect();
+    Ok(format!("{{\"driver\": {},\n\"rows\": [\n{}\n]}}\n", serde_json::to_string(&report.driver)?, rows?.join(",\n")))
+}
+
+/// Rows by their spec and how they are called.
+struct Rows<'a>(BTreeMap<(&'a str, Called), &'a Row>);
+
+impl<'a> Rows<'a> {
+    fn new(report: &'a Report) -> Self {
+        Self(report.rows.iter().map(|row| ((row.spec.as_str(), row.called), row)).collect())
+    }
+
+    fn get(&self, spec: &str, called: Called) -> Option<&'a Row> {
+        self.0.get(&(spec, called)).copied()
+    }
+}
+
+fn table(columns: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut text = format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()));
+    rows.into_iter().for_each(|row| text += &format!("| {} |\n", row.join(" | ")));
+    text
+}
+
+fn registers(counted: Counted) -> String {
+    match counted.spilled {
+        0 => counted.registers.to_string(),
+        spilled => format!("{} + **{spilled}**", counted.registers),
+    }
+}
+
+/// A kernel called in several ways, on the GPUs that are shown.
+fn compared(rows: &Rows<'_>, spec: &str, ways: &[Called]) -> Option<Vec<String>> {
+    let found: Vec<&Row> = ways.iter().map(|&called| rows.get(spec, called)).collect::<Option<_>>()?;
+    let mut cells = vec![format!("`{spec}`"), found[0].operations.to_string()];
+    for gpu in SHOWN {
+        for row in &found {
+            let counted = row.gpus[gpu];
+            cells.extend([registers(counted), counted.waves.to_string(), counted.cycles.to_string()]);
+        }
+    }
+    Some(cells)
+}
+
+fn heads(ways: &[Called]) -> Vec<String> {
+    let mut heads = vec!["kernel".to_owned(), "operations".to_owned()];
+    for gpu in SHOWN {
+        let name = GPUS[gpu].family;
+        for called in ways {
+            let called = match called {
+                Called::Whole => "whole",
+                Called::Pieces => "pieces",
+                Called::Channels => "by channels",
+            };
+            heads.extend(["registers", "waves", "cycles"].map(|what| format!("{name}, {called}: {what}")));
+        }
+    }
+    heads
+}
+
+/// A loop beside the straight lines that do the same.
+fn looped(rows: &Rows<'_>, row: &Row) -> Option<Vec<String>> {
+    let straight = row.spec.replace(":loop", "");
+    let straight = rows.get(&straight, Called::Whole)?;
+    let mut cells = vec![format!("`{}`", row.spec), straight.operations.to_string()];
+    for gpu in SHOWN {
+        let [line, own] = [straight.gpus[gpu], row.gpus[gpu]];
+        let times = own.cycles as f64 / line.cycles as f64;
+        cells.extend([line.cycles.to_string(), own.cycles.to_string(), format!("{times:.1}"), registers(own)]);
+    }
+    Some(cells)
+}
+
+/// How well what the planner counts says what a GPU needs: of the pairs of an order's rotations and tilts of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agreement {
+    /// The order.
+    pub order: usize,
+    /// How many kernels.
+    pub kernels: usize,
+    /// The share of the pairs of which the planner's cheaper one takes no more cycles.
+    pub share: f64,
+    /// Pairs that are told apart wrongly, the worse first: the one that the planner holds for cheaper, the other, and how
+    /// many times the cycles of the other it takes.
+    pub wrong: Vec<(String, String, f64)>,
+}
+
+/// Returns the agreement at each order on a GPU, with kernels called in one way.
+pub fn agreement(report: &Report, gpu: usize, called: Called) -> Vec<Agreement> {
+    let turning: Vec<(usize, &Row)> = report
+        .rows
+        .iter()
+        .filter(|row| row.called == called)
+        .filter_map(|row| {
+            let spec: Spec = row.spec.parse().ok()?;
+            let is_turn = matches!(spec.family.group, Group::Rotate | Group::Tilt | Group::SmallAngle);
+            (is_turn && !spec.rgb && spec.form == Form::Unrolled).then_some((spec.order, row))
+        })
+        .collect();
+    ORDERS
+        .map(|order| {
+            let price = |row: &Row| row.operations + SPECIAL_WEIGHT * row.special;
+            let rows: Vec<(&Row, usize)> =
+                turning.iter().filter(|(of, _)| *of == order).map(|(_, row)| (*row, price(row))).collect();
+            let (mut right, mut all, mut wrong) = (0, 0, vec![]);
+            for (i, (a, cheap)) in rows.iter().enumerate() {
+                for (b, dear) in &rows[i + 1..] {
+                    let ((a, cheap), (b, dear)) =
+                        if cheap <= dear { ((a, cheap), (b, dear)) } else { ((b, dear), (a, cheap)) };
+                    if cheap == dear {
+                        continue;
+                    }
+                    all += 1;
+                    let [own, other] = [a, b].map(|row| row.gpus[gpu].cycles);
+                    match own <= other {
+                        true => right += 1,
+                        false => wrong.push((a.spec.clone(), b.spec.clone(), own as f64 / other as f64)),
+                    }
+                }
+            }
+            wrong.sort_by(|a, b| b.2.total_cmp(&a.2));
+            Agreement { order, kernels: rows.len(), share: f64::from(right) / f64::from(all.max(1)), wrong }
+        })
+        .collect()
+}
+
+/// The least and the largest of cycles an operation, of kernels that spill nothing.
+fn per_operation(report: &Report, gpu: usize) -> [f64; 3] {
+    let is_counted = |row: &&Row| row.called == Called::Whole && row.operations >= 100 && row.gpus[gpu].spilled == 0;
+    let mut all: Vec<f64> = report
+        .rows
+        .iter()
+        .filter(is_counted)
+        .filter(|row| !row.spec.ends_with(":loop"))
+        .map(|row| row.gpus[gpu].cycles as f64 / (row.operations + SPECIAL_WEIGHT * row.special) as f64)
+        .collect();
+    all.sort_by(f64::total_cmp);
+    [0, all.len() / 2, all.len().saturating_sub(1)].map(|place| all.get(place).copied().unwrap_or_default())
+}
+
+/// Returns the page.
+pub fn markdown(report: &Report) -> String {
+    let rows = Rows::new(report);
+    let spills = |called: Called| {
+        let of = |gpu: usize| {
+            let kernels = report.rows.iter().filter(|row| row.called == called && row.gpus[gpu].spilled > 0);
+            kernels.filter(|row| rows.get(&row.spec, Called::Pieces).is_some()).count().to_string()
+        };
+        (0..GPUS.len()).map(of).collect::<Vec<_>>()
+    };
+    let shared = report.rows.iter().filter(|row| row.called == Called::Pieces).count();
+    let turns = |suffix: &str, name: &str| -> String {
+        let ways = match suffix {
+            "" => &[Called::Whole, Called::Pieces][..],
+            _ => &[Called::Whole, Called::Pieces, Called::Channels],
+        };
+        let all = ORDERS.filter_map(|order| compared(&rows, &format!("{name}:{order}{suffix}"), ways));
+        table(&heads(ways), all)
+    };
+    let loops = report.rows.iter().filter(|row| row.spec.ends_with(":loop") && row.called == Called::Whole);
+    let mut loop_heads = vec!["loop".to_owned(), "operations".to_owned()];
+    for gpu in SHOWN {
+        loop_heads.extend(
+            ["unrolled, cycles", "loop, cycles", "times", "loop, registers"]
+                .map(|what| format!("{}: {what}", GPUS[gpu].family)),
+        );
+    }
+    let agreed = |called: Called| -> Vec<Vec<String>> {
+        let by_gpu: Vec<Vec<Agreement>> = (0..GPUS.len()).map(|gpu| agreement(report, gpu, called)).collect();
+        let row = |place: usize| {
+            let first = &by_gpu[0][place];
+            let share = |all: &Vec<Agreement>| format!("{:.1} %", 100.0 * all[place].share);
+            let worst = |all: &Vec<Agreement>| match all[place].wrong.first() {
+                Some((a, b, times)) => format!("`{a}` before `{b}`: {times:.2}"),
+                None => "none".to_owned(),
+            };
+            let head = [first.order.to_string(), first.kernels.to_string()];
+            head.into_iter().chain(by_gpu.iter().map(share)).chain([worst(&by_gpu[SHOWN[0]])]).collect()
+        };
+        (0..by_gpu[0].len()).map(row).collect()
+    };
+    let agreed_heads: Vec<String> = ["order".to_owned(), "kernels".to_owned()]
+        .into_iter()
+        .chain(GPUS.map(|gpu| gpu.family.to_owned()))
+        .chain([format!("worst on {}, times the cycles", GPUS[SHOWN[0]].family)])
+        .collect();
+    let cycles: Vec<Vec<String>> = GPUS
+        .iter()
+        .enumerate()
+        .map(|(place, gpu)| {
+            let [least, middle, most] = per_operation(report, place).map(|value| format!("{value:.2}"));
+            vec![gpu.family.to_owned(), gpu.what.to_owned(), least, middle, most]
+        })
+        .collect();
+    let named = GPUS.map(|gpu| format!("{} is {}", gpu.family, gpu.what)).join(", ");
+    let [whole, pieces, channels] =
+        [Called::Whole, Called::Pieces, Called::Channels].map(|called| spills(called).join(", "));
+    let slower: Vec<f64> = report
+        .rows
+        .iter()
+        .filter(|row| row.spec.ends_with(":loop") && row.spec.parse::<Spec>().is_ok_and(|spec| spec.order > 3))
+        .filter_map(|row| {
+            let straight = rows.get(&row.spec.replace(":loop", ""), Called::Whole)?;
+            (straight.gpus[SHOWN[0]].spilled == 0).then_some(())?;
+            Some(row.gpus[SHOWN[0]].cycles as f64 / straight.gpus[SHOWN[0]].cycles as f64)
+        })
+        .collect();
+    let [least, most] =
+        [slower.iter().copied().fold(f64::INFINITY, f64::min), slower.iter().copied().fold(0.0, f64::max)];
+    let parts = [
+        "<!-- Written by `cargo measure-gpu`; do not edit. -->".to_owned(),
+        "# What kernels cost on GPUs".to_owned(),
+        format!(
+            "Every kernel of the catalogue, from its WGSL through naga, compiled by AMD's driver in Mesa ({}) for GPUs that \
+             are not there; nothing runs. {named}. A thread turns one signal, of which the coefficients and the parameters lie \
+             in storage buffers, in rows of signals. *Registers* are vector registers, and what is added to them in bold are \
+             those that did not suffice, so that memory stands in; *waves* are how many a unit holds at once, which is what \
+             hides the time that memory takes; *cycles* are what a wave keeps the busiest part of a unit for, the driver's \
+             inverse throughput, loads and stores among them. All figures are in [{JSON}]({JSON}). `cargo measure-gpu` writes \
+             this page; a test holds what it says in sentences.",
+            report.driver
+        ),
+        "## Whole and in pieces".to_owned(),
+        format!(
+            "`rotate:8:pieces` is a set-up and a function a band: a shader loads, turns and stores one band at a time. The \
+             operations are those of the whole; what lives at once is less. Of the {shared} kernels of the catalogue that have \
+             pieces, so many spill registers on {}: whole {whole}; in pieces {pieces}. *By channels* turns a band of one channel \
+             after the other by the functions of one channel: of the kernels of three channels {channels} spill so.",
+            GPUS.map(|gpu| gpu.family).join(", ")
+        ),
+        turns("", "rotate"),
+        turns(":rgb", "rotate"),
+        turns("", "tilt"),
+        turns(":rgb", "tilt"),
+        "## Loops".to_owned(),
+        format!(
+            "A loop over a local array indexes registers by chains of moves. It saves text and time to compile: from order 4 on \
+             the loops of the catalogue take {least:.1} to {most:.0} times the cycles of their straight lines on {}, where \
+             those spill nothing. Where they do, it is pieces that help.",
+            GPUS[SHOWN[0]].family
+        ),
+        table(&loop_heads, loops.filter_map(|row| looped(&rows, row))),
+        "## Operations and cycles".to_owned(),
+        format!(
+            "Cycles by what the planner counts (operations, and {SPECIAL_WEIGHT} for a root or a reciprocal), over whole kernels \
+             of 100 operations or more that spill nothing: the least, the middle, the largest. Two cycles an operation are \
+             what RDNA takes for a wave of 64; the rest is loads and stores."
+        ),
+        table(&["GPU", "which", "least", "middle", "largest"].map(str::to_owned), cycles),
+        "Of the pairs of rotations, small ones among them, and tilts of an order, one channel, the share in which the one that \
+         the planner holds for cheaper takes no more cycles; first whole, then in pieces."
+            .to_owned(),
+        table(&agreed_heads, agreed(Called::Whole)),
+        table(&agreed_heads, agreed(Called::Pieces)),
+    ];
+    parts.join("\n\n").replace("\n\n\n", "\n\n")
+}

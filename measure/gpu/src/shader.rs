@@ -1,0 +1,159 @@
+//! Compute shaders around kernels, one thread a signal: what a kernel takes is read from buffers, item by item in rows of
+//! threads, and what it gives is written there. A kernel in pieces reads, turns and writes one band at a time.
+
+use naga::back::spv;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use zonal_codegen::emit::language::WGSL;
+use zonal_codegen::emit::{Function, Module};
+use zonal_codegen::families::Form;
+use zonal_codegen::ir::graph::Kind;
+use zonal_codegen::ir::kernel::{Param, Shape};
+
+/// Threads of a group: a wave of the GPUs before RDNA, two of those since.
+const GROUP: usize = 64;
+/// Signals that lie beside each other.
+const ROW: usize = 1 << 16;
+
+/// A buffer, and the place of its next number.
+struct Buffer {
+    name: &'static str,
+    next: usize,
+}
+
+impl Buffer {
+    fn new(name: &'static str) -> Self {
+        Self { name, next: 0 }
+    }
+
+    fn number(&mut self) -> String {
+        self.next += 1;
+        format!("{}[{}u + at]", self.name, (self.next - 1) * ROW)
+    }
+
+    /// The numbers of an item: one, or one a channel.
+    fn item(&mut self, channels: usize) -> String {
+        match channels {
+            1 => self.number(),
+            _ => format!("vec3<f32>({}, {}, {})", self.number(), self.number(), self.number()),
+        }
+    }
+
+    /// The statement that writes an item.
+    fn written(&mut self, item: &str, channels: usize) -> String {
+        match channels {
+            1 => format!("    {} = {item};\n", self.number()),
+            _ => ["x", "y", "z"].map(|letter| format!("    {} = {item}.{letter};\n", self.number())).concat(),
+        }
+    }
+}
+
+/// What a shader reads and writes.
+struct Main {
+    parameters: Buffer,
+    coefficients: Buffer,
+    results: Buffer,
+    body: String,
+}
+
+impl Main {
+    fn new() -> Self {
+        let [parameters, coefficients, results] = ["parameters", "coefficients", "results"].map(Buffer::new);
+        Self { parameters, coefficients, results, body: String::new() }
+    }
+
+    /// A parameter, read.
+    fn argument(&mut self, function: &Function, param: &Param) -> String {
+        let channels = param.kind.numbers(function.spec.channels());
+        let buffer = if param.kind.is_scalar() { &mut self.parameters } else { &mut self.coefficients };
+        let numbers: Vec<String> = (0..param.shape.len()).map(|_| buffer.item(channels)).collect();
+        dialect(function).argument(param.shape, param.kind, &numbers)
+    }
+
+    /// A call, whose result gets a name.
+    fn call(&mut self, function: &Function, name: &str, arguments: &[String]) {
+        self.body += &format!("    let {name} = {}({});\n", function.shader_name(), arguments.join(", "));
+    }
+
+    /// Writes a result, item by item.
+    fn write(&mut self, function: &Function, name: &str, (shape, kind): (Shape, Kind)) {
+        for place in 0..shape.len() {
+            let item = dialect(function).component(name, shape, kind, place);
+            self.body += &self.results.written(&item, kind.numbers(function.spec.channels()));
+        }
+    }
+
+    /// The whole text, with the functions that it calls.
+    fn around(self, functions: &[Function]) -> String {
+        let module = Module { functions: functions.to_vec(), ..Module::of(functions[0].clone()) };
+        let text = module.text(&WGSL).unwrap_or_else(|limit| panic!("{limit}"));
+        format!(
+            "{text}\n\
+             @group(0) @binding(0) var<storage, read> parameters: array<f32>;\n\
+             @group(0) @binding(1) var<storage, read> coefficients: array<f32>;\n\
+             @group(0) @binding(2) var<storage, read_write> results: array<f32>;\n\
+             @compute @workgroup_size({GROUP})\n\
+             fn main(@builtin(global_invocation_id) thread: vec3<u32>) {{\n    let at = thread.x;\n{}}}\n",
+            self.body
+        )
+    }
+}
+
+fn dialect(function: &Function) -> zonal_codegen::emit::dialect::Dialect {
+    function.dialect(&WGSL, None).unwrap_or_else(|limit| panic!("{limit}"))
+}
+
+/// Returns a shader that calls a function, as WGSL.
+pub fn whole(function: &Function) -> String {
+    let mut main = Main::new();
+    let arguments: Vec<String> =
+        function.built.code.params().iter().map(|param| main.argument(function, param)).collect();
+    main.call(function, "result", &arguments);
+    main.write(function, "result", function.built.code.result());
+    main.around(std::slice::from_ref(function))
+}
+
+/// Returns a shader that does what a kernel of so many bands does, piece by piece, for `times` signals that are turned
+/// alike, signal after signal in each band.
+pub fn in_pieces(pieces: &[Function], order: usize, times: usize) -> String {
+    let mut main = Main::new();
+    let set_up = pieces.iter().find(|piece| piece.spec.form == Form::SetUp);
+    if let Some(set_up) = set_up {
+        let arguments: Vec<String> =
+            set_up.built.code.params().iter().map(|param| main.argument(set_up, param)).collect();
+        main.call(set_up, "set_up", &arguments);
+    }
+    let channels = pieces.iter().map(|piece| piece.spec.channels()).max().unwrap_or(1);
+    for l in 0..order {
+        for time in 0..times {
+            let Some(piece) = pieces.iter().find(|piece| piece.spec.form == Form::Band(l)) else {
+                for _ in 0..2 * l + 1 {
+                    let item = main.coefficients.item(channels);
+                    main.body += &main.results.written(&item, channels);
+                }
+                continue;
+            };
+            let signal = piece.built.code.params().last().expect("a band takes a signal").clone();
+            let coefficients = main.argument(piece, &signal);
+            let shared = set_up.map(|_| "set_up".to_owned());
+            let arguments: Vec<String> = shared.into_iter().chain([coefficients]).collect();
+            let name = format!("band_{l}_{time}_");
+            main.call(piece, &name, &arguments);
+            main.write(piece, &name, piece.built.code.result());
+        }
+    }
+    main.around(pieces)
+}
+
+/// Returns a shader as SPIR-V.
+///
+/// # Panics
+///
+/// If naga refuses it, which is a fault of this file.
+pub fn spirv(wgsl: &str) -> Vec<u32> {
+    let module = naga::front::wgsl::parse_str(wgsl).unwrap_or_else(|error| panic!("{}", error.emit_to_string(wgsl)));
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{error:?}\n{wgsl}"));
+    let options = spv::Options { flags: spv::WriterFlags::empty(), force_loop_bounding: false, ..Default::default() };
+    spv::write_vec(&module, &info, &options, None).unwrap_or_else(|error| panic!("{error}\n{wgsl}"))
+}

@@ -1,0 +1,97 @@
+//! What `docs/GPU.md` says in sentences, compiled again: kernels in pieces spill nothing where the whole ones do, for the
+//! same operations, and loops over local arrays do not pay. The driver's version may be another than the page's, so that
+//! no figure of it is compared.
+
+use std::path::Path;
+use std::sync::OnceLock;
+use zonal_codegen::families::Spec;
+use zonal_measure_gpu::compile::{GPUS, Report, Row, compile};
+use zonal_measure_gpu::kernels::{Called, shaders};
+use zonal_measure_gpu::page;
+
+/// What is compiled here.
+const SPECS: [&str; 12] = [
+    "rotate:5",
+    "rotate:5:rgb",
+    "rotate:8",
+    "rotate:8:rgb",
+    "rotate:10",
+    "rotate:10:rgb",
+    "tilt:8:rgb",
+    "tilt:10:rgb",
+    "taylor15:5",
+    "taylor15:5:loop",
+    "rotate:5:loop",
+    "eval:5",
+];
+
+fn report() -> &'static Report {
+    static REPORT: OnceLock<Report> = OnceLock::new();
+    REPORT.get_or_init(|| {
+        let specs: Vec<Spec> = SPECS.map(|text| text.parse().expect("a spec")).to_vec();
+        let program = Path::new(env!("CARGO_BIN_EXE_zonal-measure-gpu"));
+        compile(program, &shaders(&specs), || ()).unwrap_or_else(|error| panic!("{error}"))
+    })
+}
+
+fn row(spec: &str, called: Called) -> &'static Row {
+    let found = report().rows.iter().find(|row| row.spec == spec && row.called == called);
+    found.unwrap_or_else(|| panic!("{spec} {called:?} was compiled"))
+}
+
+#[test]
+fn pieces_spill_nothing_where_the_whole_does() {
+    for row in report().rows.iter().filter(|row| row.called != Called::Whole) {
+        for (gpu, counted) in GPUS.iter().zip(row.gpus) {
+            println!("{} {:?} on {}: {counted:?}", row.spec, row.called, gpu.family);
+            // Three channels at once are too many from order 7 on, channel after channel is not.
+            if !(row.called == Called::Pieces && row.spec.ends_with(":rgb")) {
+                assert_eq!(counted.spilled, 0, "{} {:?} on {}", row.spec, row.called, gpu.family);
+            }
+        }
+    }
+    for gpu in [1, 2] {
+        let [whole, by_channels] =
+            [Called::Whole, Called::Channels].map(|called| row("rotate:8:rgb", called).gpus[gpu]);
+        assert!(whole.spilled > 100, "{whole:?}");
+        assert!(by_channels.waves > whole.waves, "{by_channels:?}, whole {whole:?}");
+    }
+    let [whole, pieces] = [Called::Whole, Called::Pieces].map(|called| row("rotate:8:rgb", called).gpus[2]);
+    assert!(3 * pieces.cycles <= whole.cycles, "RDNA 3: {} of {}", pieces.cycles, whole.cycles);
+}
+
+#[test]
+fn loops_over_local_arrays_do_not_pay() {
+    for (looped, straight) in [("taylor15:5:loop", "taylor15:5"), ("rotate:5:loop", "rotate:5")] {
+        let [looped, straight] = [looped, straight].map(|spec| row(spec, Called::Whole));
+        for (a, b) in looped.gpus.iter().zip(straight.gpus) {
+            assert!(a.cycles > 3 * b.cycles, "{} takes {}, {} {}", looped.spec, a.cycles, straight.spec, b.cycles);
+        }
+    }
+}
+
+/// Each instruction of a wave of 64 takes two cycles or more, and each operation is one at least.
+#[test]
+fn operations_are_a_lower_bound_of_instructions() {
+    for row in report().rows.iter().filter(|row| !row.spec.ends_with(":loop")) {
+        for counted in row.gpus {
+            assert!(counted.instructions as usize >= row.operations, "{}: {counted:?}", row.spec);
+        }
+    }
+}
+
+#[test]
+fn the_page_is_made_of_its_figures() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let text = std::fs::read_to_string(folder.join(page::JSON)).expect("docs hold the figures");
+    let report: Report = serde_json::from_str(&text).expect("they are as this program writes them");
+    let page = std::fs::read_to_string(folder.join(page::PAGE)).expect("docs hold the page");
+    assert_eq!(page, page::markdown(&report), "`cargo measure-gpu` writes docs/GPU.md again");
+    // Every kernel of the catalogue is in it, with the operations that it has now.
+    let known: std::collections::BTreeMap<&str, usize> =
+        report.rows.iter().map(|row| (row.spec.as_str(), row.operations)).collect();
+    for spec in zonal_measure_gpu::kernels::catalogue() {
+        let operations = spec.code().cost(spec.channels()).total;
+        assert_eq!(known.get(spec.to_string().as_str()), Some(&operations), "{spec}: `cargo measure-gpu`");
+    }
+}
