@@ -19,7 +19,8 @@ pub const NO_PIECES: &str =
 impl Spec {
     /// Its pieces; none where it does not leave bands apart.
     pub fn pieces(&self) -> Option<Pieces> {
-        let is_plain = self.family.branch.is_none() && self.is_whole() && self.factors.is_none();
+        let is_plain =
+            self.form != Form::Loop && self.family.branch.is_none() && self.is_whole() && self.factors.is_none();
         let kernel = || (self.family.kernel)(&self.whole());
         (is_plain && self.family.acts == Acts::Turns && self.family.has_signal())
             .then(kernel)

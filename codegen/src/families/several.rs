@@ -1,6 +1,6 @@
 //! A text that names several specs: `rotate:8:pieces` stands for the set-up of `rotate:8` and its bands.
 
-use crate::families::family::{Form, Spec};
+use crate::families::family::Spec;
 use crate::families::pieces::{NO_PIECES, PIECES};
 use crate::families::text::SpecError;
 
@@ -21,7 +21,7 @@ pub fn several(text: &str) -> Result<Vec<Spec>, SpecError> {
     let spec: Spec = rest
         .parse()
         .map_err(|error: SpecError| SpecError { at: moved(error.at.start)..moved(error.at.end), ..error })?;
-    let pieces = if spec.form == Form::Unrolled { spec.in_pieces() } else { vec![] };
+    let pieces = if spec.form.is_piece() { vec![] } else { spec.in_pieces() };
     let none = || SpecError {
         message: format!("`{rest}` has no pieces"),
         help: NO_PIECES.to_owned(),
