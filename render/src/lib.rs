@@ -6,6 +6,8 @@
 //!                       └──▶ surfaces ─▶ reference (f64) ─▶ figures
 //! ```
 
+pub mod bands;
+pub mod bands_page;
 pub mod canvas;
 pub mod figures;
 pub mod frame;
