@@ -13,6 +13,8 @@ pub mod figures;
 pub mod frame;
 pub mod gpu;
 pub mod lightmap;
+pub mod mirror;
+pub mod pages;
 pub mod reference;
 pub mod report;
 pub mod strip;

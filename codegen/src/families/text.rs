@@ -405,12 +405,14 @@ impl FromStr for Spec {
             }
         }
         if is_open {
-            let mut own = ALL.iter().filter(|family| family.name == head.text);
-            let is_meant = |family: &&&Family| match spec.form {
-                Form::Loop => family.looped.is_some(),
-                Form::Unrolled => (family.usual)(order, spec.rgb),
+            let own = || ALL.iter().filter(|family| family.name == head.text);
+            let usual = || own().find(|family| (family.usual)(order, spec.rgb));
+            let meant = match spec.form {
+                // A family without a loop is refused below.
+                Form::Loop => own().find(|family| family.looped.is_some()).or_else(usual),
+                Form::Unrolled => usual(),
             };
-            spec.family = own.find(is_meant).expect("one of a family's methods is the usual one");
+            spec.family = meant.expect("one of a family's methods is the usual one");
         }
         spec.check(&Piece { text, at: 0..text.len() })?;
         Ok(spec)
