@@ -109,9 +109,7 @@ pub fn rows(gpu: &Gpu, subject: &Subject, orders: &[usize], bar: &ProgressBar) -
 pub fn sides(light: &Projection, bands: &[usize]) -> Result<Vec<Side>, Diagnostic> {
     let side = |&band: &usize| {
         let of = |&error: &f64| {
-            // Half precision rounds by as much as the least of the errors.
-            let texel = if error < 2e-3 { Texel::Float } else { Texel::Half };
-            light.band_table(band, error, texel).map(|table| (table.side, table.error, table.largest))
+            light.band_table(band, error, Texel::Half).map(|table| (table.side, table.error, table.largest))
         };
         let found = ERRORS.iter().map(of).collect::<Result<Vec<_>, _>>();
         let found = found.map_err(|fault| Diagnostic::nowhere(fault.message, fault.help))?;
@@ -197,8 +195,7 @@ impl Report {
              The smallest faces with which a bilinear read errs by no more than is asked for, as a share of the band's largest \
              value; in brackets what is measured, in the middles of 20,000 cells and of two of their sides. *By the bound* is \
              l² h² / 4 of it for texels h apart: it is one of the second order, which the curves of a face's coordinates may \
-             exceed where h is large. Texels are halves, for the least error floats, since half precision alone rounds by \
-             0.05 %. The texels of a face's rim lie on the cube's edge, where the neighbour has the same ones: no filter reaches \
+             exceed where h is large. Texels are halves, which round by 0.05 % at most. The texels of a face's rim lie on the cube's edge, where the neighbour has the same ones: no filter reaches \
              over an edge. Beside them faces of {PAPERS} texels for every band, as both papers have them: there rounding is all \
              that is left.\n\n| band |",
             self.scene

@@ -47,10 +47,10 @@ pub fn mirror(scenes: &Path) -> Result<(Ball, Vec<(&'static str, Map)>), Fault> 
     let camera = Camera { azimuth: 30.0, elevation: 12.0, distance: 5.0, field: 25.0 };
     let map = |name: &'static str| {
         let map = Map::read(&scenes.join(format!("maps/{name}_256x128.hdr"))).map_err(Fault::from)?;
-        Ok((name, map))
+        Ok((name, mirror::cut(map)))
     };
     let maps = MAPS.into_iter().map(map).collect::<Result<_, Fault>>()?;
-    Ok((Ball { normals, strength: 0.5, camera }, maps))
+    Ok((Ball { normals, strength: 1.5, camera }, maps))
 }
 
 impl Page {

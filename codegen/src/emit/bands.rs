@@ -1,5 +1,5 @@
-//! Text that reads the bands of a light from cubemaps: for the signal-tailored rotation, and for shading by isotropic
-//! decomposition (docs/MATH.md#band-tables). It knows which directions both take, and nothing of the tables' sizes, which the
+//! Text that reads the bands of a light from cubemaps: for the signal-tailored rotation, for shading by isotropic
+//! decomposition (docs/MATH.md#band-tables), and for mirrors (docs/MATH.md#antialiased-reflections). It knows which directions both take, and nothing of the tables' sizes, which the
 //! text asks the textures for.
 
 use crate::emit::language::{Target, shader};
@@ -32,6 +32,8 @@ pub struct Reads<'a> {
 struct Band {
     band: usize,
     binding: usize,
+    /// 1/√(2l + 1), which brings a Gaussian's zonal coefficient to a factor of the band.
+    root: String,
 }
 
 /// A read of a table.
@@ -76,7 +78,12 @@ impl Reads<'_> {
         context.insert("group", &self.group);
         context.insert("order", &order);
         context.insert("size", &(order * order));
-        context.insert("bands", &(0..order).map(|band| Band { band, binding: band + 1 }).collect::<Vec<_>>());
+        let band = |band: usize| Band {
+            band,
+            binding: band + 1,
+            root: shader::literal(&Exact::sqrt_ratio(1, 2 * band + 1)),
+        };
+        context.insert("bands", &(0..order).map(band).collect::<Vec<_>>());
         let comma = |place: usize| if place + 1 < order * order { "," } else { "" };
         if let Some(set) = (order > 1).then(|| shared_free(order)).flatten() {
             let lobes: Vec<String> = set.directions.iter().map(|lobe| vector(&lobe.xyz())).collect();

@@ -19,7 +19,7 @@ use zonal_picture::mirror::{Attenuation, Slices, places};
 /// The orders that are drawn.
 pub const ORDERS: [usize; 3] = [16, 32, 64];
 /// The maps.
-pub const MAPS: [&str; 3] = ["interior", "studio", "forest"];
+pub const MAPS: [&str; 3] = ["courtyard", "forest", "sunset"];
 /// The relief.
 pub const NORMALS: &str = "0000";
 /// The pixels along a side of a picture.
@@ -33,6 +33,27 @@ const DEVIATIONS: [f64; 2] = [1e-3, 1.0];
 
 /// The ways to find a pixel's light of some bands.
 pub const WAYS: [&str; 3] = ["one sample", "option 3", "option 1"];
+
+/// How many times the mean of the map the brightest texels are left.
+const BRIGHTEST: f64 = 4.0;
+
+/// Returns a map whose brightest texels are cut: bands ring around a lamp as high as it is, and nothing else would be seen.
+pub fn cut(mut map: Map) -> Map {
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for (i, texel) in map.texels.iter().enumerate() {
+        let solid_angle = map.solid_angle(i % map.width, i / map.width);
+        sum += solid_angle * texel.iter().sum::<f64>() / 3.0;
+        whole += solid_angle;
+    }
+    let most = BRIGHTEST * sum / whole;
+    for texel in &mut map.texels {
+        let high = texel.iter().copied().fold(0.0, f64::max);
+        if high > most {
+            texel.iter_mut().for_each(|v| *v *= most / high);
+        }
+    }
+    map
+}
 
 /// What one order comes to under one map.
 #[derive(Clone, Debug)]
