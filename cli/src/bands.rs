@@ -102,13 +102,12 @@ fn image(table: &BandTable) -> Result<Vec<u8>, Fault> {
 
 /// The texts that read the tables, with their file names; none beyond the order to which there are such.
 fn texts(name: &str, order: usize, map: &Path) -> Result<Vec<(String, String)>, Failure> {
-    let prefix = format!("{name}_band");
     let origin = format!("the map `{}`", map.display());
-    let reads = Reads { order, name: &prefix, group: 1, origin: &origin };
+    let reads = Reads { order, name, group: 1, origin: &origin };
     let mut texts = Vec::new();
     for target in [&WGSL, &GLSL] {
         let Some(text) = reads.text(target) else { continue };
-        let file = format!("{name}_bands.{}", target.extension);
+        let file = format!("{name}s.{}", target.extension);
         // Naga's GLSL has no samplers as other compilers have them.
         if target.name == WGSL.name {
             validate(target, &file, &text).map_err(|error| Fault::new(error.to_string(), ""))?;
@@ -121,8 +120,8 @@ fn texts(name: &str, order: usize, map: &Path) -> Result<Vec<(String, String)>, 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let replace = Replace::forced(arguments.force);
     let (order, texel) = (arguments.order as usize, if arguments.float { Texel::Float } else { Texel::Half });
-    let name = name_of(&arguments.map);
-    let about_file = format!("{name}_bands.toml");
+    let name = name_of(&arguments.map, "_band");
+    let about_file = format!("{name}s.toml");
     let head = format!("# {MARK} bands: what the images beside this file hold.\n");
     let loaded = Loaded::read(&arguments.map).map_err(Fault::from)?;
     // What may not be written is better known before the work than after it.
@@ -140,14 +139,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         })?);
         bar.inc(1);
     }
-    let file = |table: &BandTable| format!("{name}_band_{}.exr", table.band);
+    let file = |table: &BandTable| format!("{name}_{}.exr", table.band);
     let about = About {
         map: arguments.map.display().to_string(),
         of: if arguments.irradiance { "irradiance" } else { "radiance" },
         order,
         error: arguments.error,
         texel: if arguments.float { "32-bit float" } else { "16-bit float" },
-        layout: format!("six faces from left to right: {}; rows from the top, each face seen from inside", FACES.join(" ")),
+        layout: format!(
+            "six faces from left to right: {}; rows from the top, each face seen from inside",
+            FACES.join(" ")
+        ),
         rim: "the first and the last texel of a row or a column lie on the face's rim, and its neighbour has the same ones: the text of the shaders reads them so; import without levels and without compression",
         axes: "the cube's frame is left-handed and y up, as that of OpenGL and Direct3D: its x, z and y are the map's x, y and z",
         band: tables

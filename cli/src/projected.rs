@@ -212,7 +212,7 @@ impl Projected {
     /// The coefficients as constants of a language.
     fn text(&self, path: &Path, name: &str) -> Result<String, Failure> {
         let target = language::named(name).map_err(|message: String| Fault::new(message, ""))?;
-        let name = name_of(path);
+        let name = name_of(path, "");
         let module = Module {
             origin: format!("the map `{}`", path.display()),
             constants: vec![Constants {
@@ -339,13 +339,13 @@ impl Projected {
     }
 }
 
-/// Returns a name for what is made of a map that every language takes: that of its file, if it can be one.
-pub fn name_of(path: &Path) -> String {
+/// Returns a name for what is made of a map that every language takes: that of its file, if it can be one with an `ending`.
+pub fn name_of(path: &Path, ending: &str) -> String {
     let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase());
     let stem: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    let with_map = format!("{stem}_map");
-    let known = [stem, with_map].into_iter().find(|name| names::fault(name, Use::Item, &language::ALL).is_none());
-    known.unwrap_or_else(|| "environment".to_owned())
+    let names = [format!("{stem}{ending}"), format!("{stem}_map{ending}")];
+    let known = names.into_iter().find(|name| names::fault(name, Use::Item, &language::ALL).is_none());
+    known.unwrap_or_else(|| format!("environment{ending}"))
 }
 
 /// A number with six digits of the largest beside it: with a point where that is read easily, else with an exponent.

@@ -1,5 +1,6 @@
 //! What each way to turn coefficients costs, and how far it errs.
 
+use zonal_codegen::emit::bands;
 use zonal_codegen::families::Spec;
 use zonal_codegen::ir::listing::Cost;
 use zonal_codegen::promise::law;
@@ -58,27 +59,16 @@ pub struct Reading {
     pub reads: usize,
 }
 
-/// The matrix of a quaternion.
-const MATRIX: usize = 17;
-/// A direction turned by a matrix.
-const TURNED: usize = 9;
-/// The largest component of a direction alone: two maxima, three comparisons that select.
-const MAJOR: usize = 8;
-/// A direction drawn out for the faces of a size.
-const OUTWARD: usize = 3;
-
 impl Reading {
     /// The cost of a method at an order; none if it reads no tables.
     pub fn of(method: Method, order: usize) -> Option<Self> {
         let reads = order * order;
-        let set_up = MATRIX + (2 * order - 1) * (TURNED + MAJOR) + OUTWARD * reads;
-        let rest = match method {
-            // Of weights and values a multiply-add a channel, of each band's sum one more.
-            Method::IsdTables => 3 * reads + 3 * order,
-            Method::ZhfTailored => method.spec(order)?.code().cost(3).total + 3 * reads,
+        let operations = match method {
+            Method::IsdTables => bands::shaded(order, 3),
+            Method::ZhfTailored => bands::set_up(order) + method.spec(order)?.code().cost(3).total + 3 * reads,
             _ => return None,
         };
-        Some(Self { operations: set_up + rest, reads })
+        Some(Self { operations, reads })
     }
 }
 

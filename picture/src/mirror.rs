@@ -2,7 +2,7 @@
 //! and what that does to harmonics (docs/MATH.md#antialiased-reflections; Soler et al. 2015, section 6.2). It knows neither
 //! maps nor pictures.
 
-use crate::vector::{add, across, cross, dot, unit};
+use crate::vector::{across, add, cross, dot, unit};
 use zonal_codegen::environment::harmonics::basis;
 // Names a family: its coefficients are what a Gaussian does to the bands of a light.
 use zonal_codegen::families::parts::zonal::Gaussian;
@@ -51,7 +51,8 @@ impl Footprint {
         if sharpness.is_nan() { 0.0 } else { sharpness.clamp(0.0, SHARPEST) }
     }
 
-    /// Returns the Gaussian of the covariance σ² D Dᵀ, no narrower along either axis than `least` and no wider than `most`.
+    /// Returns the Gaussian of the covariance σ² D Dᵀ, no narrower along either axis than `least` and no wider than `most`, which is
+    /// what it has where D is no number.
     pub fn spread(&self, variance: f64, [least, most]: [f64; 2]) -> Spread {
         let middle = unit(self.direction).unwrap_or([0.0, 0.0, 1.0]);
         let x = across(self.moves[0].map(finite), middle);
@@ -62,7 +63,9 @@ impl Footprint {
         let (sin, cos) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
         let first = add(x.map(|v| cos * v), sin, y);
         let half = 0.5 * (xx - yy).hypot(2.0 * xy);
-        let wide = |sign: f64| (variance * (0.5 * (xx + yy) + sign * half).max(0.0)).sqrt().clamp(least, most);
+        let is_number = !self.moves.as_flattened().iter().any(|x| x.is_nan());
+        let of = |sign: f64| (variance * (0.5 * (xx + yy) + sign * half).max(0.0)).sqrt().clamp(least, most);
+        let wide = |sign: f64| if is_number { of(sign) } else { most };
         Spread { axes: [first, cross(middle, first), middle], deviations: [wide(1.0), wide(-1.0)] }
     }
 }
@@ -254,7 +257,9 @@ mod tests {
             let want = add(at(step), -1.0, at(-step)).map(|x| x / (2.0 * step));
             // Differences err by the square of the step and by rounding over it.
             assert!(length(add(found.moves[0], -1.0, want)) < 1e-9, "{found:?} {want:?}");
-            assert!(dot(found.moves[0], found.direction).abs() < 1e-12 && (length(found.direction) - 1.0).abs() < 1e-12);
+            assert!(
+                dot(found.moves[0], found.direction).abs() < 1e-12 && (length(found.direction) - 1.0).abs() < 1e-12
+            );
         }
     }
 
@@ -274,7 +279,10 @@ mod tests {
             let sharpness = found.sharpness(0.25);
             assert!((0.0..1e-50).contains(&sharpness), "{huge}: {sharpness}");
             let spread = found.spread(0.25, [0.01, 1.0]);
-            assert!(spread.deviations[0] == 1.0 && spread.axes.as_flattened().iter().all(|x| x.is_finite()), "{spread:?}");
+            assert!(
+                spread.deviations[0] == 1.0 && spread.axes.as_flattened().iter().all(|x| x.is_finite()),
+                "{spread:?}"
+            );
         }
         let none = Footprint::new([0.0, 0.6, -0.8], [0.0, 0.0, 1.0], [[f64::NAN; 3]; 2]);
         assert_eq!(none.sharpness(0.25), 0.0);
@@ -328,7 +336,10 @@ mod tests {
         assert!(all.factors(0.0)[1..].iter().all(|factor| *factor == 0.0) && all.factors(0.0)[0] == 1.0);
         // e^(−l(l+1) / 2κ), to the first order in 1/κ.
         let sharp = all.factors(SHARPEST);
-        assert!((0..order).all(|l| (1.0 - sharp[l] - (l * (l + 1)) as f64 / (2.0 * SHARPEST)).abs() < 1e-12), "{sharp:?}");
+        assert!(
+            (0..order).all(|l| (1.0 - sharp[l] - (l * (l + 1)) as f64 / (2.0 * SHARPEST)).abs() < 1e-12),
+            "{sharp:?}"
+        );
     }
 
     #[test]

@@ -30,9 +30,11 @@ impl Tables {
     ///
     /// If half precision or the largest faces do not keep it.
     pub fn new(light: &Projection, error: f64) -> Result<Self, Diagnostic> {
-        Self::of(light, |light, band| light.band_table(band, error, Texel::Half).map_err(|fault| {
-            Diagnostic::nowhere(fault.message, "take another method, or a larger error")
-        }))
+        Self::of(light, |light, band| {
+            light
+                .band_table(band, error, Texel::Half)
+                .map_err(|fault| Diagnostic::nowhere(fault.message, "take another method, or a larger error"))
+        })
     }
 
     /// The tables of all bands of a light with faces of one side.

@@ -54,6 +54,25 @@ pub struct Side {
     pub papers: f64,
 }
 
+impl Row {
+    /// Returns its line in the page's table.
+    pub fn line(&self) -> String {
+        let [zhf, isd] = self.errors.map(|errors| format!("{} | {}", percent(errors.rms), percent(errors.worst)));
+        format!("| {} | {} | {} | {zhf} | {isd} |\n", self.order, percent(self.asked), thousands(self.bytes))
+    }
+}
+
+impl Side {
+    /// Returns its line in the page's table.
+    pub fn line(&self) -> String {
+        let mut line = format!("| {} |", self.band);
+        for ((texels, error), asked) in self.sides.iter().zip(ERRORS) {
+            let _ = write!(line, " {texels} ({}) | {} |", percent(*error), bound_side(self.band, asked));
+        }
+        line + &format!(" {} |\n", percent(self.papers))
+    }
+}
+
 /// What is measured.
 pub struct Report {
     /// The subject's name and its map's.
@@ -136,7 +155,8 @@ fn forms(order: usize) -> Vec<Form> {
         let operations = listing.cost(channels).total + besides;
         Some(Form { name: name.to_owned(), operations, reads: 0, live: Some(listing.footprint().live) })
     };
-    let turned = kernel("`rotate` the reflectance, then times the light", &format!("rotate:{order}"), 1, 3 * order * order);
+    let turned =
+        kernel("`rotate` the reflectance, then times the light", &format!("rotate:{order}"), 1, 3 * order * order);
     let reading = |name: &str, method: Method| {
         let Reading { operations, reads } = Reading::of(method, order)?;
         Some(Form { name: name.to_owned(), operations, reads, live: None })
@@ -204,16 +224,9 @@ impl Report {
             let _ = write!(text, " {} | by the bound |", percent(error));
         }
         let _ = write!(text, " {PAPERS} texels |\n|---|{}---|\n", "---|---|".repeat(ERRORS.len()));
-        for side in &self.sides {
-            let _ = write!(text, "| {} |", side.band);
-            for ((texels, error), asked) in side.sides.iter().zip(ERRORS) {
-                let _ = write!(text, " {texels} ({}) | {} |", percent(*error), bound_side(side.band, asked));
-            }
-            let _ = writeln!(text, " {} |", percent(side.papers));
-        }
+        text.extend(self.sides.iter().map(Side::line));
         self.write_pictures(&mut text);
-        write_forms(&mut text);
-        text
+        text + &forms_text()
     }
 
     fn write_pictures(&self, text: &mut String) {
@@ -230,15 +243,13 @@ impl Report {
             thousands(5 * 36 * PAPERS * PAPERS),
             thousands(8 * 36 * PAPERS * PAPERS)
         );
-        for row in &self.rows {
-            let [zhf, isd] = row.errors.map(|errors| format!("{} | {}", percent(errors.rms), percent(errors.worst)));
-            let (asked, bytes) = (percent(row.asked), thousands(row.bytes));
-            let _ = writeln!(text, "| {} | {asked} | {bytes} | {zhf} | {isd} |", row.order);
-        }
+        text.extend(self.rows.iter().map(Row::line));
     }
 }
 
-fn write_forms(text: &mut String) {
+/// Returns what the page says of operations.
+pub fn forms_text() -> String {
+    let mut text = String::new();
     let _ = write!(
         text,
         "\n## Which pays when\n\n\
@@ -262,11 +273,8 @@ fn write_forms(text: &mut String) {
                 _ if form.operations >= best => "nothing".to_owned(),
                 reads => format!("{:.1}", (best - form.operations) as f64 / reads as f64),
             };
-            let _ = writeln!(
-                text,
-                "| {order} | {} | {} | {} | {live} | {price} |",
-                form.name, form.operations, form.reads
-            );
+            let _ =
+                writeln!(text, "| {order} | {} | {} | {} | {live} | {price} |", form.name, form.operations, form.reads);
         }
     }
     let first = (3..=12).find(|&order| {
@@ -275,7 +283,9 @@ fn write_forms(text: &mut String) {
         forms.iter().any(|form| form.reads > 0 && Some(form.operations) < best)
     });
     let _ = match first {
-        Some(order) => writeln!(text, "\nThe first order at which a way with tables takes fewer operations is {order}."),
+        Some(order) => {
+            writeln!(text, "\nThe first order at which a way with tables takes fewer operations is {order}.")
+        }
         None => writeln!(text, "\nTo order 12 no way with tables takes fewer operations."),
     };
     let _ = writeln!(
@@ -283,6 +293,7 @@ fn write_forms(text: &mut String) {
         "The same forms for one channel, with the isotropic and the zonal ones, stand in \
          [measure/shading.md](measure/shading.md)."
     );
+    text
 }
 
 /// The strip: exact, then each method and its errors.

@@ -224,7 +224,8 @@ impl Gpu {
         let views: Vec<wgpu::TextureView> = (0..tables.bands.len()).map(view).collect();
         let entry = |binding: usize, resource| wgpu::BindGroupEntry { binding: binding as u32, resource };
         let mut entries = vec![entry(0, wgpu::BindingResource::Sampler(&sampler))];
-        entries.extend(views.iter().enumerate().map(|(i, view)| entry(i + 1, wgpu::BindingResource::TextureView(view))));
+        entries
+            .extend(views.iter().enumerate().map(|(i, view)| entry(i + 1, wgpu::BindingResource::TextureView(view))));
         let layout = self.tables_layout(views.len());
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
     }

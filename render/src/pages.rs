@@ -41,8 +41,9 @@ pub fn subject(scenes: &Path) -> Result<Subject, Diagnostic> {
 /// If a file is not there or at fault.
 pub fn mirror(scenes: &Path) -> Result<(Ball, Vec<(&'static str, Map)>), Fault> {
     let path = scenes.join(format!("normals/{NORMALS}.webp"));
-    let bytes = input::read(&path, normal_map::MAX_BYTES)
-        .map_err(|error| Fault::new(format!("{}: cannot be read ({error})", path.display()), "name the folder of scenes"))?;
+    let bytes = input::read(&path, normal_map::MAX_BYTES).map_err(|error| {
+        Fault::new(format!("{}: cannot be read ({error})", path.display()), "name the folder of scenes")
+    })?;
     let normals = NormalMap::from_bytes(&path.display().to_string(), &bytes)?;
     let camera = Camera { azimuth: 30.0, elevation: 12.0, distance: 5.0, field: 25.0 };
     let map = |name: &'static str| {

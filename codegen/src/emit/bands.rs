@@ -14,6 +14,26 @@ use tera::Context;
 /// How many directions text is made for at most: what few textures and compilers take.
 pub const MAX_ORDER: usize = 16;
 
+/// The matrix of a quaternion.
+const MATRIX: usize = 17;
+/// A direction turned by a matrix.
+const TURNED: usize = 9;
+/// The largest component of a direction alone: two maxima, three comparisons that select.
+const MAJOR: usize = 8;
+/// A direction drawn out for the faces of a size.
+const OUTWARD: usize = 3;
+
+/// Returns the operations from the quaternion of a frame to the reads of an order's bands at its directions, n² of them.
+pub fn set_up(order: usize) -> usize {
+    MATRIX + (2 * order - 1) * (TURNED + MAJOR) + OUTWARD * order * order
+}
+
+/// Returns the operations of shading by isotropic decomposition from tables, from the quaternion of the frame and the weights on:
+/// of weights and values a multiply-add a channel, of each band's sum one more.
+pub fn shaded(order: usize, channels: usize) -> usize {
+    set_up(order) + channels * (order * order + order)
+}
+
 /// What text is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Reads<'a> {
@@ -78,11 +98,8 @@ impl Reads<'_> {
         context.insert("group", &self.group);
         context.insert("order", &order);
         context.insert("size", &(order * order));
-        let band = |band: usize| Band {
-            band,
-            binding: band + 1,
-            root: shader::literal(&Exact::sqrt_ratio(1, 2 * band + 1)),
-        };
+        let band =
+            |band: usize| Band { band, binding: band + 1, root: shader::literal(&Exact::sqrt_ratio(1, 2 * band + 1)) };
         context.insert("bands", &(0..order).map(band).collect::<Vec<_>>());
         let comma = |place: usize| if place + 1 < order * order { "," } else { "" };
         if let Some(set) = (order > 1).then(|| shared_free(order)).flatten() {

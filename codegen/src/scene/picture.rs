@@ -3,10 +3,10 @@
 
 // Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::families::text::usual;
 use crate::families::tilt::TILT;
 use crate::families::zhf::ZHF_TAILORED;
-use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::families::{SmallAngle, Spec};
 use crate::fault::hint;
 use crate::reflectance::brdf::Brdf;

@@ -54,7 +54,8 @@ impl Ball {
         // Half of the map from pole to pole, so that its texels are square at the equator.
         let v = (z.clamp(-1.0, 1.0).asin() / std::f64::consts::TAU + 0.25) * height as f64 - 0.5;
         let texel = |dx: usize, dy: usize| {
-            let at = |v: f64, d: usize, side: usize| (v.floor() as isize + d as isize).rem_euclid(side as isize) as usize;
+            let at =
+                |v: f64, d: usize, side: usize| (v.floor() as isize + d as isize).rem_euclid(side as isize) as usize;
             self.normals.normals[at(v, dy, height) * width + at(u, dx, width)].map(f64::from)
         };
         let (right, up) = (u - u.floor(), v - v.floor());

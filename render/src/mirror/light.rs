@@ -27,10 +27,12 @@ impl Banded {
     fn with_rows(light: Projection, height: usize) -> Self {
         let width = 2 * height;
         let order = light.order;
-        let waves: Vec<[f32; 2]> = (0..width).map(|x| {
-            let (sin, cos) = (TAU * x as f64 / width as f64).sin_cos();
-            [cos as f32, sin as f32]
-        }).collect();
+        let waves: Vec<[f32; 2]> = (0..width)
+            .map(|x| {
+                let (sin, cos) = (TAU * x as f64 / width as f64).sin_cos();
+                [cos as f32, sin as f32]
+            })
+            .collect();
         let row = |y: usize| {
             let (sin, cos) = (PI * (y as f64 + 0.5) / height as f64).sin_cos();
             let mut values = vec![0.0; order * order];
@@ -66,16 +68,15 @@ impl Banded {
     pub fn read(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
         let width = 2 * self.height;
         let column = y.atan2(x) / std::f32::consts::TAU * width as f32;
-        let row = (z.clamp(-1.0, 1.0).acos() / std::f32::consts::PI * self.height as f32 - 0.5).clamp(0.0, (self.height - 1) as f32);
+        let row = (z.clamp(-1.0, 1.0).acos() / std::f32::consts::PI * self.height as f32 - 0.5)
+            .clamp(0.0, (self.height - 1) as f32);
         let (left, top) = (column.floor(), (row as usize).min(self.height - 2));
         let (right, down) = (column - left, row - top as f32);
         let left = (left as isize).rem_euclid(width as isize) as usize;
         let next = if left + 1 == width { 0 } else { left + 1 };
         let [a, b, c, d] =
             [(left, top), (next, top), (left, top + 1), (next, top + 1)].map(|(x, y)| self.texels[y * width + x]);
-        std::array::from_fn(|k| {
-            (a[k] + right * (b[k] - a[k])) * (1.0 - down) + (c[k] + right * (d[k] - c[k])) * down
-        })
+        std::array::from_fn(|k| (a[k] + right * (b[k] - a[k])) * (1.0 - down) + (c[k] + right * (d[k] - c[k])) * down)
     }
 
     /// Returns the light in a direction, each band times its factor: equation 29.
@@ -105,7 +106,9 @@ mod tests {
         let order = 9;
         let coefficients = (0..order * order).map(|_| [(); 3].map(|()| random.signed())).collect();
         let banded = Banded::with_rows(Projection { order, coefficients, beyond: 0.0 }, 512);
-        for direction in [[-1.0, 1e-9, 0.0], [-1.0, -1e-9, 0.0], [0.0, 0.6, 0.8]].into_iter().chain((0..200).map(|_| random.unit())) {
+        for direction in
+            [[-1.0, 1e-9, 0.0], [-1.0, -1e-9, 0.0], [0.0, 0.6, 0.8]].into_iter().chain((0..200).map(|_| random.unit()))
+        {
             let (found, want) = (banded.read(direction.map(|x| x as f32)), banded.light.evaluate(direction));
             let exact = banded.blurred(direction, &vec![1.0; order]);
             for k in 0..3 {

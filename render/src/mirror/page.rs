@@ -23,7 +23,7 @@ pub const MAPS: [&str; 3] = ["courtyard", "forest", "sunset"];
 /// The relief.
 pub const NORMALS: &str = "0000";
 /// The pixels along a side of a picture.
-pub const SIDE: usize = 160;
+pub const SIDE: usize = 144;
 /// The order at which the long Gaussian goes through a kernel too.
 pub const BY_KERNEL: usize = 8;
 /// Rings and spokes of the places by which a long Gaussian is summed.
@@ -233,7 +233,8 @@ impl Report {
              Gaussian about the mirrored direction (*option 3*, equation 29: bands times i_l(κ) / i_0(κ)) and a long one of the \
              covariance σ² D Dᵀ (*option 1*: here its light is summed over {} places of a table of the bands). Half of the pixels have a \
              Gaussian wider than {half:.1} degrees, one in ten one wider than {tenth:.1}. Errors are root mean squares over the ball, as shares \
-             of its mean radiance. In the picture they are against many samples of the map itself.\n\n",
+             of its mean radiance. In the picture they are against many samples of the map itself. The maps' brightest texels are brought down to \
+             {BRIGHTEST} times the mean: bands ring around a lamp by as much as it is bright, and nothing else would be seen.\n\n",
             self.shown,
             PLACES[0] * PLACES[1],
             side = self.cases.first().map_or(0, |case| case.frames[0].size[0]),
@@ -282,13 +283,13 @@ impl Report {
                 );
             }
         }
-        write_costs(&mut text);
-        text
+        text + &costs_text()
     }
 }
 
-/// What the ways take, in operations for R, G and B.
-fn write_costs(text: &mut String) {
+/// Returns what the page says of operations.
+pub fn costs_text() -> String {
+    let mut text = String::new();
     let _ = write!(
         text,
         "\n## What they take\n\n\
@@ -313,6 +314,7 @@ fn write_costs(text: &mut String) {
             RAYS * RAYS
         );
     }
+    text
 }
 
 /// The operations of κ: the cosine, for each of two slopes a product with the view, a sum of two vectors and a square, then
