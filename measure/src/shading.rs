@@ -132,9 +132,6 @@ fn forms(&order: &usize) -> Forms {
     }
 }
 
-pub fn all_forms() -> Vec<Forms> {
-    ORDERS.iter().map(forms).collect()
-}
 /// Lobes of light, each a direction, a sharpness and a strength: exp(κ (cos − 1)).
 const LAMPS: [([f64; 3], f64, f64); 3] =
     [([0.36, 0.48, 0.8], 40.0, 3.0), ([-0.6, 0.64, 0.48], 15.0, 1.0), ([0.8, -0.36, 0.48], 25.0, 2.0)];

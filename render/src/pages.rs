@@ -51,7 +51,7 @@ pub fn mirror(scenes: &Path) -> Result<(Ball, Vec<(&'static str, Map)>), Fault> 
         Ok((name, mirror::cut(map)))
     };
     let maps = MAPS.into_iter().map(map).collect::<Result<_, Fault>>()?;
-    Ok((Ball { normals, strength: 1.5, camera }, maps))
+    Ok((Ball { normals, strength: 0.5, camera }, maps))
 }
 
 impl Page {

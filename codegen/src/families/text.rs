@@ -407,12 +407,9 @@ impl FromStr for Spec {
         if is_open {
             let own = || ALL.iter().filter(|family| family.name == head.text);
             let usual = || own().find(|family| (family.usual)(order, spec.rgb));
-            let meant = match spec.form {
-                // A family without a loop is refused below.
-                Form::Loop => own().find(|family| family.looped.is_some()).or_else(usual),
-                Form::Unrolled => usual(),
-            };
-            spec.family = meant.expect("one of a family's methods is the usual one");
+            let looped = own().find(|family| spec.form == Form::Loop && family.looped.is_some());
+            // Of a family without a loop form it is refused below.
+            spec.family = looped.or_else(usual).expect("one of a family's methods is the usual one");
         }
         spec.check(&Piece { text, at: 0..text.len() })?;
         Ok(spec)

@@ -21,7 +21,7 @@ pub const ORDERS: [usize; 3] = [16, 32, 64];
 /// The maps.
 pub const MAPS: [&str; 3] = ["courtyard", "forest", "sunset"];
 /// The relief.
-pub const NORMALS: &str = "0000";
+pub const NORMALS: &str = "0015";
 /// The pixels along a side of a picture.
 pub const SIDE: usize = 144;
 /// The order at which the long Gaussian goes through a kernel too.

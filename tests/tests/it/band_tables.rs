@@ -3,10 +3,12 @@
 
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 use std::path::Path;
-use zonal_codegen::emit::bands::Reads;
+use zonal_codegen::emit::bands::{Reads, shaded};
 use zonal_codegen::emit::language::{GLSL, Target, WGSL};
 use zonal_codegen::environment::{Map, Texel};
+use zonal_codegen::plan::Plan;
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::scene::{Maps, Scene};
 use zonal_picture::mirror::{Attenuation, Footprint, SHARPEST};
 use zonal_tests::command::{Folder, Run};
 use zonal_tests::repository;
@@ -105,6 +107,26 @@ fn what_cannot_be_written_is_refused() {
     assert_eq!(std::fs::read_dir(folder.path("bands")).expect("a folder").count(), 1);
     let run = ran(&folder, &[&map, "--order", "2", "--force"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
+}
+
+#[test]
+fn a_plan_says_what_is_cheaper_than_what_the_papers_write() {
+    let text = "name = \"a\"\n[[kernel]]\nspec = \"isd_shade:5:rgb\"\n[[kernel]]\nspec = \"isd_shade_zonal:4\"\n\
+                [[kernel]]\nspec = \"shade:5\"\n";
+    let scene = Scene::parse("a.toml", text, Maps::Embedded(&[])).unwrap_or_else(|error| panic!("{error}"));
+    let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+    let [isd, zonal, direct] = &plan.kernels[..] else { panic!("three kernels") };
+    let total = |text: &str| {
+        let spec = spec(text);
+        spec.code().cost(spec.channels()).total
+    };
+    let [own, less] = ["isd_shade:5:rgb", "shade:5:rgb"].map(total);
+    let read = shaded(5, 3);
+    assert!(read < less && less < own);
+    let want = format!("`shade:5:rgb` gives the same for {less} operations instead of {own}, and 25 reads of tables");
+    assert!(isd.reason.contains(&want) && isd.reason.contains(&format!("do with {read},")), "{}", isd.reason);
+    assert!(zonal.reason.contains("`shade_zonal:4` gives the same") && !zonal.reason.contains("tables"));
+    assert_eq!(direct.reason, "asked for by the scene");
 }
 
 /// A function of the text that reads tables, with the language that the evaluator takes it in. Reads of band `one` give one, of
