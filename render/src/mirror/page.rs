@@ -289,26 +289,26 @@ impl Report {
 
 /// Returns what the page says of operations.
 pub fn costs_text() -> String {
-    let mut text = String::new();
-    let _ = write!(
-        text,
+    let mut text = format!(
         "\n## What they take\n\n\
-         Operations for R, G and B; to 16 bands those of kernels, beyond what their number grows by, a polynomial of the third \
-         degree through the orders 10 to 16. *One sample* is `eval`. *Option 3* is `eval` with a factor a band, n (n + 1) / 2 more, the \
-         coefficients of `gaussian`, their quotients and {SHARPNESS} for κ. By tables of bands (`zonal bands`) it takes n reads and 3 n \
-         operations besides `gaussian`. *Option 1* is `shade`, with four entries of the table of slices looked up, n² reads of four \
-         numbers each. *Many samples* are {} times one.\n\n\
+         Operations for R, G and B. *One sample* is `eval`, beyond 16 bands what its operations grow by, a polynomial through the \
+         orders 10 to 16. *Option 3* is `eval` with a factor a band, n (n + 1) / 2 more, the coefficients of `gaussian`, their quotients \
+         and {SHARPNESS} for κ. By tables of bands (`zonal bands`) it takes n reads and 3 n operations besides `gaussian`. *Option 1* is \
+         `shade`, which grows about as n³, with four entries of the table of slices looked up, n² reads of four numbers each. *Many \
+         samples* are {} times one.\n\n\
          | order | one sample | option 3 | reads by tables | option 1 | its reads | 16 by 16 samples | of the map: reads |\n\
          |---|---|---|---|---|---|---|---|\n",
         RAYS * RAYS
     );
-    for order in ORDERS {
-        let eval = grown("eval", order);
+    let evals = evals();
+    for order in [BY_KERNEL, ORDERS[0], ORDERS[1], ORDERS[2]] {
+        let eval = grown(&evals, order);
         let three = eval + order * (order + 1) / 2 + Attenuation::operations(order) + order + SHARPNESS;
+        // Kernels of many bands take long to be made, and are too long for shaders.
+        let one = if order == BY_KERNEL { operations("shade", order).to_string() } else { "–".to_owned() };
         let _ = writeln!(
             text,
-            "| {order} | {eval} | {three} | {order} | {} | {} | {} | {} |",
-            grown("shade", order),
+            "| {order} | {eval} | {three} | {order} | {one} | {} | {} | {} |",
             order * order,
             RAYS * RAYS * eval,
             RAYS * RAYS
@@ -321,19 +321,26 @@ pub fn costs_text() -> String {
 /// their sum and its quotient.
 const SHARPNESS: usize = 5 + 2 * (5 + 6 + 5) + 3;
 
-/// The operations of a family's kernel for three channels, beyond order 16 by a polynomial of the third degree.
-pub fn grown(family: &str, order: usize) -> usize {
-    let cost = |order: usize| {
-        let spec: Spec = format!("{family}:{order}:rgb").parse().unwrap_or_else(|error| panic!("{error}"));
-        spec.code().cost(3).total as f64
-    };
-    if order <= 16 {
-        return cost(order) as usize;
+/// The operations of a family's kernel for three channels.
+fn operations(family: &str, order: usize) -> usize {
+    let spec: Spec = format!("{family}:{order}:rgb").parse().unwrap_or_else(|error| panic!("{error}"));
+    spec.code().cost(3).total
+}
+
+/// Returns the operations of `eval` for three channels at the orders that others are told from.
+pub fn evals() -> Vec<(usize, usize)> {
+    [8, 10, 12, 14, 16].map(|order| (order, operations("eval", order))).to_vec()
+}
+
+/// Returns the operations of `eval` at an order: of the last four known ones the polynomial of the third degree.
+pub fn grown(known: &[(usize, usize)], order: usize) -> usize {
+    let nodes = &known[known.len().saturating_sub(4)..];
+    if let Some((_, cost)) = known.iter().find(|(known, _)| *known == order) {
+        return *cost;
     }
-    let nodes = [10, 12, 14, 16];
-    let term = |&i: &usize| {
-        let others = nodes.iter().filter(|&&j| j != i);
-        others.fold(cost(i), |product, &j| product * (order as f64 - j as f64) / (i as f64 - j as f64))
+    let term = |&(i, cost): &(usize, usize)| {
+        let others = nodes.iter().filter(|(j, _)| *j != i);
+        others.fold(cost as f64, |product, (j, _)| product * (order as f64 - *j as f64) / (i as f64 - *j as f64))
     };
     nodes.iter().map(term).sum::<f64>().round() as usize
 }
