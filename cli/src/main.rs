@@ -1,6 +1,7 @@
 //! The command `zonal`: reads arguments, calls the library, prints. It decides nothing about kernels; what draws and what
 //! bakes is other programs, to which it hands over.
 
+mod bands;
 mod commands;
 mod directions;
 mod hand_over;
@@ -111,6 +112,8 @@ enum Command {
         #[arg(long, requires = "plot")]
         force: bool,
     },
+    /// Writes the bands of a map as cubemaps, each as small as an error allows, and the text that reads them in shaders.
+    Bands(bands::Arguments),
     /// Prints test vectors as JSON: inputs, and what a kernel gives in f32 and f64.
     ///
     /// A result that is not finite is one of the strings "NaN", "Infinity" and "-Infinity".
@@ -187,6 +190,7 @@ fn main() -> ExitCode {
         }
         Command::Project { asked, plot: None, .. } => commands::project(&asked),
         Command::Project { plot: Some(_), .. } => hand_over::same(),
+        Command::Bands(arguments) => bands::run(&arguments),
         Command::Vectors { spec, inputs, count, seed } => vectors::print(&spec, inputs, count as usize, seed),
         Command::Bake { arguments } => hand_over::bake(arguments),
         Command::Explore { arguments } => hand_over::explore(arguments),

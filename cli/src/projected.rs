@@ -212,15 +212,7 @@ impl Projected {
     /// The coefficients as constants of a language.
     fn text(&self, path: &Path, name: &str) -> Result<String, Failure> {
         let target = language::named(name).map_err(|message: String| Fault::new(message, ""))?;
-        let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase());
-        let stem: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-        let name = match names::fault(&stem, Use::Item, &language::ALL) {
-            None => stem,
-            Some(_) => match names::fault(&format!("{stem}_map"), Use::Item, &language::ALL) {
-                None => format!("{stem}_map"),
-                Some(_) => "environment".to_owned(),
-            },
-        };
+        let name = name_of(path, "");
         let module = Module {
             origin: format!("the map `{}`", path.display()),
             constants: vec![Constants {
@@ -345,6 +337,15 @@ impl Projected {
         text += &format!("\n{}\nThe coefficients, in {}:\n\n{}", table(&lines), self.unit(), table(&values));
         text
     }
+}
+
+/// Returns a name for what is made of a map that every language takes: that of its file, if it can be one with an `ending`.
+pub fn name_of(path: &Path, ending: &str) -> String {
+    let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().to_lowercase());
+    let stem: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    let names = [format!("{stem}{ending}"), format!("{stem}_map{ending}")];
+    let known = names.into_iter().find(|name| names::fault(name, Use::Item, &language::ALL).is_none());
+    known.unwrap_or_else(|| format!("environment{ending}"))
 }
 
 /// A number with six digits of the largest beside it: with a point where that is read easily, else with an exponent.

@@ -13,6 +13,7 @@ use zonal_codegen::reflectance::brdf::Brdf;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Maps, Order, Scene};
 use zonal_picture::mesh::{self, Mesh};
+use zonal_picture::method::Method;
 use zonal_picture::normal_map::{self, NormalMap};
 
 /// What was brought along, each with what people read of it.
@@ -127,7 +128,9 @@ impl Own {
         if let Some(order) = number.or(most) {
             self.set("order", json!(order.clamp(*ORDERS.start(), ORDER)));
         }
-        if let Some(method) = picture.method {
+        // The page has no tables: what reads them is exact but for their error.
+        let method = picture.method.map(|method| if method.reads_tables() { Method::Exact } else { method });
+        if let Some(method) = method {
             self.set("method", json!(method.name()));
         }
         let camera = picture.camera;

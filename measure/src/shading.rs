@@ -6,6 +6,9 @@ use crate::svg::{self, Axis, Panel, Picture, Series, Stroke, key};
 use crate::{File, Progress, each, significant};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use zonal_codegen::emit::bands;
+use zonal_codegen::environment::Texel;
+use zonal_codegen::environment::bands::bound_side;
 use zonal_codegen::environment::harmonics::basis;
 use zonal_codegen::families::Spec;
 // Names a family: its directions and mother functions are what is measured.
@@ -30,8 +33,6 @@ const REACHED: [usize; 6] = [2, 4, 8, 12, 16, 19];
 const VIEWS: usize = 12;
 /// The error that the bands' tables are sized for, relative to a band's largest value.
 const TABLE_ERROR: f64 = 0.01;
-/// Bytes of a texel: three channels of half precision.
-const TEXEL: usize = 6;
 
 /// The conditions of one profile over the bands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -113,13 +114,6 @@ fn conditions(&(mother, is_shared): &(Mother, bool)) -> Conditions {
     Conditions { mother: mother.name().to_owned(), shared: is_shared, bands, conditions }
 }
 
-/// The side of a cubemap in which a function of band l, read bilinearly, errs by at most l² h² / 4 of its largest value for
-/// texels h apart.
-fn side(l: usize) -> usize {
-    let step = 2.0 * TABLE_ERROR.sqrt() / l as f64;
-    if l == 0 { 1 } else { (PI / 2.0 / step).ceil() as usize }
-}
-
 fn forms(&order: &usize) -> Forms {
     let cost = |name: &str| {
         let spec: Spec = format!("{name}:{order}").parse().unwrap_or_else(|error| panic!("{error}"));
@@ -128,15 +122,13 @@ fn forms(&order: &usize) -> Forms {
         let rgb: Spec = format!("{name}:{order}:rgb").parse().unwrap_or(rgb);
         [Listing::new(&spec.kernel()).cost(1).total, Listing::new(&rgb.kernel()).cost(3).total]
     };
-    let count = order * order;
-    // The matrix of a quaternion, the directions turned by it, a multiply-add a read and channel.
-    let set_up = 17 + 9 * (2 * order - 1);
+    let bytes = |l: usize| 6 * bound_side(l, TABLE_ERROR).pow(2) * Texel::Half.bytes();
     Forms {
         order,
         operations: ["isd_shade", "shade", "shade_isotropic", "isd_shade_zonal", "shade_zonal"].map(cost).to_vec(),
-        tabulated: [set_up + count, set_up + 3 * count],
-        reads: count,
-        bytes: (0..order).map(|l| 6 * side(l) * side(l) * TEXEL).sum(),
+        tabulated: [1, 3].map(|channels| bands::shaded(order, channels)),
+        reads: order * order,
+        bytes: (0..order).map(bytes).sum(),
     }
 }
 
@@ -328,8 +320,9 @@ pub fn table(shading: &Shading) -> File {
             .to_owned(),
         "## Operations, reads, bytes\n\nThe forms of one integral, in operations for one channel / for three, set-up from a \
          quaternion included. Equation 22 evaluates the light's bands at the turned directions; of tables it reads 2l + 1 \
-         values of band l instead, from cubemaps whose sides keep a bilinear read within 1 % of the band's largest value, \
-         three halves a texel. The direct form turns the light and multiplies: it is cheaper than equation 22 at every \
+         values of band l instead, from cubemaps whose sides keep a bilinear read within 1 % of the band's largest value by \
+         its bound, three halves a texel; what keeps reads within their faces is counted ([BANDS.md](../BANDS.md) has \
+         measured sides, errors, and what is cheaper where the reflectance has one channel). The direct form turns the light and multiplies: it is cheaper than equation 22 at every \
          order. Tables are the cheapest where a read costs less than the operations of the last column but two."
             .to_owned(),
         rows_of(

@@ -5,6 +5,7 @@ pub mod camera;
 pub mod lights;
 pub mod mesh;
 pub mod method;
+pub mod mirror;
 pub mod normal_map;
 pub mod shade;
 pub mod tone;

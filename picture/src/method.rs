@@ -1,5 +1,6 @@
 //! What each way to turn coefficients costs, and how far it errs.
 
+use zonal_codegen::emit::bands;
 use zonal_codegen::families::Spec;
 use zonal_codegen::ir::listing::Cost;
 use zonal_codegen::promise::law;
@@ -7,7 +8,7 @@ pub use zonal_codegen::scene::picture::Method;
 
 /// The figures of a way to turn coefficients.
 pub trait Judged {
-    /// What the kernel of an order costs.
+    /// What the kernel of an order costs; of a way that reads tables all that it takes, for three channels.
     fn cost(self, order: usize) -> Cost;
 
     /// For each angle in radians between the two normals, the error of each band as a spectral norm.
@@ -22,11 +23,15 @@ pub trait Judged {
 
 impl Judged for Method {
     fn cost(self, order: usize) -> Cost {
+        if let Some(reading) = Reading::of(self, order) {
+            return Cost { total: reading.operations, ..Cost::default() };
+        }
         self.spec(order).map_or_else(Cost::default, |spec| spec.code().cost(1))
     }
 
     fn band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
         match self.spec(order) {
+            _ if self.reads_tables() => vec![vec![0.0; order]; angles.len()],
             Some(spec) => by_law(&spec, angles, |error| error.max),
             None => left_out(order, angles, |shares| shares.iter().copied().fold(0.0, f64::max).sqrt()),
         }
@@ -34,6 +39,7 @@ impl Judged for Method {
 
     fn typical_band_errors(self, order: usize, angles: &[f64]) -> Vec<Vec<f64>> {
         match self.spec(order) {
+            _ if self.reads_tables() => vec![vec![0.0; order]; angles.len()],
             Some(spec) => by_law(&spec, angles, |error| error.mean),
             None => left_out(order, angles, |shares| (shares.iter().sum::<f64>() / shares.len() as f64).sqrt()),
         }
@@ -41,6 +47,28 @@ impl Judged for Method {
 
     fn error(self, order: usize, angle: f64) -> f64 {
         self.band_errors(order, &[angle])[0].iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// What a way costs that reads the light's bands from tables, for R, G and B, all from the quaternion of the frame on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reading {
+    /// Operations, with those that keep reads within the faces of cubemaps.
+    pub operations: usize,
+    /// Reads of cubemaps.
+    pub reads: usize,
+}
+
+impl Reading {
+    /// The cost of a method at an order; none if it reads no tables.
+    pub fn of(method: Method, order: usize) -> Option<Self> {
+        let reads = order * order;
+        let operations = match method {
+            Method::IsdTables => bands::shaded(order, 3),
+            Method::ZhfTailored => bands::set_up(order) + method.spec(order)?.code().cost(3).total + 3 * reads,
+            _ => return None,
+        };
+        Some(Self { operations, reads })
     }
 }
 

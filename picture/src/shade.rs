@@ -10,9 +10,13 @@
 //! |---|---|---|
 //! | binding 0 | `clip`, `eye`, `strength` | the camera, and what the slopes of the normal map are multiplied by |
 //! | bindings 1, 2 | `normals` | the normal map, (n + 1)/2, repeated and filtered |
-//! | binding 3 | `light` | order² vec4: R, G, B and nothing |
+//! | binding 3 | `light` | order² vec4: R, G, B and nothing; of a method that reads tables what their texels are multiplied by |
 //! | binding 4 | `views` | [`Table`](zonal_codegen::reflectance::brdf::Table): RGBA32F, a row an elevation, stride/4 texels an azimuth |
 //! | vertex locations 0 to 3 | the same | position, normal, tangent, texture coordinates, as in [`Mesh`](super::mesh::Mesh) |
+//!
+//! A method that reads the light's bands from tables is there in WGSL alone, and finds in group 1 what
+//! [`Reads`](zonal_codegen::emit::bands::Reads) says; for [`Method::IsdTables`] `views` holds the weights of rotated zonal
+//! harmonics.
 //!
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.
 
@@ -21,6 +25,7 @@ use crate::method::Method;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 use tera::{Context, Tera};
+use zonal_codegen::emit::bands::Reads;
 use zonal_codegen::emit::dialect::Dialect;
 // Names a language: pictures are drawn in these.
 use zonal_codegen::emit::language::{GLSL, Target, WGSL, shader};
@@ -32,6 +37,9 @@ use zonal_codegen::families::text::usual;
 use zonal_codegen::generate;
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::Param;
+
+/// What the names begin with by which a shader reads the light's bands.
+const TABLES: &str = "light_band";
 
 /// The exact rotation from a quaternion.
 fn rotation(order: usize) -> Spec {
@@ -74,15 +82,35 @@ fn kernels(functions: Vec<Function>, name: String, target: Target) -> Result<Str
 }
 
 impl Shading {
-    /// The kernels that the shader calls: the method's, the rotation into the world, and for an isotropic reflectance
-    /// that about z.
+    /// The kernels that the shader calls: the method's, and where that turns the reflectance, the rotation into the world, and
+    /// for an isotropic reflectance that about z.
     pub fn specs(&self) -> Vec<Spec> {
+        if self.method.reads_tables() {
+            return self.method.spec(self.order).into_iter().collect();
+        }
         let mut specs = vec![rotation(self.order)];
         specs.extend(self.method.spec(self.order).filter(|spec| *spec != specs[0]));
         if self.isotropic {
             specs.push(Spec::new(&ROTATE_Z, self.order));
         }
         specs
+    }
+
+    /// What reads the light's bands, for a method that does.
+    fn reads(&self, target: Target) -> Result<String, Limit> {
+        if !self.method.reads_tables() {
+            return Ok(String::new());
+        }
+        // Names a language: pictures that read tables are drawn in this one.
+        let (is_wgsl, fits) = (target.name == WGSL.name, self.method.orders().contains(&self.order));
+        let reads = Reads { order: self.order, name: TABLES, group: 1, origin: "tables of a light's bands" };
+        let text = reads.text(target).filter(|_| is_wgsl && fits);
+        text.ok_or_else(|| Limit {
+            spec: format!("{}:{}", self.method, self.order),
+            target,
+            why: "no picture reads tables so".to_owned(),
+            help: "take WGSL, and an order that the method has".to_owned(),
+        })
     }
 
     fn head(&self) -> Vec<String> {
@@ -107,6 +135,8 @@ impl Shading {
         context.insert("brute", &false);
         context.insert("kernels", &kernels(functions, format!("picture{}", self.order), target)?);
         context.insert("isotropic", &self.isotropic);
+        context.insert("tables", &self.method.reads_tables());
+        context.insert("reads", &self.reads(target)?);
         context.insert("method", self.method.name());
         context.insert("rotate", &rotation(self.order).name());
         context.insert("kernel", &name(self.method.spec(self.order)));
@@ -230,7 +260,8 @@ mod tests {
     #[test]
     fn every_shader_is_valid_wgsl() {
         for order in [2, 3, 4, 10] {
-            for (method, isotropic) in Method::ALL.into_iter().flat_map(|method| [(method, true), (method, false)]) {
+            let methods = Method::ALL.into_iter().filter(|method| method.orders().contains(&order));
+            for (method, isotropic) in methods.flat_map(|method| [(method, true), (method, false)]) {
                 let shading = Shading { order, method, isotropic };
                 let text = shading.wgsl().expect("fits");
                 validate(&WGSL, &format!("{shading:?}"), &text).unwrap_or_else(|error| panic!("{error}"));
@@ -238,12 +269,17 @@ mod tests {
         }
         validate(&WGSL, "brute", &brute(&WGSL)).unwrap_or_else(|error| panic!("{error}"));
         validate(&WGSL, "gbuffer", &wgsl_gbuffer()).unwrap_or_else(|error| panic!("{error}"));
+        for (order, method) in [(11, Method::ZhfTailored), (2, Method::IsdTables)] {
+            assert!(!method.orders().contains(&order));
+            let refused = Shading { order, method, isotropic: true }.reads(&WGSL).expect_err("it has no such order");
+            assert!(refused.to_string().contains("no picture reads tables so"), "{refused}");
+        }
     }
 
     #[test]
     fn every_check_is_valid_wgsl() {
         let shading = |method, isotropic| Shading { order: 5, method, isotropic };
-        let specs: Vec<Spec> = Method::ALL.into_iter().flat_map(|method| shading(method, true).specs()).collect();
+        let specs: Vec<Spec> = Method::TURNS.into_iter().flat_map(|method| shading(method, true).specs()).collect();
         for function in generate::build(&specs) {
             let text = check(&function, &WGSL).expect("fits");
             validate(&WGSL, &function.spec.to_string(), &text).unwrap_or_else(|error| panic!("{error}"));

@@ -1,5 +1,6 @@
 //! Frames measured against each other: errors, what they cost, and how they fall with the order.
 
+use crate::bands::{ERROR, Tables};
 use crate::frame::{Frame, Surface};
 use crate::gpu::Stage;
 use crate::reference::{Lights, expected};
@@ -155,8 +156,10 @@ pub struct Figures {
 /// A subject's reflectance and light as its shaders read them, whatever the method.
 #[derive(Clone, Debug)]
 pub struct Inputs {
-    table: Table,
-    light: Projection,
+    /// The reflectance by view.
+    pub table: Table,
+    /// The light.
+    pub light: Projection,
 }
 
 impl Inputs {
@@ -179,7 +182,14 @@ pub fn drawn(
     timed: bool,
 ) -> Result<(Frame, Picture), Diagnostic> {
     let order = inputs.table.order;
-    let frame = stage.frame(stage.subject.shading(order, method), &inputs.table, &inputs.light, timed)?;
+    let shading = stage.subject.shading(order, method);
+    let frame = match method.reads_tables() {
+        false => stage.frame(shading, &inputs.table, &inputs.light, None, timed)?,
+        true => {
+            let tables = Tables::new(&inputs.light, ERROR)?;
+            stage.frame(shading, &tables.reflectance(&inputs.table, method), &inputs.light, Some(&tables), timed)?
+        }
+    };
     let picture = Picture {
         method,
         spec: method.spec(order).map(|spec| spec.to_string()),

@@ -1,6 +1,7 @@
 //! The adapter: draws a subject with a generated shader into radiance, or into what is known of its surface before it is
 //! shaded. The only file that knows wgpu.
 
+use crate::bands::Tables;
 use crate::frame::{Frame, Surface};
 use crate::subject::Subject;
 use std::borrow::Cow;
@@ -131,9 +132,12 @@ impl Gpu {
         let pipeline = self.checked("refuses the shader", || {
             let source = wgpu::ShaderSource::Wgsl(Cow::Owned(text));
             let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+            let tables = shading.filter(|shading| shading.method.reads_tables());
+            let tables = tables.map(|shading| self.tables_layout(shading.order));
+            let layouts: Vec<_> = [Some(&self.layout), tables.as_ref()].into_iter().filter(Option::is_some).collect();
             let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
-                bind_group_layouts: &[Some(&self.layout)],
+                bind_group_layouts: &layouts,
                 immediate_size: 0,
             });
             let target = Some(wgpu::ColorTargetState::from(RADIANCE));
@@ -172,6 +176,58 @@ impl Gpu {
         })?;
         known.insert(shading, pipeline.clone());
         Ok(pipeline)
+    }
+
+    /// The layout of so many tables, as [`Reads`](zonal_codegen::emit::bands::Reads) has them.
+    fn tables_layout(&self, count: usize) -> wgpu::BindGroupLayout {
+        let entry = |binding: usize, ty| wgpu::BindGroupLayoutEntry {
+            binding: binding as u32,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let cube = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::Cube,
+            multisampled: false,
+        };
+        let mut entries = vec![entry(0, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering))];
+        entries.extend((1..=count).map(|binding| entry(binding, cube)));
+        self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+    }
+
+    /// The tables with a sampler that filters.
+    fn tables(&self, tables: &Tables) -> wgpu::BindGroup {
+        let sampler = self.device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let view = |band: usize| {
+            let side = tables.bands[band].side;
+            let descriptor = wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d { depth_or_array_layers: 6, ..extent([side; 2]) },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba16Float,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            };
+            let (texels, order) = (tables.texels(band), TextureDataOrder::LayerMajor);
+            let texture =
+                self.device.create_texture_with_data(&self.queue, &descriptor, order, bytemuck::cast_slice(&texels));
+            let dimension = Some(wgpu::TextureViewDimension::Cube);
+            texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
+        };
+        let views: Vec<wgpu::TextureView> = (0..tables.bands.len()).map(view).collect();
+        let entry = |binding: usize, resource| wgpu::BindGroupEntry { binding: binding as u32, resource };
+        let mut entries = vec![entry(0, wgpu::BindingResource::Sampler(&sampler))];
+        entries
+            .extend(views.iter().enumerate().map(|(i, view)| entry(i + 1, wgpu::BindingResource::TextureView(view))));
+        let layout = self.tables_layout(views.len());
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
     }
 
     fn buffer(&self, numbers: &[f32], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -267,7 +323,7 @@ impl<'a> Stage<'a> {
             let views = gpu.texture([1, 1], RADIANCE, 1, &[0; 16]);
             let group = self.group(&light, &views);
             let targets: [wgpu::Texture; 3] = std::array::from_fn(|_| self.target(RADIANCE));
-            self.draw(&pipeline, &group, &targets);
+            self.draw(&pipeline, &group, None, &targets);
             let [frames, normals, views] = targets.map(|target| self.read(&target));
             let surface = |((frame, normal), view): ((&[f32; 4], &[f32; 4]), &[f32; 4])| {
                 (normal[3] > 0.5).then(|| Surface {
@@ -281,12 +337,19 @@ impl<'a> Stage<'a> {
     }
 
     /// The radiance that the shader of an order and a method gives; `table` holds the subject's reflectance and `light`
-    /// its light, both of the shading's order.
+    /// its light, both of the shading's order. `tables` are those of the light where the method reads tables.
     ///
     /// # Errors
     ///
     /// If the shader is too long, the table too large, or the device fails.
-    pub fn frame(&self, shading: Shading, table: &Table, light: &Projection, timed: bool) -> Result<Frame, Diagnostic> {
+    pub fn frame(
+        &self,
+        shading: Shading,
+        table: &Table,
+        light: &Projection,
+        tables: Option<&Tables>,
+        timed: bool,
+    ) -> Result<Frame, Diagnostic> {
         let gpu = self.gpu;
         let size = [table.azimuths * table.stride() / 4, table.elevations];
         if size.iter().any(|&side| side > gpu.limits.max_texture_dimension_2d as usize) {
@@ -296,17 +359,21 @@ impl<'a> Stage<'a> {
         }
         let pipeline = gpu.pipeline(Some(shading))?;
         gpu.checked("cannot draw", || {
-            let numbers: Vec<f32> =
+            let mut numbers: Vec<f32> =
                 light.coefficients.iter().flat_map(|&[r, g, b]| [r, g, b, 0.0]).map(|x| x as f32).collect();
+            if let (Some(tables), Some(first)) = (tables, numbers.first_mut()) {
+                *first = tables.scale as f32;
+            }
+            let tables = tables.map(|tables| gpu.tables(tables));
             let light = gpu.buffer(&numbers, wgpu::BufferUsages::UNIFORM);
             let views = gpu.texture(size, RADIANCE, 1, bytemuck::cast_slice(&table.values));
             let group = self.group(&light, &views);
             let target = [self.target(RADIANCE)];
-            self.draw(&pipeline, &group, &target);
+            self.draw(&pipeline, &group, tables.as_ref(), &target);
             let mut times: Vec<f64> = (0..if timed { TIMED } else { 0 })
                 .map(|_| {
                     let start = Instant::now();
-                    self.draw(&pipeline, &group, &target);
+                    self.draw(&pipeline, &group, tables.as_ref(), &target);
                     1e3 * start.elapsed().as_secs_f64()
                 })
                 .collect();
@@ -346,7 +413,13 @@ impl<'a> Stage<'a> {
     }
 
     /// Draws once and waits for it.
-    fn draw(&self, pipeline: &wgpu::RenderPipeline, group: &wgpu::BindGroup, targets: &[wgpu::Texture]) {
+    fn draw(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        group: &wgpu::BindGroup,
+        tables: Option<&wgpu::BindGroup>,
+        targets: &[wgpu::Texture],
+    ) {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let (depth, views): (_, Vec<_>) = (view(&self.target(DEPTH)), targets.iter().map(view).collect());
         let colour = |view| {
@@ -368,6 +441,9 @@ impl<'a> Stage<'a> {
             });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
+            if let Some(tables) = tables {
+                pass.set_bind_group(1, tables, &[]);
+            }
             pass.set_vertex_buffer(0, self.vertices.slice(..));
             pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..self.subject.mesh.indices.len() as u32, 0, 0..1);

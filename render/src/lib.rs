@@ -6,11 +6,15 @@
 //!                       └──▶ surfaces ─▶ reference (f64) ─▶ figures
 //! ```
 
+pub mod bands;
+pub mod bands_page;
 pub mod canvas;
 pub mod figures;
 pub mod frame;
 pub mod gpu;
 pub mod lightmap;
+pub mod mirror;
+pub mod pages;
 pub mod reference;
 pub mod report;
 pub mod strip;

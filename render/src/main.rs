@@ -1,7 +1,7 @@
 //! The command `zonal-render`: reads a scene, draws it, writes the picture and its figures. It decides nothing about
 //! either.
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::fmt::Write;
@@ -16,6 +16,7 @@ use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_picture::method::Method;
 use zonal_render::figures::{Figures, Row, Truth, convergence, percent};
 use zonal_render::gpu::{Gpu, Stage};
+use zonal_render::pages::Page;
 use zonal_render::strip;
 use zonal_render::subject::{Instead, Subject};
 
@@ -30,9 +31,13 @@ const NOTES: &str = "The figures are printed, and lie beside the picture as JSON
 /// Draws the picture of a scene with its generated kernels, on a GPU or a software adapter.
 #[derive(Parser)]
 #[command(name = "zonal-render", version, after_help = NOTES)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 struct Arguments {
+    #[command(subcommand)]
+    other: Option<Other>,
     /// The scene, a TOML file with the tables `[environment]`, `[brdf]` and `[picture]`.
-    scene: PathBuf,
+    #[arg(required = true)]
+    scene: Option<PathBuf>,
     /// The picture to write, a PNG file; the scene's name without it.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -56,6 +61,25 @@ struct Arguments {
     force: bool,
 }
 
+/// What is written besides the picture of a scene.
+#[derive(Subcommand)]
+enum Other {
+    /// Measures all that a page of zonal's documentation says and writes it with its picture.
+    Page {
+        /// The page.
+        page: Page,
+        /// The folder of zonal's scenes, which it is measured on.
+        #[arg(long, value_name = "DIR", default_value = "scenes")]
+        scenes: PathBuf,
+        /// The folder to write to.
+        #[arg(long, value_name = "DIR", default_value = "docs")]
+        out: PathBuf,
+        /// Replaces files that zonal did not write, too.
+        #[arg(long)]
+        force: bool,
+    },
+}
+
 /// The figures as they lie beside the picture, for which they say who wrote it.
 #[derive(Serialize)]
 struct Beside<'a> {
@@ -70,10 +94,21 @@ struct Beside<'a> {
 fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
     let start = Instant::now();
     let bar = bar("reading");
+    if let Some(Other::Page { page, scenes, out, force }) = &arguments.other {
+        let found = page.files(scenes, &bar)?;
+        let files: Vec<(&str, &[u8])> = found.iter().map(|(name, bytes)| (*name, &bytes[..])).collect();
+        files::write_below(out, &files, Replace::forced(*force)).map_err(Fault::from)?;
+        bar.finish_and_clear();
+        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+        let seconds = start.elapsed().as_secs_f64();
+        return Ok(format!("{} in {}, in {seconds:.1} s.\n", names.join(" and "), out.display()));
+    }
+    // Without a scene and another command the arguments are refused before.
+    let scene = arguments.scene.clone().unwrap_or_default();
     let method = arguments.method.as_deref().map(str::parse).transpose();
     let method: Option<Method> = method.map_err(|message: String| Diagnostic::nowhere(message, ""))?;
     let instead = Instead { order: arguments.order.map(|order| order as usize), method };
-    let subject = Subject::new(&Scene::read(&arguments.scene)?, instead)?;
+    let subject = Subject::new(&Scene::read(&scene)?, instead)?;
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.png", subject.name)));
     if output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
         let message = format!("`{}` is no name of a PNG file", output.display());

@@ -162,7 +162,7 @@ impl Report {
              | method | kernel | operations |\n|---|---|---|\n",
             self.summary()
         );
-        for method in Method::ALL {
+        for method in Method::TURNS {
             let spec = method.spec(order).map_or_else(|| "none".to_owned(), |spec| format!("`{spec}`"));
             let _ = writeln!(text, "| {method} | {spec} | {} |", method.cost(order).total);
         }

@@ -116,6 +116,11 @@ impl Subject {
                 (order, method.unwrap_or_else(|| planned_method(scene, &plan)))
             }
         };
+        let orders = method.orders();
+        if !orders.contains(&order) {
+            let message = format!("`{method}` has the orders {} to {}, not {order}", orders.start(), orders.end());
+            return Err(Diagnostic::at(&scene.name.place, message, "take another order or another method"));
+        }
         Ok(Self {
             name: scene.name.value.clone(),
             mesh,

@@ -30,6 +30,12 @@ pub const PICTURE: &[(&str, &str)] = texts!["picture":
     "picture/check.glsl" = "check.glsl.tera",
 ];
 
+/// What reads the bands of a light from cubemaps, by the name of the language.
+pub const BANDS: &[(&str, &str)] = texts!["bands":
+    "wgsl" = "bands.wgsl.tera",
+    "glsl" = "bands.glsl.tera",
+];
+
 /// The explorer's page, by the paths at which it is served.
 pub const EXPLORER: &[(&str, &str)] = texts!["explorer":
     "index.html" = "index.html",

@@ -502,6 +502,16 @@ impl<'a> Machine<'a> {
                     self.counts.choice += out.shape.words as u64;
                 }
             }
+            Expression::Math { fun: MathFunction::Dot, arg, arg1: Some(other), .. } => {
+                let [left, right] = [arg, other].map(|x| a.slot(x));
+                let lanes = left.shape.words;
+                let number = |at: usize| f32::from_bits(self.memory[at]);
+                let product = |lane: usize| number(left.at + lane) * number(right.at + lane);
+                let sum = (1..lanes).fold(product(0), |sum, lane| sum + product(lane));
+                self.memory[out.at] = sum.to_bits();
+                self.counts.mul += lanes as u64;
+                self.counts.add += lanes as u64 - 1;
+            }
             Expression::Math { fun, arg, arg1, arg2, .. } => {
                 let operands = [arg, arg1.unwrap_or(arg), arg2.unwrap_or(arg)].map(|x| a.slot(x));
                 let (kind, fused) = (operands[0].shape.kind, self.fma == Fma::Fused);

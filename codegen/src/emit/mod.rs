@@ -1,6 +1,7 @@
 //! Text: a module of functions in one language. Templates lay out what people read and hold no mathematics; the lines of
 //! the bodies come finished from the listing. What a language is stands in its own file below `language`.
 
+pub mod bands;
 pub mod body;
 pub mod dialect;
 pub mod docs;

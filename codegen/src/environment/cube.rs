@@ -38,7 +38,7 @@ pub(super) fn direction(side: usize, face: usize, x: usize, y: usize) -> [f64; 3
 }
 
 /// The unit direction of a place of a face, and how far it is: right and down from −1 to 1.
-fn towards(face: usize, u: f64, v: f64) -> ([f64; 3], f64) {
+pub(super) fn towards(face: usize, u: f64, v: f64) -> ([f64; 3], f64) {
     let [forward, right, down] = AXES[face];
     let length = (1.0 + u * u + v * v).sqrt();
     (std::array::from_fn(|i| (forward[i] + u * right[i] + v * down[i]) / length), length)
@@ -53,13 +53,19 @@ pub(super) fn inside(side: usize, face: usize, place: [f64; 2]) -> ([f64; 3], f6
     (direction, step * step / length.powi(3))
 }
 
-/// The face, the column and the row of the texel in which a direction lies.
-pub(super) fn texel(side: usize, direction: [f64; 3]) -> [usize; 3] {
+/// The face in which a direction lies, and where it does: right and down from −1 to 1.
+pub(super) fn locate(direction: [f64; 3]) -> (usize, [f64; 2]) {
     let along = |axis: [f64; 3]| axis[0] * direction[0] + axis[1] * direction[1] + axis[2] * direction[2];
     let face = (0..6).max_by(|&a, &b| along(AXES[a][0]).total_cmp(&along(AXES[b][0]))).unwrap_or(0);
     let [forward, right, down] = AXES[face].map(along);
-    let at = |value: f64| ((0.5 * (value / forward + 1.0) * side as f64) as usize).min(side - 1);
-    [face, at(right), at(down)]
+    (face, [right / forward, down / forward])
+}
+
+/// The face, the column and the row of the texel in which a direction lies.
+pub(super) fn texel(side: usize, direction: [f64; 3]) -> [usize; 3] {
+    let (face, place) = locate(direction);
+    let [x, y] = place.map(|value| ((0.5 * (value + 1.0) * side as f64) as usize).min(side - 1));
+    [face, x, y]
 }
 
 /// The solid angle of a texel of a face, in steradians.

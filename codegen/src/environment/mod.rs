@@ -22,6 +22,7 @@
 //! (Sampling the harmonics at the centres of texels would change order 10 of a 256×128 map by about 1e-3 in rms.)
 //! docs/MATH.md#projection-of-maps has the integrals.
 
+pub mod bands;
 mod cube;
 mod decoded;
 pub mod error;
@@ -41,6 +42,7 @@ pub mod spectrum;
 mod tests;
 mod waves;
 
+pub use bands::{BandTable, Texel};
 pub use error::{MAX_BYTES, MAX_SIDE, MAX_WIDTH, MapError};
 pub use harmonics::cosine_lobe;
 pub use lamps::Lamps;

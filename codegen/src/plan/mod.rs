@@ -4,6 +4,7 @@
 
 mod check;
 pub mod contest;
+mod direct;
 pub mod environment;
 pub mod light;
 pub mod mixtures;
@@ -165,6 +166,10 @@ impl Plan {
             function.name = wanted.name.as_ref().map(|name| name.value.clone());
             let max_angle = wanted.max_angle.as_ref().map(|angle| angle.value);
             let error = |degrees: f64| accuracy::method_error(&function.spec, degrees.to_radians());
+            let asked = match wanted.spec.value.split(':').nth(1) {
+                Some("environment") => "asked for by the scene, at the order of its light",
+                _ => "asked for by the scene",
+            };
             let chosen = Chosen {
                 row: Row::of(&function),
                 max_angle,
@@ -173,9 +178,9 @@ impl Plan {
                 norm: None,
                 hemisphere: None,
                 seen_error: None,
-                reason: match wanted.spec.value.split(':').nth(1) {
-                    Some("environment") => "asked for by the scene, at the order of its light".to_owned(),
-                    _ => "asked for by the scene".to_owned(),
+                reason: match direct::cheaper(&function.spec) {
+                    Some(cheaper) => format!("{asked}; {cheaper}"),
+                    None => asked.to_owned(),
                 },
                 rivals: vec![],
             };

@@ -3,8 +3,10 @@
 
 // Names a family: these are the ways that a picture compares.
 use crate::families::about_y::SMALL_ZYZ;
+use crate::families::family::{MAX_ORDER, MIN_ORDER};
 use crate::families::text::usual;
 use crate::families::tilt::TILT;
+use crate::families::zhf::ZHF_TAILORED;
 use crate::families::{SmallAngle, Spec};
 use crate::fault::hint;
 use crate::reflectance::brdf::Brdf;
@@ -14,6 +16,7 @@ use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Locator, Order, Placed};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// The most pixels of a picture along a side.
@@ -77,11 +80,45 @@ pub enum Method {
     Taylor15,
     /// Not at all: the normal map only changes which reflectance is looked up ("simplified normal mapping").
     None,
+    /// The light instead, exactly: read from cubemaps of its bands, then `zhf_tailored` (Nowrouzezahrai et al. 2012, equation
+    /// 11). Orders 2 to 10.
+    #[serde(rename = "zhf_tailored")]
+    ZhfTailored,
+    /// Likewise, by the weights of isotropic decomposition (Soler et al. 2015, equation 22, the middle line). Orders 3 to 12.
+    #[serde(rename = "isd_tables")]
+    IsdTables,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 6] = [Self::Exact, Self::Tilt, Self::Tilt5, Self::Lf3, Self::Taylor15, Self::None];
+    pub const ALL: [Self; 8] = [
+        Self::Exact,
+        Self::Tilt,
+        Self::Tilt5,
+        Self::Lf3,
+        Self::Taylor15,
+        Self::None,
+        Self::ZhfTailored,
+        Self::IsdTables,
+    ];
+    /// Those that turn the reflectance from the frame of the normal map's normal to that of the surface.
+    pub const TURNS: [Self; 6] = [Self::Exact, Self::Tilt, Self::Tilt5, Self::Lf3, Self::Taylor15, Self::None];
+
+    /// Returns whether it reads the light's bands from tables.
+    pub fn reads_tables(self) -> bool {
+        matches!(self, Self::ZhfTailored | Self::IsdTables)
+    }
+
+    /// Returns the orders that it has.
+    pub fn orders(self) -> RangeInclusive<usize> {
+        match self {
+            // Names a family: this one has lobes to some order.
+            Self::ZhfTailored => ZHF_TAILORED.orders.clone(),
+            // A texture a band, beside two others, of the sixteen that there are everywhere.
+            Self::IsdTables => 3..=12,
+            _ => MIN_ORDER..=MAX_ORDER,
+        }
+    }
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -92,6 +129,8 @@ impl Method {
             Self::Lf3 => "lf3",
             Self::Taylor15 => "taylor15",
             Self::None => "none",
+            Self::ZhfTailored => "zhf_tailored",
+            Self::IsdTables => "isd_tables",
         }
     }
 
@@ -104,7 +143,8 @@ impl Method {
             Self::Tilt5 => Some(Spec::new(&TILT, order).by(SmallAngle::Lf5)),
             Self::Lf3 => Some(Spec::new(&SMALL_ZYZ, order)),
             Self::Taylor15 => Some(Spec::new(&SMALL_ZYZ, order).by(SmallAngle::Taylor15)),
-            Self::None => None,
+            Self::ZhfTailored => Some(Spec { rgb: true, ..Spec::new(&ZHF_TAILORED, order) }),
+            Self::None | Self::IsdTables => None,
         }
     }
 }

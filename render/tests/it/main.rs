@@ -1,5 +1,7 @@
 //! The tests of the pictures, one module a subject, in one program.
 
+mod bands;
 mod lightmap;
+mod mirror;
 mod pictures;
 mod report;

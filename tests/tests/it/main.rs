@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bake;
+mod band_tables;
 mod bilinear;
 mod bounds;
 mod brdf;

@@ -36,6 +36,7 @@ const BESIDE: [(&str, &[&str]); 4] = [
     (
         "zonal-templates",
         &[
+            "bands",
             "explorer",
             "glsl.tera",
             "picture",

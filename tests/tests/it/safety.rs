@@ -191,6 +191,7 @@ fn what_has_no_end_is_refused() {
             &["generate", file][..],
             &["generate", "s.toml"],
             &["project", file],
+            &["bands", file],
             &["vectors", "eval:3", "--inputs", file],
             &["search-lobes", "--tries", "1", "--out", file],
             &["search-lobes", "--tries", "1", "--resume", file],

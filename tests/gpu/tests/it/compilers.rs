@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use zonal_codegen::catalog::{ORDERS, standard};
 use zonal_codegen::emit::Function;
+use zonal_codegen::emit::bands::Reads;
 use zonal_codegen::emit::language::{Arrays, GLSL, Target, WGSL};
 use zonal_codegen::families::Group;
 use zonal_gpu_tests::system::compile;
@@ -96,6 +97,24 @@ fn glslang_accepts_bare_functions_in_every_version() {
         for batch in files.chunks(BATCH) {
             glslang(batch).unwrap_or_else(|error| panic!("{error}"));
         }
+    }
+}
+
+#[test]
+fn glslang_accepts_what_reads_a_lights_bands_in_every_version() {
+    for version in VERSIONS {
+        let folder = folder(&format!("bands {version}"));
+        let write = |order: usize| {
+            let reads = Reads { order, name: "light", group: 1, origin: "a test" };
+            let text = reads.text(&GLSL).expect("GLSL has textures");
+            // The file says the precision of all that it has, and needs none around it.
+            let around = "out ZONAL_HIGHP vec4 colour;\nvoid main() { colour = vec4(light_0_at(vec3(1.0)), 1.0); }\n";
+            let path = folder.join(format!("order{order}.frag"));
+            std::fs::write(&path, format!("#version {version}\n{text}{around}")).expect("can be written");
+            path
+        };
+        let files: Vec<PathBuf> = [1, 2, 3, 10, 16].map(write).into();
+        glslang(&files).unwrap_or_else(|error| panic!("{version}: {error}"));
     }
 }
 

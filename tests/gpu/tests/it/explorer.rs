@@ -23,7 +23,7 @@ const APIS: [&str; 2] = ["webgl2", "webgpu"];
 
 /// The kernels that the page's shaders call.
 fn specs() -> Vec<Spec> {
-    let of = |order: usize| Method::ALL.map(|method| Shading { order, method, isotropic: true });
+    let of = |order: usize| Method::TURNS.map(|method| Shading { order, method, isotropic: true });
     let specs: BTreeSet<Spec> = ORDERS.flat_map(of).flat_map(|shading| shading.specs()).collect();
     specs.into_iter().collect()
 }
@@ -50,7 +50,7 @@ fn the_explorer_shows_what_the_kernels_do() {
         std::fs::read_dir(page.path("shaders")).expect("the page has shaders").flatten().map(|entry| entry.path());
     let is_glsl = |path: &PathBuf| path.extension().is_some_and(|kind| kind == "frag" || kind == "vert");
     let glsl: Vec<PathBuf> = files.filter(is_glsl).collect();
-    assert!(glsl.len() > 2 * Method::ALL.len() * ORDERS.count(), "only {} shaders", glsl.len());
+    assert!(glsl.len() > 2 * Method::TURNS.len() * ORDERS.count(), "only {} shaders", glsl.len());
     compile("glslangValidator", "glslang-tools", &[], &glsl).unwrap_or_else(|error| panic!("{error}"));
 
     let functions = build(&specs());
@@ -312,7 +312,7 @@ fn pictures(facts: &Value) {
 /// What each method's picture and figures must show.
 fn methods(seen: &Value) {
     let order = number(&seen["first"]["order"]) as usize;
-    for method in Method::ALL {
+    for method in Method::TURNS {
         let figures = &seen["methods"][method.name()];
         assert_eq!(figures["method"], method.name());
         assert_eq!(number(&figures["operations"]) as usize, method.cost(order).total, "{method}");
@@ -336,7 +336,7 @@ fn methods(seen: &Value) {
     assert!(mean(Method::Taylor15) > 2.0 * mean(Method::Lf3));
     assert!(mean(Method::None) > 20.0 * mean(Method::Tilt));
     let table = list(&seen["table"]);
-    assert_eq!(table.len(), Method::ALL.len());
+    assert_eq!(table.len(), Method::TURNS.len());
     for row in table {
         assert!(list(row).iter().all(|cell| cell != "–" && cell != ""), "the table has a gap: {row}");
     }
