@@ -22,6 +22,13 @@ impl Sky {
         Some(Self { table: Alias::new(&weights)?, map })
     }
 
+    /// A sky that is one in all directions: what of it reaches a point is whether it is seen.
+    pub fn even() -> Self {
+        const ROWS: usize = 32;
+        let map = Map { width: 2 * ROWS, height: ROWS, texels: vec![[1.0; 3]; 2 * ROWS * ROWS] };
+        Self::new(map).expect("it is bright")
+    }
+
     /// The map.
     pub fn map(&self) -> &Map {
         &self.map

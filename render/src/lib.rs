@@ -16,3 +16,5 @@ pub mod report;
 pub mod strip;
 pub mod subject;
 pub mod tone;
+pub mod turn;
+pub mod visibility;

@@ -3,3 +3,4 @@
 mod lightmap;
 mod pictures;
 mod report;
+mod visibility;
