@@ -7,6 +7,8 @@
 //! ```
 
 pub mod canvas;
+pub mod compute;
+pub mod field;
 pub mod figures;
 pub mod frame;
 pub mod gpu;

@@ -27,7 +27,8 @@ pub fn fault(spec: &Spec) -> Option<[String; 2]> {
     let (few, many, last) = (a.min(b), a.max(b), (a + b).saturating_sub(1));
     // How many bands the other one may have is said below: what the result depends on.
     if !orders.contains(&few) {
-        let help = format!("one of them has an order of {} to {}, the other no lower one", orders.start(), orders.end());
+        let help =
+            format!("one of them has an order of {} to {}, the other no lower one", orders.start(), orders.end());
         return Some([format!("factors of the orders {a} and {b}"), help]);
     }
     if few == order && many == order {

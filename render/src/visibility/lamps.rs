@@ -42,8 +42,7 @@ impl Adder {
     ///
     /// If there is no such kernel.
     pub fn new(order: usize) -> Result<Self, Fault> {
-        let spec: Spec =
-            format!("light_sphere:{order}").parse().map_err(|error| Fault::new(format!("{error}"), ""))?;
+        let spec: Spec = format!("light_sphere:{order}").parse().map_err(|error| Fault::new(format!("{error}"), ""))?;
         let listing = Listing::new(&spec.kernel());
         let cost = listing.cost(3);
         Ok(Self { kernel: Program::new(&listing), operations: cost.total, special: cost.special })
@@ -99,9 +98,9 @@ pub fn picture(
         let place = place.as_ref()?;
         let spheres = around(&SPHERES, place.point.position);
         let own = Lights::of_spheres(&spheres);
-        let truth = [&lights, &own].into_iter().fold([0.0; 3], |sum, lights| {
-            add(sum, 1.0, lights.radiance(brdf, place.axes, place.view))
-        });
+        let truth = [&lights, &own]
+            .into_iter()
+            .fold([0.0; 3], |sum, lights| add(sum, 1.0, lights.radiance(brdf, place.axes, place.view)));
         let found = ways.iter().map(|(shader, adder, e, middle)| {
             [shader.shade(place, &adder.add(&spheres, e)), shader.shade(place, middle)]
         });

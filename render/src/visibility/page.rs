@@ -7,7 +7,7 @@ use crate::tone;
 use crate::visibility::lamps::{self, Adder};
 use crate::visibility::multiplier::{Grid, Multiplier};
 use crate::visibility::paper::Paper;
-use crate::visibility::seen::{Convergence, Object, Place, Shader, convergence, mixed};
+use crate::visibility::seen::{Convergence, KERNELS, Object, Place, Shader, convergence, mixed};
 use rayon::prelude::*;
 use std::fmt::Write;
 use zonal_codegen::environment::harmonics::basis;
@@ -29,7 +29,7 @@ const BRDF: Brdf = Brdf::Phong { exponent: 10.0 };
 /// The size of a picture.
 pub const TILE: [usize; 2] = [200, 180];
 /// The size at which errors are measured.
-const MEASURED: [usize; 2] = [60, 54];
+const MEASURED: [usize; 2] = [50, 45];
 /// The orders of the pictures.
 const SHOWN: [usize; 3] = [5, 9, 16];
 /// The orders under lights nearby.
@@ -37,11 +37,11 @@ const LIT: [usize; 3] = [3, 5, 9];
 /// The orders whose costs are told.
 const COUNTED: [usize; 4] = [3, 4, 5, 6];
 /// How many rays a vertex casts.
-const RAYS: usize = 1024;
+const RAYS: usize = 512;
 /// How many directions a place of the convergence casts.
 const DENSE: usize = 2048;
 /// Its places.
-const PLACES: usize = 40;
+const PLACES: usize = 32;
 /// How many lights brute force takes for the map.
 const LIGHTS: usize = 1024;
 /// The most bands.
@@ -219,22 +219,27 @@ fn pictured(
     lights: &Lights,
     light: &Projection,
     multiplier: &Multiplier,
+    shaders: &[Shader],
 ) -> Result<Vec<Option<Pixel>>, Fault> {
     let most = SHOWN.into_iter().max().unwrap_or(2);
     let visibility = object.visibility(most, RAYS, 1)?;
-    let of_order = |order: usize| -> Result<(Shader, Vec<Vec<[f64; 3]>>), Fault> {
-        let seen = visibility.par_iter().map(|v| multiplier.product(&v[..order * order])).collect();
-        Ok((Shader::new(&BRDF, order)?, seen))
+    let of_order = |order: usize| -> Vec<Vec<[f64; 3]>> {
+        visibility.par_iter().map(|v| multiplier.product(&v[..order * order])).collect()
     };
-    let ways = SHOWN.into_iter().map(of_order).collect::<Result<Vec<_>, Fault>>()?;
+    let ways: Vec<(&Shader, Vec<Vec<[f64; 3]>>)> = shaders.iter().zip(SHOWN.map(of_order)).collect();
     let pixel = |place: &Option<Place>| {
         let place = place.as_ref()?;
-        let found = ways.iter().map(|(shader, seen)| {
-            [shader.shade(place, &light.coefficients), shader.shade(place, &mixed(place, seen))]
-        });
+        let found = ways
+            .iter()
+            .map(|(shader, seen)| [shader.shade(place, &light.coefficients), shader.shade(place, &mixed(place, seen))]);
         Some(Pixel { truth: place.by_rays(object, &BRDF, &lights.0), found: found.collect() })
     };
     Ok(object.places(&CAMERA, size).par_iter().map(pixel).collect())
+}
+
+/// What shades at the orders of the pictures.
+fn shaders() -> Result<Vec<Shader>, Fault> {
+    SHOWN.into_iter().map(|order| Shader::new(&BRDF, order)).collect()
 }
 
 /// What is shaded: the objects with their names, and a map for them and one for lights nearby, with theirs.
@@ -262,9 +267,9 @@ impl Subjects {
         let multiplier = Multiplier::new(&light, SHOWN[2]);
         let (_, first) = &self.objects[0];
         let all = Lights::of(map);
-        let few = all.gathered(LIGHTS);
+        let (few, shaders) = (all.gathered(LIGHTS), shaders()?);
         let of_object = |(name, object): &(String, Object)| -> Result<Pictured, Fault> {
-            let pixels = pictured(object, MEASURED, &few, &light, &multiplier)?;
+            let pixels = pictured(object, MEASURED, &few, &light, &multiplier, &shaders)?;
             let truth = frame(&pixels, MEASURED, |pixel| pixel.truth[1]);
             let errors = |of: &dyn Fn(&Pixel) -> [f64; 3]| Errors::of(&frame(&pixels, MEASURED, of), &truth);
             Ok(Pictured {
@@ -297,10 +302,10 @@ impl Subjects {
         let map = &self.maps[0].1;
         let light = map.project(2 * SHOWN[2] - 1);
         let (multiplier, lights) = (Multiplier::new(&light, SHOWN[2]), Lights::of(map).gathered(LIGHTS));
-        let size = TILE.map(|side| side * samples);
+        let (size, shaders) = (TILE.map(|side| side * samples), shaders()?);
         let mut rows = Vec::new();
         for (_, object) in &self.objects {
-            let pixels = pictured(object, size, &lights, &light, &multiplier)?;
+            let pixels = pictured(object, size, &lights, &light, &multiplier, &shaders)?;
             for which in [0, 1] {
                 let mut row = vec![frame(&pixels, size, |pixel| pixel.truth[which])];
                 row.extend((0..SHOWN.len()).map(|i| frame(&pixels, size, |pixel| pixel.found[i][which])));
@@ -369,7 +374,7 @@ impl Report {
              first column) and at orders {}; above without visibility, below with it. What is seen of the sky lies in the \
              vertices, as `zonal bake MESH --basis visibility{}` writes it with {RAYS} rays a vertex, in the axes of the object; \
              it is multiplied with the light once a vertex, and what is made is interpolated over the triangles and shaded by \
-             `shade`. Errors are shares of the mean radiance by rays with visibility.\n\n\
+             `shade` (beyond order {KERNELS} by quadrature, which is the same integral). Errors are shares of the mean radiance by rays with visibility.\n\n\
              | object | by rays, nothing hidden: rms |",
             SHOWN.map(|order| order.to_string()).join(", "),
             SHOWN[2]
@@ -406,7 +411,8 @@ impl Report {
         for Equal { order, wide, narrow, cut } in &self.equal {
             // What rounds is told by its power of ten: it hangs on the last bits of every sum.
             let bound = |x: f64| if x < 1e-12 { "below 1e-12".to_owned() } else { format!("above 1e-12: {x:.0e}") };
-            let narrow = narrow.map(|x| if x < 1e-6 { "below 1e-6".to_owned() } else { format!("above 1e-6: {x:.0e}") });
+            let narrow =
+                narrow.map(|x| if x < 1e-6 { "below 1e-6".to_owned() } else { format!("above 1e-6: {x:.0e}") });
             let [a, b] = wide.map(bound);
             let _ = writeln!(text, "| {order} | {a} | {b} | {} | {} | {} |", narrow[0], narrow[1], percent(*cut));
         }

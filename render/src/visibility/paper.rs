@@ -3,12 +3,12 @@
 
 use crate::visibility::multiplier::Multiplier;
 // Names a family: its directions are what the steps are made of.
+use zonal_codegen::families::Spec;
 use zonal_codegen::families::isd::directions::{Shared, shared};
 use zonal_codegen::families::parts::columns;
 use zonal_codegen::families::parts::quaternion::matrix_of_quaternion;
 use zonal_codegen::families::parts::sums::inner;
 use zonal_codegen::families::parts::turned;
-use zonal_codegen::families::Spec;
 use zonal_codegen::ir::eval::{Contraction, Number, Program};
 use zonal_codegen::ir::graph::Id;
 use zonal_codegen::ir::kernel::{Builder, Domain, Kernel, Shape};

@@ -140,11 +140,22 @@ fn kernel(name: &str, order: usize) -> Result<Program<f64>, Fault> {
     Ok(Program::new(&Listing::new(&spec.kernel())))
 }
 
+/// The most bands that a kernel is built for: those of order 16 take ten seconds.
+pub const KERNELS: usize = 10;
+
 /// What shades at an order.
 pub struct Shader {
     order: usize,
     table: Table,
-    kernel: Program<f64>,
+    way: Way,
+}
+
+/// How a reflectance meets the light.
+enum Way {
+    /// By the kernel `shade`.
+    Kernel(Box<Program<f64>>),
+    /// In the axes of the object, where an exact rule of quadrature brings it, and the harmonics of the rule's directions.
+    Rule(Grid, Vec<Vec<f64>>),
 }
 
 impl Shader {
@@ -154,18 +165,32 @@ impl Shader {
     ///
     /// If there is no such kernel.
     pub fn new(brdf: &Brdf, order: usize) -> Result<Self, Fault> {
-        Ok(Self { order, table: Table::new(brdf, order), kernel: kernel("shade", order)? })
+        let way = if order <= KERNELS {
+            Way::Kernel(Box::new(kernel("shade", order)?))
+        } else {
+            let grid = Grid::of_degree(2 * (order - 1));
+            let harmonics = grid.harmonics(order);
+            Way::Rule(grid, harmonics)
+        };
+        Ok(Self { order, table: Table::new(brdf, order), way })
     }
 
     /// Returns what a place reflects of light in the world, or of light times visibility.
     pub fn shade(&self, place: &Place, e: &[[f64; 3]]) -> [f64; 3] {
-        let c = self.table.at(place.view);
-        let channel = |k: usize| {
-            let one: Vec<f64> = e[..self.order * self.order].iter().map(|e| e[k]).collect();
-            self.kernel.run(&[&place.q, &one, &c], Contraction::Separate)[0]
-        };
-        [0, 1, 2].map(channel)
+        // An isotropic reflectance is looked up at azimuth 0, where the view is.
+        let (c, e) = (self.table.at(place.view), &e[..self.order * self.order]);
+        match &self.way {
+            Way::Kernel(kernel) => [0, 1, 2].map(|k| {
+                let one: Vec<f64> = e.iter().map(|e| e[k]).collect();
+                kernel.run(&[&place.q, &one, &c], Contraction::Separate)[0]
+            }),
+            Way::Rule(grid, harmonics) => sum(&place.in_object(&c, grid, harmonics), e),
+        }
     }
+}
+
+fn sum(c: &[f64], e: &[[f64; 3]]) -> [f64; 3] {
+    c.iter().zip(e).fold([0.0; 3], |sum, (&c, &e)| add(sum, c, e))
 }
 
 /// What is mixed of the corners of a triangle.
@@ -207,7 +232,6 @@ pub fn convergence(
             let [_, truth] = place.by_rays(object, brdf, &lights.0);
             let v = place.visibility(object, most, rays);
             let c = place.in_object(&brdf.coefficients(place.view, most), &grid, &harmonics);
-            let sum = |c: &[f64], e: &[[f64; 3]]| c.iter().zip(e).fold([0.0; 3], |sum, (&c, &e)| add(sum, c, e));
             let of_order = |order: usize| {
                 let (c, v) = (&c[..order * order], &v[..order * order]);
                 [sum(c, &light.coefficients[..order * order]), sum(c, &multiplier.product(v))]

@@ -1,5 +1,6 @@
 //! The tests of the pictures, one module a subject, in one program.
 
+mod height_field;
 mod lightmap;
 mod pictures;
 mod report;
