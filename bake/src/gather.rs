@@ -35,8 +35,9 @@ impl Baker<'_> {
             if local[2] > 0.0 && self.occluders.sees(origin, ray.direction) {
                 let direction = if self.basis.is_of_object() { ray.direction } else { local };
                 self.basis.values(direction, &mut values);
+                let channels = self.basis.channels();
                 for (sum, value) in sums.iter_mut().zip(&values) {
-                    (0..3).for_each(|channel| sum[channel] += value * ray.power[channel]);
+                    (0..channels).for_each(|channel| sum[channel] += value * ray.power[channel]);
                 }
             }
         }

@@ -222,8 +222,8 @@ impl Report {
              After section 7.3 of Nowrouzezahrai et al. (2012): a height field of {SIDE} by {SIDE} points, seed {SEED}, seen from \
              above, under `{}`, of which {ORDER} bands are taken. Each point has its transfer, visibility times the cosine times \
              `{BRDF}` for the view, as {count} coefficients in its own frame; the light is turned there at every point, by the \
-             rotation from a quaternion, by zonal factorisation (`zhf`), by the same tailored to the signal (`zhf_tailored`), from \
-             the normal alone (`align`) and by `tilt`, which is for small angles, and is multiplied with it. *object* has the same transfer in the axes of the \
+             rotation from a quaternion, by zonal factorisation (`zhf`), by the same tailored to the signal (`zhf_tailored`) and \
+             by `tilt`, which takes the normal alone and is for small angles, and is multiplied with it. *object* has the same transfer in the axes of the \
              object, and turns nothing. Operations are of a point in R, G and B, the inner product included, what makes a \
              quaternion or a matrix of the normal not. `zhf_tailored` reads its samples from a cubemap a band, whose side keeps a \
              linear read within {} of the band's largest value; they are made for this page on the CPU.\n\n\

@@ -30,27 +30,25 @@ pub enum Turn {
 pub struct Way {
     /// What a table calls it.
     pub name: &'static str,
-    /// The kernel's family, empty for none, and what follows the order in its spec.
-    pub kernel: [&'static str; 2],
+    /// The kernel's family, empty for none.
+    pub family: &'static str,
     /// What it is given.
     pub turn: Turn,
 }
 
 /// All ways.
-pub const WAYS: [Way; 6] = [
-    Way { name: "rotate", kernel: ["rotate", ""], turn: Turn::Quaternion },
-    Way { name: "zhf", kernel: ["zhf", ""], turn: Turn::Matrix },
-    Way { name: "zhf_tailored", kernel: ["zhf_tailored", ""], turn: Turn::Samples },
-    Way { name: "align", kernel: ["rotate", ":align"], turn: Turn::Normal },
-    Way { name: "tilt", kernel: ["tilt", ""], turn: Turn::Normal },
-    Way { name: "object", kernel: ["", ""], turn: Turn::None },
+pub const WAYS: [Way; 5] = [
+    Way { name: "rotate", family: "rotate", turn: Turn::Quaternion },
+    Way { name: "zhf", family: "zhf", turn: Turn::Matrix },
+    Way { name: "zhf_tailored", family: "zhf_tailored", turn: Turn::Samples },
+    Way { name: "tilt", family: "tilt", turn: Turn::Normal },
+    Way { name: "object", family: "", turn: Turn::None },
 ];
 
 impl Way {
     /// Returns the spec of its kernel at an order, if it has one.
     pub fn text(&self, order: usize) -> Option<String> {
-        let [family, method] = self.kernel;
-        (!family.is_empty()).then(|| format!("{family}:{order}{method}"))
+        (!self.family.is_empty()).then(|| format!("{}:{order}", self.family))
     }
 
     /// Returns the spec at an order, for R, G and B or for one channel, if a kernel turns anything.
@@ -67,7 +65,7 @@ impl Way {
     /// Whether it is exact but for rounding, if what it reads is.
     pub fn is_exact(&self) -> bool {
         // Names a family: of all that turns light here this one is for small angles.
-        self.kernel[0] != "tilt"
+        self.family != "tilt"
     }
 
     /// Returns the operations of a point for R, G and B, with the inner product, and the special ones: what turns the lobes'

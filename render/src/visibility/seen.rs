@@ -104,20 +104,19 @@ impl Place {
     pub fn visibility(&self, object: &Object, order: usize, count: usize) -> Vec<f64> {
         let origin = self.point.origin();
         let (mut sums, mut values) = (vec![0.0; order * order], vec![0.0; order * order]);
-        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-        for i in 0..count {
-            // A spiral: even in z, and its azimuths as far apart as they can be.
-            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
-            let (sin, cos) = (golden * i as f64).sin_cos();
-            let radius = (1.0 - z * z).sqrt();
-            let direction = [radius * cos, radius * sin, z];
+        for Light { direction, power: [share, ..] } in Sky::even().rays(count, 1) {
             if dot(direction, self.axes[2]) > 0.0 && object.occluders.sees(origin, direction) {
                 basis(order, direction, &mut values);
-                sums.iter_mut().zip(&values).for_each(|(sum, y)| *sum += y);
+                sums.iter_mut().zip(&values).for_each(|(sum, y)| *sum += share * y);
             }
         }
-        let share = 4.0 * std::f64::consts::PI / count as f64;
-        sums.into_iter().map(|v| share * v).collect()
+        sums
+    }
+
+    /// Returns how much of its hemisphere a place sees, from 0 to 1.
+    pub fn openness(&self, object: &Object) -> f64 {
+        // Band 0 of the visibility over that of the whole hemisphere.
+        self.visibility(object, 1, 512)[0] / std::f64::consts::PI.sqrt()
     }
 
     /// Returns coefficients of the frame in the axes of the object, of any order, by a rule that is exact: the harmonics of the
