@@ -24,6 +24,7 @@ mod hemisphere_rotation;
 mod house;
 mod irradiance;
 mod isd;
+mod isd_extremes;
 mod laws;
 mod lights;
 mod loops;
