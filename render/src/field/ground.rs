@@ -24,7 +24,7 @@ impl Ground {
         let hills: Vec<([f64; 2], f64, f64)> = (0..HILLS)
             .map(|i| {
                 let width = 0.45 / (1.0 + 0.1 * i as f64);
-                ([random.signed(), random.signed()], width, 0.32 * width * random.signed())
+                ([random.signed(), random.signed()], width, 0.38 * width * random.signed())
             })
             .collect();
         let (mut heights, mut slopes) = (vec![], vec![]);

@@ -28,9 +28,9 @@ pub const SIDE: usize = 256;
 /// Where hills are.
 const SEED: u64 = 7;
 /// What the ground reflects.
-const BRDF: Brdf = Brdf::Phong { exponent: 12.0 };
+const BRDF: Brdf = Brdf::Phong { exponent: 8.0 };
 /// Where the view is from: far above, and a little aside.
-const VIEW: [f64; 3] = [0.35, -0.25, 0.9];
+const VIEW: [f64; 3] = [0.4, -0.3, 0.85];
 /// How many points along a side lie between two at which errors are measured.
 const STEP: usize = 11;
 /// Between which angles normals are told apart, in degrees.

@@ -3,8 +3,8 @@
 use crate::field::tables::Cube;
 use crate::field::ways::{Lobes, Turn, Way};
 use std::fmt::Write;
-// Names a language: the adapter takes this one.
 use zonal_codegen::emit::Module;
+// Names a language: the adapter takes this one.
 use zonal_codegen::emit::language::WGSL;
 use zonal_codegen::fault::Fault;
 use zonal_codegen::generate;

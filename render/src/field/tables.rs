@@ -59,23 +59,41 @@ impl Cube {
         Self { side, texels: (0..6 * side * side).map(texel).collect() }
     }
 
-    /// Returns what a linear filter reads in a direction; at a face's border it goes on with the border's texels.
+    /// Returns the face that a direction of any length lies in, and where, right and down from −1 to 1.
+    fn place(direction: [f64; 3]) -> (usize, [f64; 2]) {
+        let depth = |face: usize| dot(FACES[face][2], direction);
+        let face = (0..6).max_by(|&a, &b| depth(a).total_cmp(&depth(b))).unwrap_or(0);
+        let [right, down, _] = FACES[face];
+        (face, [right, down].map(|axis| dot(axis, direction) / depth(face)))
+    }
+
+    /// Returns a texel by its column and row; beyond a face's border that of the neighbour whose direction is nearest.
+    fn texel(&self, face: usize, at: [isize; 2]) -> [f16; 4] {
+        let side = self.side as isize;
+        let inside = |v: isize| (0..side).contains(&v);
+        let middle = |v: isize| (2 * v + 1) as f64 / side as f64 - 1.0;
+        let (face, [x, y]) = match at {
+            [x, y] if inside(x) && inside(y) => (face, [x, y]),
+            [x, y] => {
+                let ([right, down, out], u, v) = (FACES[face], middle(x), middle(y));
+                let (face, place) = Self::place(std::array::from_fn(|k| out[k] + u * right[k] + v * down[k]));
+                (face, place.map(|v| (((v + 1.0) * 0.5 * side as f64) as isize).clamp(0, side - 1)))
+            }
+        };
+        self.texels[(face * self.side + y as usize) * self.side + x as usize]
+    }
+
+    /// Returns what a linear filter reads in a direction, over the cube's edges too.
     pub fn read(&self, direction: [f64; 3]) -> [f64; 3] {
-        let most = |face: &[[f64; 3]; 3]| dot(face[2], direction);
-        let face = (0..6).max_by(|&a, &b| most(&FACES[a]).total_cmp(&most(&FACES[b]))).unwrap_or(0);
-        let [right, down, out] = FACES[face];
-        let depth = dot(out, direction);
-        let [(x, across), (y, along)] = [right, down].map(|axis| {
-            let place = (dot(axis, direction) / depth + 1.0) * 0.5 * self.side as f64 - 0.5;
-            let place = place.clamp(0.0, (self.side - 1) as f64);
-            let low = (place as usize).min(self.side.saturating_sub(2));
-            (low, place - low as f64)
+        let (face, place) = Self::place(direction);
+        let [(x, across), (y, along)] = place.map(|v| {
+            let place = (v + 1.0) * 0.5 * self.side as f64 - 0.5;
+            (place.floor() as isize, place - place.floor())
         });
         let mut sum = [0.0; 3];
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let (column, row) = ((x + dx).min(self.side - 1), (y + dy).min(self.side - 1));
             let weight = (if dx == 0 { 1.0 - across } else { across }) * (if dy == 0 { 1.0 - along } else { along });
-            let texel = self.texels[(face * self.side + row) * self.side + column];
+            let texel = self.texel(face, [x + dx, y + dy]);
             (0..3).for_each(|k| sum[k] += weight * texel[k].to_f64());
         }
         sum
@@ -105,8 +123,8 @@ mod tests {
                     (worst, most) = (worst.max((found[k] - wanted[k]).abs()), most.max(wanted[k].abs()));
                 }
             }
-            // At a border the filter stops half a texel early: up to l h/2 of the largest value, twice what is inside.
-            let allowed = if l == 0 { 1e-3 } else { ERROR + 0.1 };
+            // Over an edge the texels of both faces do not lie on one grid: some times what is inside.
+            let allowed = if l == 0 { 1e-3 } else { 5.0 * ERROR };
             assert!(worst <= allowed * most, "band {l}: {worst} of {most}, side {}", cube.side);
         }
     }

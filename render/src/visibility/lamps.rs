@@ -101,9 +101,8 @@ pub fn picture(
         let truth = [&lights, &own]
             .into_iter()
             .fold([0.0; 3], |sum, lights| add(sum, 1.0, lights.radiance(brdf, place.axes, place.view)));
-        let found = ways.iter().map(|(shader, adder, e, middle)| {
-            [shader.shade(place, &adder.add(&spheres, e)), shader.shade(place, middle)]
-        });
+        let found =
+            ways.iter().map(|(shader, adder, e, middle)| shader.shade(place, [&adder.add(&spheres, e)[..], middle]));
         Some(Pixel { truth, found: found.collect() })
     };
     Ok(object.places(camera, size).par_iter().map(pixel).collect())

@@ -23,7 +23,7 @@ use zonal_picture::mesh::Mesh;
 use zonal_picture::vector::dot;
 
 /// How objects are looked at.
-const CAMERA: Camera = Camera { azimuth: 30.0, elevation: 15.0, distance: 4.0, field: 29.0 };
+const CAMERA: Camera = Camera { azimuth: 30.0, elevation: 15.0, distance: 4.0, field: 21.0 };
 /// What they reflect: an exponent that the orders hold.
 const BRDF: Brdf = Brdf::Phong { exponent: 10.0 };
 /// The size of a picture.
@@ -37,11 +37,13 @@ const LIT: [usize; 3] = [3, 5, 9];
 /// The orders whose costs are told.
 const COUNTED: [usize; 4] = [3, 4, 5, 6];
 /// How many rays a vertex casts.
-const RAYS: usize = 2048;
+const RAYS: usize = 1024;
 /// How many directions a place of the convergence casts.
-const DENSE: usize = 16384;
+const DENSE: usize = 8192;
 /// Its places.
 const PLACES: usize = 32;
+/// Of how many of them one is looked at where two ways are compared.
+const EACH: usize = 4;
 /// How much of its hemisphere such a place sees at most.
 const OPEN: f64 = 0.85;
 /// How many lights brute force takes for the map.
@@ -126,11 +128,11 @@ fn listing(text: &str) -> Result<Listing, Fault> {
 }
 
 /// Places of the object's picture, spread over those from which something of the sky is hidden.
-fn places(object: &Object, count: usize) -> Vec<Place> {
+fn places(object: &Object) -> Vec<Place> {
     let all: Vec<Place> = object.places(&CAMERA, [60, 54]).into_iter().flatten().collect();
     let all: Vec<Place> = all.into_par_iter().filter(|place| place.openness(object) <= OPEN).collect();
-    let step = (all.len() / count).max(1);
-    all.into_iter().step_by(step).take(count).collect()
+    let step = (all.len() / PLACES).max(1);
+    all.into_iter().step_by(step).take(PLACES).collect()
 }
 
 /// The largest difference of lists of colours, over the root mean square of the second.
@@ -166,10 +168,12 @@ fn ways<T: Number>(
     Ok(found)
 }
 
-fn equal(object: &Object, light: &Projection, order: usize) -> Result<Equal, Fault> {
+fn equal(object: &Object, places: &[Place], light: &Projection, order: usize) -> Result<Equal, Fault> {
     let bands = 2 * order - 1;
-    let inputs: Vec<(Place, Vec<f64>, Vec<f64>)> = places(object, 12)
-        .into_iter()
+    let inputs: Vec<(Place, Vec<f64>, Vec<f64>)> = places
+        .iter()
+        .step_by(EACH)
+        .cloned()
         .map(|place| {
             let (c, v) = (BRDF.coefficients(place.view, order), place.visibility(object, order, 512));
             (place, c, v)
@@ -226,19 +230,19 @@ fn pictured(
     shaders: &[Shader],
 ) -> Result<Vec<Option<Pixel>>, Fault> {
     let most = SHOWN.into_iter().max().unwrap_or(2);
-    let visibility = object.visibility(most, RAYS, 1)?;
+    let places = object.places(&CAMERA, size);
+    let visibility = object.visibility(&places, most, RAYS, 1)?;
     let of_order = |order: usize| -> Vec<Vec<[f64; 3]>> {
-        visibility.par_iter().map(|v| multiplier.product(&v[..order * order])).collect()
+        visibility.par_iter().map(|v| multiplier.product(&v[..(order * order).min(v.len())])).collect()
     };
     let ways: Vec<(&Shader, Vec<Vec<[f64; 3]>>)> = shaders.iter().zip(SHOWN.map(of_order)).collect();
     let pixel = |place: &Option<Place>| {
         let place = place.as_ref()?;
-        let found = ways
-            .iter()
-            .map(|(shader, seen)| [shader.shade(place, &light.coefficients), shader.shade(place, &mixed(place, seen))]);
+        let found =
+            ways.iter().map(|(shader, seen)| shader.shade(place, [&light.coefficients[..], &mixed(place, seen)]));
         Some(Pixel { truth: place.by_rays(object, &BRDF, &lights.0), found: found.collect() })
     };
-    Ok(object.places(&CAMERA, size).par_iter().map(pixel).collect())
+    Ok(places.par_iter().map(pixel).collect())
 }
 
 /// What shades at the orders of the pictures.
@@ -270,7 +274,7 @@ impl Subjects {
         let light = map.project(2 * MOST - 1);
         let multiplier = Multiplier::new(&light, SHOWN[2]);
         let (_, first) = &self.objects[0];
-        let all = Lights::of(map);
+        let (all, places) = (Lights::of(map), places(first));
         let (few, shaders) = (all.gathered(LIGHTS), shaders()?);
         let of_object = |(name, object): &(String, Object)| -> Result<Pictured, Fault> {
             let pixels = pictured(object, MEASURED, &few, &light, &multiplier, &shaders)?;
@@ -288,9 +292,9 @@ impl Subjects {
         let added = |order: usize| Adder::new(order).map(|adder| [adder.operations, adder.special]);
         Ok(Report {
             maps: [name.clone(), other.clone()],
-            equal: [3, 5].into_iter().map(|order| equal(first, &light, order)).collect::<Result<_, _>>()?,
+            equal: [3, 5].into_iter().map(|order| equal(first, &places, &light, order)).collect::<Result<_, _>>()?,
             costs: COUNTED.into_iter().map(|order| costs(&light, order)).collect::<Result<_, _>>()?,
-            convergence: convergence(first, &places(first, PLACES), &BRDF, &all, &light, 2..=MOST, DENSE),
+            convergence: convergence(first, &places, &BRDF, &all, &light, 2..=MOST, DENSE),
             pictured: self.objects.iter().map(of_object).collect::<Result<_, _>>()?,
             lit: (0..LIT.len()).map(lit).collect(),
             added: LIT.into_iter().map(added).collect::<Result<_, _>>()?,
@@ -401,16 +405,18 @@ impl Report {
     }
 
     fn write_ways(&self, text: &mut String) {
-        text.push_str(
+        let _ = write!(
+            text,
             "\n## Two ways to one integral\n\n\
              The paper's appendix A makes weights of the reflectance times the light a pixel, in three steps: the reflectance's \
              coefficients in the axes of the object, a matrix γ of n² by n² numbers, made from the map, of which all bands to \
              2n − 2 matter, and equation 22 with the visibility for the light. (As printed the first step has y(R_m⁻¹ R_n z) \
              where y(R_n⁻¹ z^m) is right, and the last is without R_n.) The other way multiplies light and visibility once a \
              vertex by `product:(2n−1)+n:n`; a pixel then takes what it takes without visibility. Both are the integral of the \
-             three functions in their bands: the largest difference from its quadrature at 12 places of the bunny, as a share of \
+             three functions in their bands: the largest difference from its quadrature at {} places of the bunny, as a share of \
              the root mean square. The last column is what the paper's way errs by if γ is made from n bands of the light.\n\n\
              | order | γ, f64 | product, f64 | γ, f32 | product, f32 | γ of n bands |\n|---|---|---|---|---|---|\n",
+            PLACES / EACH
         );
         for Equal { order, wide, narrow, cut } in &self.equal {
             // What rounds is told by its power of ten: it hangs on the last bits of every sum.

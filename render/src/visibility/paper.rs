@@ -2,8 +2,8 @@
 //! kernels that are run and counted here and are in no catalogue: `product`, then `shade` give the same for less.
 
 use crate::visibility::multiplier::Multiplier;
-// Names a family: its directions are what the steps are made of.
 use zonal_codegen::families::Spec;
+// Names a family: its directions are what the steps are made of.
 use zonal_codegen::families::isd::directions::{Shared, shared};
 use zonal_codegen::families::parts::columns;
 use zonal_codegen::families::parts::quaternion::matrix_of_quaternion;

@@ -52,16 +52,28 @@ impl Object {
         Self { occluders: Occluders::new(&mesh), mesh }
     }
 
-    /// Returns the visibility of the vertices in the axes of the object, as `zonal bake --basis visibilityN` does.
+    /// Returns the visibility of the vertices in the axes of the object, as `zonal bake --basis visibilityN` does; nothing of
+    /// those that no place lies beside.
     ///
     /// # Errors
     ///
     /// If nothing is baked of that order.
-    pub fn visibility(&self, order: usize, rays: usize, seed: u64) -> Result<Vec<Vec<f64>>, Fault> {
+    pub fn visibility(
+        &self,
+        places: &[Option<Place>],
+        order: usize,
+        rays: usize,
+        seed: u64,
+    ) -> Result<Vec<Vec<f64>>, Fault> {
+        let mut is_needed = vec![false; self.mesh.positions.len()];
+        places.iter().flatten().flat_map(|place| place.corners).for_each(|(at, _)| is_needed[at] = true);
         let (sky, basis) = (Sky::even(), format!("visibility{order}").parse::<Basis>()?);
         let baker = Baker { sky: &sky, occluders: &self.occluders, basis: &basis, rays, seed, over_pi: false };
-        let found = baker.all(&Point::vertices(&self.mesh), || {});
-        Ok(found.into_iter().map(|of| of.into_iter().map(|[v, ..]| v).collect()).collect())
+        let one = |(at, point): (usize, &Point)| match is_needed[at] {
+            true => baker.at(point, at as u64).into_iter().map(|[v, ..]| v).collect(),
+            false => vec![],
+        };
+        Ok(Point::vertices(&self.mesh).par_iter().enumerate().map(one).collect())
     }
 
     /// Returns what pixels of a picture show, row by row from the top, where the surface looks to the camera.
@@ -174,16 +186,21 @@ impl Shader {
         Ok(Self { order, table: Table::new(brdf, order), way })
     }
 
-    /// Returns what a place reflects of light in the world, or of light times visibility.
-    pub fn shade(&self, place: &Place, e: &[[f64; 3]]) -> [f64; 3] {
+    /// Returns what a place reflects of lights in the world, or of light times visibility.
+    pub fn shade<const N: usize>(&self, place: &Place, lights: [&[[f64; 3]]; N]) -> [[f64; 3]; N] {
         // An isotropic reflectance is looked up at azimuth 0, where the view is.
-        let (c, e) = (self.table.at(place.view), &e[..self.order * self.order]);
+        let (c, lights) = (self.table.at(place.view), lights.map(|e| &e[..self.order * self.order]));
         match &self.way {
-            Way::Kernel(kernel) => [0, 1, 2].map(|k| {
-                let one: Vec<f64> = e.iter().map(|e| e[k]).collect();
-                kernel.run(&[&place.q, &one, &c], Contraction::Separate)[0]
+            Way::Kernel(kernel) => lights.map(|e| {
+                [0, 1, 2].map(|k| {
+                    let one: Vec<f64> = e.iter().map(|e| e[k]).collect();
+                    kernel.run(&[&place.q, &one, &c], Contraction::Separate)[0]
+                })
             }),
-            Way::Rule(grid, harmonics) => sum(&place.in_object(&c, grid, harmonics), e),
+            Way::Rule(grid, harmonics) => {
+                let c = place.in_object(&c, grid, harmonics);
+                lights.map(|e| sum(&c, e))
+            }
         }
     }
 }
@@ -194,7 +211,7 @@ fn sum(c: &[f64], e: &[[f64; 3]]) -> [f64; 3] {
 
 /// What is mixed of the corners of a triangle.
 pub fn mixed(place: &Place, of: &[Vec<[f64; 3]>]) -> Vec<[f64; 3]> {
-    let count = of.first().map_or(0, Vec::len);
+    let count = of[place.corners[0].0].len();
     (0..count).map(|i| place.corners.iter().fold([0.0; 3], |sum, &(at, weight)| add(sum, weight, of[at][i]))).collect()
 }
 

@@ -42,23 +42,13 @@ fn what_is_not_a_number_makes_none_and_no_light_makes_nothing() {
         assert!(norm(&wide.run(&inputs)) > 0.0, "{text}");
         for (at, param) in params.iter().enumerate() {
             for number in 0..param.shape.len() {
-                for bad in [f64::NAN, f64::INFINITY] {
-                    let mut inputs = inputs.clone();
-                    inputs[at][number] = bad;
-                    let both = [wide.run(&inputs), narrow.run(&inputs)];
-                    // In the tangent plane the height is not looked at.
-                    let is_left_out = text.starts_with("hsh_gradient") && param.name == "e" && number == 2;
-                    // What is infinitely far away does not move.
-                    let is_far = param.name == "r" && bad.is_infinite();
-                    for found in both {
-                        let is_finite = found.iter().all(|x| x.is_finite());
-                        assert_eq!(
-                            is_finite,
-                            is_left_out || is_far,
-                            "{text}: {bad} in {}[{number}]: {found:?}",
-                            param.name
-                        );
-                    }
+                let mut inputs = inputs.clone();
+                inputs[at][number] = f64::NAN;
+                // In the tangent plane the height is not looked at.
+                let is_left_out = text.starts_with("hsh_gradient") && param.name == "e" && number == 2;
+                for found in [wide.run(&inputs), narrow.run(&inputs)] {
+                    let is_finite = found.iter().all(|x| x.is_finite());
+                    assert_eq!(is_finite, is_left_out, "{text}: {}[{number}]: {found:?}", param.name);
                 }
             }
             if param.name == light {
