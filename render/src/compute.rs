@@ -46,7 +46,7 @@ pub fn run(gpu: &Gpu, way: Way, order: usize, text: &str, inputs: &Inputs) -> Re
         let light = filled(bytemuck::cast_slice(inputs.light), wgpu::BufferUsages::UNIFORM);
         let normals = filled(bytemuck::cast_slice(inputs.normals), storage);
         let empty = |usage| {
-            let size = (count * size_of::<[f32; 4]>()) as u64;
+            let size = size_of_val(inputs.normals) as u64;
             device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
         };
         let result = empty(storage | wgpu::BufferUsages::COPY_SRC);

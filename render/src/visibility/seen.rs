@@ -241,8 +241,9 @@ pub fn convergence(
     let multiplier = Multiplier::new(light, most);
     let grid = Grid::of_degree(2 * (most - 1));
     let harmonics = grid.harmonics(most);
-    // Of each place the truth, and of each order what is found without and with visibility.
-    let found: Vec<([f64; 3], Vec<[[f64; 3]; 2]>)> = places
+    /// Of a place the truth, and of each order what is found without and with visibility.
+    type Found = ([f64; 3], Vec<[[f64; 3]; 2]>);
+    let found: Vec<Found> = places
         .par_iter()
         .map(|place| {
             let [_, truth] = place.by_rays(object, brdf, &lights.0);
@@ -258,7 +259,7 @@ pub fn convergence(
     let square = |v: [f64; 3]| dot(v, v);
     let size: f64 = found.iter().map(|(truth, _)| square(*truth)).sum();
     let rms = |at: usize, which: usize| {
-        let error = |(truth, of): &([f64; 3], Vec<[[f64; 3]; 2]>)| square(add(of[at][which], -1.0, *truth));
+        let error = |(truth, of): &Found| square(add(of[at][which], -1.0, *truth));
         (found.iter().map(error).sum::<f64>() / size).sqrt()
     };
     orders.enumerate().map(|(at, order)| Convergence { order, without: rms(at, 0), with: rms(at, 1) }).collect()
