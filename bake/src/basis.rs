@@ -19,6 +19,8 @@ pub enum Kind {
     Hemisphere,
     /// Irradiance over the normal's hemisphere, in the H-basis or the Half-Life 2 basis.
     Normals,
+    /// Whether the sky is seen, 1 or 0, in spherical harmonics in the axes of the object.
+    Visibility,
 }
 
 /// A basis that irradiance over the hemisphere is stored in.
@@ -37,8 +39,10 @@ const NAMED: [Named; 3] = [
     Named { name: "h6", coefficients: 6, order: 5, spec: "sh5_to_h6" },
     Named { name: "hl2", coefficients: 3, order: 3, spec: "sh3_to_hl2" },
 ];
-/// The orders of the others.
+/// The orders of light.
 pub const ORDERS: std::ops::RangeInclusive<usize> = 2..=10;
+/// The orders of visibility, which no kernel makes.
+pub const VISIBILITY: std::ops::RangeInclusive<usize> = 2..=20;
 
 /// A basis.
 #[derive(Clone, Debug)]
@@ -65,13 +69,13 @@ fn program(spec: &str) -> Result<Option<Program<f64>>, Fault> {
 impl FromStr for Basis {
     type Err = Fault;
 
-    /// Reads a name: sh3, irradiance3, hsh3 and so on, h4, h6, hl2.
+    /// Reads a name: sh3, irradiance3, hsh3, visibility3 and so on, h4, h6, hl2.
     fn from_str(name: &str) -> Result<Self, Fault> {
         let unknown = || {
-            let (first, last) = (ORDERS.start(), ORDERS.end());
+            let [light, seen] = [ORDERS, VISIBILITY].map(|orders| format!("{} to {}", orders.start(), orders.end()));
             let named: Vec<&str> = NAMED.iter().map(|named| named.name).collect();
             let help = format!(
-                "name sh, irradiance or hsh with an order from {first} to {last}, as in irradiance3, or one of {}",
+                "name sh, irradiance or hsh with an order from {light}, as in irradiance3, visibility with one from {seen}, or one of {}",
                 named.join(", ")
             );
             Fault::new(format!("there is no basis `{name}`"), help)
@@ -82,13 +86,14 @@ impl FromStr for Basis {
             return Ok(Self { name: name.to_owned(), kind, order, coefficients, kernel });
         }
         let digits = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
-        let kind = match name.strip_suffix(digits) {
-            Some("sh") => Kind::Radiance,
-            Some("irradiance") => Kind::Irradiance,
-            Some("hsh") => Kind::Hemisphere,
+        let (kind, orders) = match name.strip_suffix(digits) {
+            Some("sh") => (Kind::Radiance, ORDERS),
+            Some("irradiance") => (Kind::Irradiance, ORDERS),
+            Some("hsh") => (Kind::Hemisphere, ORDERS),
+            Some("visibility") => (Kind::Visibility, VISIBILITY),
             _ => return Err(unknown()),
         };
-        let order: usize = digits.parse().ok().filter(|order| ORDERS.contains(order)).ok_or_else(unknown)?;
+        let order: usize = digits.parse().ok().filter(|order| orders.contains(order)).ok_or_else(unknown)?;
         if digits != order.to_string() {
             return Err(unknown());
         }
@@ -103,8 +108,28 @@ impl Basis {
         matches!(self.kind, Kind::Irradiance | Kind::Normals)
     }
 
-    /// Writes what is gathered of a direction of the frame, above its horizon: the harmonics of the sphere, or those of the
-    /// hemisphere. `values` has the square of the order.
+    /// What its coefficients are of.
+    pub fn of(&self) -> &'static str {
+        match self.kind {
+            Kind::Radiance | Kind::Hemisphere => "radiance",
+            Kind::Irradiance | Kind::Normals => "irradiance",
+            Kind::Visibility => "visibility",
+        }
+    }
+
+    /// How many numbers a coefficient has: R, G and B of light, one of what is seen.
+    pub fn channels(&self) -> usize {
+        if self.is_of_object() { 1 } else { 3 }
+    }
+
+    /// Whether it is in the axes of the object, which all points share, and not in the frame of the surface; of the object
+    /// alone it takes no map.
+    pub fn is_of_object(&self) -> bool {
+        self.kind == Kind::Visibility
+    }
+
+    /// Writes what is gathered of a direction of the basis's frame, above the horizon: the harmonics of the sphere, or those of
+    /// the hemisphere. `values` has the square of the order.
     pub fn values(&self, direction: [f64; 3], values: &mut [f64]) {
         match (&self.kernel, self.kind) {
             (Some(kernel), Kind::Hemisphere) => {
@@ -148,12 +173,13 @@ mod tests {
             ("h4", Kind::Normals, 4),
             ("h6", Kind::Normals, 6),
             ("hl2", Kind::Normals, 3),
+            ("visibility20", Kind::Visibility, 400),
         ] {
             let basis: Basis = name.parse().expect("a basis");
             assert_eq!((basis.kind, basis.coefficients, basis.name.as_str()), (kind, coefficients, name));
         }
-        for name in ["", "sh", "sh1", "sh11", "sh03", "h5", "H6", "h6 ", "3", "sh3x", "irradiance99999999999999999999"]
-        {
+        let wrong = ["", "sh", "sh1", "sh11", "sh03", "h5", "H6", "h6 ", "3", "sh3x", "irradiance99999999999999999999"];
+        for name in wrong.into_iter().chain(["visibility", "visibility1", "visibility21"]) {
             let error = name.parse::<Basis>().expect_err("no basis").to_string();
             assert!(error.contains(&format!("no basis `{name}`")) && error.contains("h4, h6, hl2"), "{error}");
         }

@@ -24,7 +24,7 @@ pub struct Baker<'a> {
 }
 
 impl Baker<'_> {
-    /// Returns the coefficients of a point, in its frame. Light from below its horizon, which is the plane across its normal,
+    /// Returns the coefficients of a point, in its frame or, where the basis is of the object, in the object's axes. Light from below its horizon, which is the plane across its normal,
     /// counts as none: the surface itself is in the way. `number` tells its rays from those of other points.
     pub fn at(&self, point: &Point, number: u64) -> Vec<[f64; 3]> {
         let count = self.basis.order * self.basis.order;
@@ -33,9 +33,11 @@ impl Baker<'_> {
         for ray in self.sky.rays(self.rays, self.seed ^ (number + 1).wrapping_mul(0x9e6c_63d0_876a_68de)) {
             let local = point.local(ray.direction);
             if local[2] > 0.0 && self.occluders.sees(origin, ray.direction) {
-                self.basis.values(local, &mut values);
+                let direction = if self.basis.is_of_object() { ray.direction } else { local };
+                self.basis.values(direction, &mut values);
+                let channels = self.basis.channels();
                 for (sum, value) in sums.iter_mut().zip(&values) {
-                    (0..3).for_each(|channel| sum[channel] += value * ray.power[channel]);
+                    (0..channels).for_each(|channel| sum[channel] += value * ray.power[channel]);
                 }
             }
         }

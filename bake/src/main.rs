@@ -23,8 +23,11 @@ use zonal_picture::mesh::Model;
 /// What the help ends with.
 const NOTES: &str = "Bases: sh2 to sh10, radiance in spherical harmonics; irradiance2 to irradiance10, irradiance by the \
                      normal; hsh2 to hsh10, radiance in hemispherical harmonics; h4, h6 and hl2, irradiance over the \
-                     hemisphere in the H-basis and the Half-Life 2 basis.\n\n\
-                     Coefficients are in the frame of the surface: x along the tangent of the first set of texture \
+                     hemisphere in the H-basis and the Half-Life 2 basis; visibility2 to visibility20, 1 where the sky is \
+                     seen and 0 elsewhere, in spherical harmonics.\n\n\
+                     Visibility takes no map, has one number a coefficient, and is in the axes of the object, which all \
+                     points share: those of the mesh's file turned so that z is up (x, -z, y), as the coefficients of a map \
+                     are. All else is in the frame of the surface: x along the tangent of the first set of texture \
                      coordinates, y along the bitangent with its handedness, z along the normal, as interpolated. The map is \
                      around the mesh with its upper edge above: the mesh's y axis points there. Light from below the \
                      horizon of a point counts as none.\n\n\
@@ -33,16 +36,16 @@ const NOTES: &str = "Bases: sh2 to sh10, radiance in spherical harmonics; irradi
 /// The most numbers of a lightmap, of which each takes some sixteen bytes while it is made.
 const MOST: usize = 1 << 29;
 
-/// Bakes the light of a map into the vertices of a mesh, or into a lightmap.
+/// Bakes the light of a map, or what is seen of the sky, into the vertices of a mesh, or into a lightmap.
 #[derive(Parser)]
 #[command(name = "zonal bake", bin_name = "zonal bake", version, after_help = NOTES)]
 struct Arguments {
     /// The mesh: Wavefront OBJ, or glTF 2.0 as .gltf or .glb; y up. It stands in its own light.
     mesh: PathBuf,
-    /// The map, .hdr, .exr or .png: latitude and longitude, or a cubemap.
+    /// The map, .hdr, .exr or .png: latitude and longitude, or a cubemap. Of visibility there is none.
     #[arg(long)]
-    map: PathBuf,
-    /// What the light is stored in.
+    map: Option<PathBuf>,
+    /// What is stored, and in what.
     #[arg(long, value_name = "NAME", default_value = "h6")]
     basis: String,
     /// The file to write: .ply for vertices, .exr for a lightmap; the mesh's name without it.
@@ -87,13 +90,13 @@ impl Arguments {
 }
 
 /// What is odd about a mesh and accepted.
-fn notes(arguments: &Arguments, model: &Model) -> String {
+fn notes(arguments: &Arguments, basis: &Basis, model: &Model) -> String {
     let mut text = String::new();
     let crowded = model::crowded_edges(model);
     if crowded > 0 {
         let _ = writeln!(text, "note: {crowded} edges belong to three triangles or more; rays stop at all of them");
     }
-    if !model.has_frames {
+    if !model.has_frames && !basis.is_of_object() {
         let name = arguments.mesh.display();
         let _ = writeln!(
             text,
@@ -105,22 +108,38 @@ fn notes(arguments: &Arguments, model: &Model) -> String {
 
 fn check(arguments: &Arguments, basis: &Basis, model: &Model) -> Result<(), Fault> {
     if arguments.over_pi && !basis.is_irradiance() {
-        let message = format!("`{}` stores radiance, of which nothing is divided by pi", basis.name);
+        let message = format!("`{}` stores {}, of which nothing is divided by pi", basis.name, basis.of());
         return Err(Fault::new(message, "leave out `--over-pi`"));
     }
     let size = arguments.lightmap.unwrap_or(0) as usize;
-    if 3 * size * size * basis.coefficients > MOST {
+    if basis.channels() * size * size * basis.coefficients > MOST {
         let (name, count) = (&basis.name, basis.coefficients);
         let message =
             format!("a lightmap of {size} by {size} texels in `{name}`, of {count} coefficients, is too large");
         return Err(Fault::new(message, "name a smaller size, or a basis of fewer coefficients"));
     }
-    if arguments.lightmap.is_some() && !model.has_frames {
+    if arguments.lightmap.is_some() && !model.has_frames && !basis.is_of_object() {
         let message = format!("{}: has no texture coordinates of a normal map, nor tangents", arguments.mesh.display());
         let help = "a lightmap is in the frame that they make: export the mesh with them, `vt` or TEXCOORD_0";
         return Err(Fault::new(message, help));
     }
     Ok(())
+}
+
+/// Where light comes from: a map, or of visibility everywhere.
+fn sky(arguments: &Arguments, basis: &Basis) -> Result<Sky, Fault> {
+    let name = &basis.name;
+    match (&arguments.map, basis.is_of_object()) {
+        (None, true) => Ok(Sky::even()),
+        (Some(_), true) => Err(Fault::new(format!("`{name}` is of the mesh alone"), "leave out `--map`")),
+        (None, false) => {
+            Err(Fault::new(format!("`{name}` stores light, and no map of it is named"), "name one: `--map sky.hdr`"))
+        }
+        (Some(path), false) => {
+            let black = || MapError::Black { name: path.display().to_string() };
+            Ok(Sky::new(Map::read(path)?).ok_or_else(black)?)
+        }
+    }
 }
 
 fn run(arguments: &Arguments) -> Result<String, Failure> {
@@ -130,16 +149,14 @@ fn run(arguments: &Arguments) -> Result<String, Failure> {
     let progress = bar("reading");
     let model = model::read(&arguments.mesh, arguments.lightmap_uv.as_deref())?;
     check(arguments, &basis, &model)?;
-    let map = Map::read(&arguments.map).map_err(Fault::from)?;
-    let black = || MapError::Black { name: arguments.map.display().to_string() };
-    let sky = Sky::new(map).ok_or_else(black).map_err(Fault::from)?;
+    let sky = sky(arguments, &basis)?;
     let name = arguments.mesh.display().to_string();
     let chart = arguments.lightmap.map(|size| Chart::new(&name, &model, size as usize)).transpose()?;
     let points = match &chart {
         Some(chart) => chart.points.iter().flatten().copied().collect(),
         None => Point::vertices(&model.mesh),
     };
-    let mut text = notes(arguments, &model);
+    let mut text = notes(arguments, &basis, &model);
     if let Some(chart) = chart.as_ref().filter(|chart| chart.overlaps > 0) {
         let count = chart.overlaps;
         let _ = writeln!(text, "note: {count} texels lie on two triangles, of which the first counts: islands overlap");
@@ -155,22 +172,24 @@ fn run(arguments: &Arguments) -> Result<String, Failure> {
     let bytes = match &chart {
         Some(chart) => {
             let covered: Vec<bool> = chart.points.iter().map(Option::is_some).collect();
-            output::exr(chart.size, &chart.filled(&found), &covered)?
+            output::exr(chart.size, &chart.filled(&found), basis.channels(), &covered)?
         }
-        None => output::ply(&model, &found),
+        None => output::ply(&model, &found, basis.channels()),
     };
     let about = About {
         basis: basis.name.clone(),
         order: basis.order,
         coefficients: basis.coefficients,
-        of: if basis.is_irradiance() { "irradiance" } else { "radiance" },
+        channels: basis.channels(),
+        of: basis.of(),
         over_pi,
         convention: "zonal",
-        space: "tangent",
+        space: if basis.is_of_object() { "object" } else { "tangent" },
+        axes: basis.is_of_object().then_some(output::AXES),
         scale: 1.0,
         layers: layers(basis.coefficients),
         mesh: name,
-        map: arguments.map.display().to_string(),
+        map: arguments.map.as_ref().map(|path| path.display().to_string()),
         rays,
         seed,
     };

@@ -17,24 +17,30 @@ pub struct About {
     pub basis: String,
     /// The bands of radiance that were gathered for it.
     pub order: usize,
-    /// How many coefficients a point has, each in R, G and B.
+    /// How many coefficients a point has.
     pub coefficients: usize,
-    /// `radiance` or `irradiance`.
+    /// How many numbers each of them has: R, G and B, or one.
+    pub channels: usize,
+    /// `radiance`, `irradiance` or `visibility`.
     pub of: &'static str,
     /// Whether irradiance is divided by π.
     pub over_pi: bool,
     /// The order, the signs and the factors of the coefficients.
     pub convention: &'static str,
-    /// The frame that the coefficients are in.
+    /// The frame that the coefficients are in: `tangent`, or `object`.
     pub space: &'static str,
+    /// Of `object` where its axes lie in the mesh's file: those that its places are brought to before they are baked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axes: Option<&'static str>,
     /// What the numbers are to be multiplied by.
     pub scale: f64,
     /// What each layer, or each group of properties of a vertex, is called, in their order.
     pub layers: Vec<String>,
     /// The mesh.
     pub mesh: String,
-    /// The map.
-    pub map: String,
+    /// The map, if one was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<String>,
     /// How many rays a point cast.
     pub rays: usize,
     /// Which ones.
@@ -53,31 +59,39 @@ impl About {
     }
 }
 
+/// Where the axes of an object lie in its file, whose y axis points up.
+pub const AXES: &str = "x,-z,y";
+
+/// What the numbers of a coefficient are called after its name: nothing of one alone.
+fn suffixes(channels: usize, names: [&'static str; 3]) -> Vec<&'static str> {
+    if channels == 1 { vec![""] } else { names.to_vec() }
+}
+
 /// Returns the names of so many coefficients.
 pub fn layers(count: usize) -> Vec<String> {
     (0..count).map(|i| format!("c{i}")).collect()
 }
 
-/// Returns the bytes of a square OpenEXR image of f32, with a layer of R, G and B a coefficient, and `covered`, 1 where the
-/// centre of the texel lies on the surface.
+/// Returns the bytes of a square OpenEXR image of f32, with a layer of R, G and B a coefficient, or of the first number alone
+/// under the layer's name where there is one channel, and `covered`, 1 where the centre of the texel lies on the surface.
 ///
 /// # Errors
 ///
 /// If it cannot be encoded.
-pub fn exr(size: usize, values: &[Vec<[f64; 3]>], covered: &[bool]) -> Result<Vec<u8>, Fault> {
+pub fn exr(size: usize, values: &[Vec<[f64; 3]>], channels: usize, covered: &[bool]) -> Result<Vec<u8>, Fault> {
     let count = values.first().map_or(0, Vec::len);
-    let mut channels: Vec<AnyChannel<FlatSamples>> = Vec::new();
+    let mut all: Vec<AnyChannel<FlatSamples>> = Vec::new();
     for (i, layer) in layers(count).iter().enumerate() {
-        for (k, name) in ["R", "G", "B"].into_iter().enumerate() {
+        for (k, name) in suffixes(channels, [".R", ".G", ".B"]).into_iter().enumerate() {
             let samples = values.iter().map(|value| value[i][k] as f32).collect();
-            channels.push(AnyChannel::new(Text::new_or_panic(format!("{layer}.{name}")), FlatSamples::F32(samples)));
+            all.push(AnyChannel::new(Text::new_or_panic(format!("{layer}{name}")), FlatSamples::F32(samples)));
         }
     }
     let covered = covered.iter().map(|&covered| f32::from(u8::from(covered))).collect();
-    channels.push(AnyChannel::new("covered", FlatSamples::F32(covered)));
+    all.push(AnyChannel::new("covered", FlatSamples::F32(covered)));
     let comments = Some(Text::new_or_panic(format!("{MARK} bake")));
     let about = LayerAttributes { comments, ..LayerAttributes::default() };
-    let layer = Layer::new((size, size), about, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.into()));
+    let layer = Layer::new((size, size), about, Encoding::SMALL_LOSSLESS, AnyChannels::sort(all.into()));
     let mut bytes = Cursor::new(Vec::new());
     let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
     written.map_err(|error| Fault::new(format!("the image cannot be encoded: {error}"), ""))?;
@@ -85,14 +99,15 @@ pub fn exr(size: usize, values: &[Vec<[f64; 3]>], covered: &[bool]) -> Result<Ve
 }
 
 /// Returns the bytes of a binary PLY file: each vertex with its place, its frame, both in the axes of the mesh's file, and
-/// three numbers a coefficient; then the triangles.
-pub fn ply(model: &Model, values: &[Vec<[f64; 3]>]) -> Vec<u8> {
+/// three numbers a coefficient, or the first alone where there is one channel; then the triangles.
+pub fn ply(model: &Model, values: &[Vec<[f64; 3]>], channels: usize) -> Vec<u8> {
     let (mesh, count) = (&model.mesh, values.first().map_or(0, Vec::len));
     let mut head = format!("ply\nformat binary_little_endian 1.0\ncomment {MARK} bake\n");
     head += &format!("element vertex {}\n", values.len());
     let frame = ["x", "y", "z", "nx", "ny", "nz", "tx", "ty", "tz", "tw"].map(str::to_owned);
     let coefficients = layers(count);
-    let coefficients = coefficients.iter().flat_map(|layer| ["r", "g", "b"].map(|k| format!("{layer}_{k}")));
+    let suffixes = suffixes(channels, ["_r", "_g", "_b"]);
+    let coefficients = coefficients.iter().flat_map(|layer| suffixes.iter().map(move |k| format!("{layer}{k}")));
     for name in frame.into_iter().chain(coefficients) {
         head += &format!("property float {name}\n");
     }
@@ -104,7 +119,7 @@ pub fn ply(model: &Model, values: &[Vec<[f64; 3]>]) -> Vec<u8> {
         let [x, y, z, w] = mesh.tangents[i];
         let frame = [model.places[i], back(mesh.normals[i]), back([x, y, z])];
         let numbers = frame.into_iter().flatten().chain([w]);
-        for number in numbers.chain(value.iter().flatten().map(|&c| c as f32)) {
+        for number in numbers.chain(value.iter().flat_map(|c| &c[..channels]).map(|&c| c as f32)) {
             bytes.extend(number.to_le_bytes());
         }
     }

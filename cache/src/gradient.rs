@@ -1,11 +1,11 @@
 //! How the coefficients of a record change where it is moved in its tangent plane, by the exact derivative and not by a
-//! difference (docs/MATH.md#translational-gradients).
+//! difference (docs/MATH.md#translational-gradients). The basis's own kernel makes both derivatives of any basis and order at
+//! once; what a shader takes for hemispherical harmonics, `hsh_gradient`, is one direction of the same.
 
 use crate::dual::Dual;
+// Names a family: hits are seen as grazing as its kernel takes them, and the tests hold this to it.
+use zonal_codegen::families::hemisphere::gradient::GRAZING;
 use zonal_picture::vector::dot;
-
-/// The least cosine that a surface is taken to be hit at: the derivative divides by it.
-const GRAZING: f64 = 0.02;
 
 /// What a sample adds for each unit of its radiance and of its solid angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,8 @@ pub fn share<const C: usize>(
     distance: f64,
     normal: [f64; 3],
 ) -> Share<C> {
-    let cosine = (-dot(normal, direction)).max(GRAZING);
+    let [least, of] = GRAZING;
+    let cosine = (-dot(normal, direction)).max(least as f64 / of as f64);
     let moved = |k: usize, e: usize| {
         let along = if k == e { 1.0 } else { 0.0 };
         (direction[e] * direction[k] - along) / distance

@@ -32,7 +32,7 @@ pub struct Size {
 pub const FULL: Size = Size { side: 144, rays: 1024, wall_rays: 4000, truth: 1024, seed: 1 };
 
 /// The error a of the tables.
-const ERROR: f64 = 0.3;
+pub const ERROR: f64 = 0.3;
 /// The error a of the wall.
 const WALL_ERROR: f64 = 0.15;
 /// How many times as many rays a pixel brute force casts for the wall, which is compared with fewer.

@@ -2,12 +2,12 @@
 //! a ratio to a copy of the same bytes, timed in turn with the kernel in the same run. Behind the feature `times`: its
 //! kernels take minutes to compile, which no test waits for.
 
-use crate::timing::{Time, Times, Timing};
+use crate::timing::{Single, Time, Times, Timing};
 use crate::{Progress, significant};
 use std::hint::black_box;
 use std::time::Instant;
 use zonal::real::{Lanes, Real, Signal};
-use zonal_codegen::promise::samples::Random;
+use zonal_codegen::promise::samples::{Random, matrix_of};
 
 /// How many rounds of copy and kernel a median is taken over.
 const ROUNDS: usize = 15;
@@ -126,20 +126,94 @@ macro_rules! order {
     )* };
 }
 
-/// Times the kernels of the orders 3, 5 and 8, one after another.
+/// Ways to turn at one order, by the module's function: from a quaternion, from a matrix, from samples.
+macro_rules! turns {
+    ($turns:ident, $($order:literal $module:ident $rotate:ident $spec:literal),*) => { $(
+        $turns.push(|turning| turning.time($order, $spec, &turning.quaternions, |q, c: &[f32; $order * $order]| {
+            zonal::$module::$rotate(*q, c)
+        }));
+        $turns.push(|turning| turning.time($order, "rotate:{}:zxzxz", &turning.quaternions, |q, c| {
+            let turned: [f32; $order * $order] = zonal::$module::rotate_zxzxz(*q, c);
+            turned
+        }));
+        $turns.push(|turning| turning.time($order, "zhf:{}", &turning.matrices, |m, c: &[f32; $order * $order]| {
+            zonal::$module::zhf(m, c)
+        }));
+        $turns.push(|turning| turning.time($order, "zhf_tailored:{}", &turning.angles, |_, f: &[f32; $order * $order]| {
+            zonal::$module::zhf_tailored(f)
+        }));
+        $turns.push(|turning| turning.time($order, "rotate:{}:taylor15", &turning.angles, |(cs, beta), c| {
+            let turned: [f32; $order * $order] = zonal::$module::taylor15_zyz(cs, *beta, c);
+            turned
+        }));
+        $turns.push(|turning| turning.time($order, "rotate_small:{}", &turning.near, |q, c: &[f32; $order * $order]| {
+            zonal::$module::rotate_small(*q, c)
+        }));
+    )* };
+}
+
+/// What ways to turn are given.
+struct Turning {
+    quaternions: Vec<[f32; 4]>,
+    near: Vec<[f32; 4]>,
+    matrices: Vec<[[f32; 3]; 3]>,
+    /// Two phases and a small angle between them.
+    angles: Vec<([[f32; 2]; 2], f32)>,
+}
+
+impl Turning {
+    fn new() -> Self {
+        let Params { quaternions, near, .. } = Params::<f32>::new();
+        let matrix = |q: &[f32; 4]| {
+            let m = matrix_of(q.map(f64::from)).map(|x| x as f32);
+            [0, 3, 6].map(|i| [m[i], m[i + 1], m[i + 2]])
+        };
+        let mut random = Random::new(2);
+        let mut phase = || random.unit::<2>().map(|x| x as f32);
+        let angles = (0..64).map(|i| ([phase(), phase()], i as f32 / 640.0)).collect();
+        Self { matrices: quaternions.iter().map(matrix).collect(), quaternions, near, angles }
+    }
+
+    fn time<P, const N: usize>(
+        &self,
+        order: usize,
+        spec: &str,
+        params: &[P],
+        kernel: impl Fn(&P, &[f32; N]) -> [f32; N],
+    ) -> Single {
+        Single { spec: spec.replace("{}", &order.to_string()), order, time: time(1, params, kernel) }
+    }
+}
+
+/// Times the kernels of the orders 3, 5 and 8, and ways to turn at the orders 3 to 10, one after another.
 pub fn measure(progress: &dyn Progress) -> Timing {
     let mut kernels: Vec<fn() -> Times> = Vec::new();
     order!(kernels, 3, sh3, "rotate:{}:zyz" rotate_zyz);
     order!(kernels, 5, sh5, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
     order!(kernels, 8, sh8, "rotate:{}" rotate, "tilt_prescaled:{}" normals tilt_prescaled);
-    progress.stage("times", kernels.len());
+    let mut turns: Vec<fn(&Turning) -> Single> = Vec::new();
+    turns!(
+        turns, 3 sh3 rotate_zyz "rotate:{}:zyz", 4 sh4 rotate "rotate:{}", 5 sh5 rotate "rotate:{}",
+        6 sh6 rotate "rotate:{}", 7 sh7 rotate "rotate:{}", 8 sh8 rotate "rotate:{}", 9 sh9 rotate "rotate:{}",
+        10 sh10 rotate "rotate:{}"
+    );
+    progress.stage("times", kernels.len() + turns.len());
     let time = |kernel: fn() -> Times| {
         let times = kernel();
         progress.step();
         times
     };
+    let turning = Turning::new();
     Timing {
         machine: format!("{}, {}", std::env::consts::ARCH, std::env::consts::OS),
         kernels: kernels.into_iter().map(time).collect(),
+        turns: turns
+            .into_iter()
+            .map(|turn| {
+                let time = turn(&turning);
+                progress.step();
+                time
+            })
+            .collect(),
     }
 }

@@ -24,6 +24,7 @@ pub mod stability;
 pub mod svg;
 pub mod tables;
 pub mod timing;
+pub mod turns;
 
 pub use report::Report;
 

@@ -21,6 +21,9 @@ struct Arguments {
     #[arg(long, value_name = "INPUTS", num_args = 0..=1, default_missing_value = "1000000")]
     #[arg(conflicts_with = "check")]
     bounds: Option<usize>,
+    /// Take only the times again; the command must be built for them, as `cargo measure-times` is.
+    #[arg(long, conflicts_with_all = ["check", "bounds"])]
+    only_times: bool,
     /// The folder of the tables and plots.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure"))]
     output: PathBuf,
@@ -86,6 +89,15 @@ fn main() -> ExitCode {
         let bounds = Some(bounds::measure(&bar, inputs.max(1)));
         bar.0.lock().expect("no holder panics").finish();
         return written(folder, &Report { bounds, ..old });
+    }
+    if arguments.only_times {
+        let Some(old) = last(folder) else {
+            eprintln!("{}: holds no report; `cargo measure` writes one", folder.display());
+            return ExitCode::FAILURE;
+        };
+        let timing = timing(folder, &bar);
+        bar.0.lock().expect("no holder panics").finish();
+        return written(folder, &Report { timing, ..old });
     }
     let mut report = Report::measure(&bar);
     if arguments.check {

@@ -9,6 +9,7 @@ use crate::markdown::{file, perhaps, short, table};
 use crate::methods::{METHODS, named};
 use crate::papers::{Column, ERRATA, LOBES, SPARSITY, TABLE_2, recomputed};
 use crate::plots::dense_operations;
+use crate::turns;
 use crate::{File, Report};
 use zonal_codegen::catalog::ORDERS;
 use zonal_codegen::families::Spec;
@@ -379,6 +380,8 @@ fn timing(report: &Report) -> File {
         ),
         table(&["spec", "operations", "f32, ns", "copies", "f64, ns", "copies", "lanes, ns", "copies"], rows),
         remark,
+        turns::part(&timing.turns),
+        turns::shading(report),
     ];
     file("timing", "Time", &parts)
 }

@@ -26,6 +26,17 @@ pub struct Times {
     pub lanes: Time,
 }
 
+/// The time of a kernel, one vector at a time in f32.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Single {
+    /// The spec.
+    pub spec: String,
+    /// The order.
+    pub order: usize,
+    /// The time.
+    pub time: Time,
+}
+
 /// Where and how kernels were timed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
@@ -33,4 +44,7 @@ pub struct Timing {
     pub machine: String,
     /// The times.
     pub kernels: Vec<Times>,
+    /// Ways to turn at the orders 3 to 10.
+    #[serde(default)]
+    pub turns: Vec<Single>,
 }

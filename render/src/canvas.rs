@@ -131,6 +131,26 @@ pub fn shown(frame: &Frame, samples: usize, exposure: f64, camera: &Camera, map:
     resolved(frame.size, samples, sample, |mean| mean.map(tone::encoded))
 }
 
+/// A frame as a screen shows it, over [`GROUND`]: `samples` by `samples` of its pixels become one.
+pub fn over_ground(frame: &Frame, samples: usize, exposure: f64) -> Canvas {
+    let [width, height] = frame.size.map(|side| side / samples);
+    let mut canvas = Canvas::new([width, height], GROUND);
+    for (i, pixel) in canvas.pixels.iter_mut().enumerate() {
+        let (left, top) = (i % width * samples, i / width * samples);
+        let all = (0..samples * samples).filter_map(|k| {
+            frame.pixels[(top + k / samples) * frame.size[0] + left + k % samples]
+                .map(|radiance| tone::mapped(radiance.map(|c| c * exposure)))
+        });
+        let found: Vec<[f64; 3]> = all.collect();
+        let ground = (samples * samples - found.len()) as f64;
+        for k in 0..3 {
+            let sum: f64 = found.iter().map(|share| f64::from(tone::encoded(share[k]))).sum();
+            pixel[k] = ((sum + ground * f64::from(GROUND[k])) / (samples * samples) as f64).round() as u8;
+        }
+    }
+    canvas
+}
+
 /// The error of each pixel, in units of `scale`, in false colours over [`GROUND`].
 pub fn difference(errors: &[Option<f64>], size: [usize; 2], samples: usize, scale: f64) -> Canvas {
     let sample = |x: usize, y: usize| match errors[y * size[0] + x] {

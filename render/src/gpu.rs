@@ -1,5 +1,5 @@
 //! The adapter: draws a subject with a generated shader into radiance, or into what is known of its surface before it is
-//! shaded. The only file that knows wgpu.
+//! shaded. With `compute.rs` the only file that knows wgpu.
 
 use crate::bands::Tables;
 use crate::frame::{Frame, Surface};
@@ -24,8 +24,8 @@ const TIMED: usize = 5;
 /// A device, and the shaders that it was given.
 #[derive(Debug)]
 pub struct Gpu {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
     layout: wgpu::BindGroupLayout,
     pipelines: Mutex<HashMap<Option<Shading>, wgpu::RenderPipeline>>,
     limits: wgpu::Limits,
@@ -107,7 +107,7 @@ impl Gpu {
     }
 
     /// Runs what may go wrong on the device and says what did.
-    fn checked<T>(&self, what: &str, run: impl FnOnce() -> T) -> Result<T, Diagnostic> {
+    pub(crate) fn checked<T>(&self, what: &str, run: impl FnOnce() -> T) -> Result<T, Diagnostic> {
         let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal]
             .map(|filter| self.device.push_error_scope(filter));
         let result = run();

@@ -9,6 +9,8 @@
 pub mod bands;
 pub mod bands_page;
 pub mod canvas;
+pub mod compute;
+pub mod field;
 pub mod figures;
 pub mod frame;
 pub mod gpu;
@@ -20,3 +22,5 @@ pub mod report;
 pub mod strip;
 pub mod subject;
 pub mod tone;
+pub mod turn;
+pub mod visibility;

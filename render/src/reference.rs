@@ -30,6 +30,11 @@ impl Lights {
         Self(lights::Lights::of(map))
     }
 
+    /// Spheres alone, as directions to each from where they are seen.
+    pub fn of_spheres(spheres: &[SphereLight]) -> lights::Lights {
+        Self(lights::Lights(vec![])).with(spheres).0
+    }
+
     /// What a map with so many rows holds of the first bands only, ringing and all.
     pub fn of_bands(projection: &Projection, height: usize) -> Self {
         let mut map = Map { width: 2 * height, height, texels: vec![[0.0; 3]; 2 * height * height] };

@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 use zonal_cache::basis::{Basis, HSH6, HSH10, SH6, SH10};
+use zonal_cache::gradient::share;
 use zonal_cache::record::Sums;
 use zonal_codegen::math::quadrature::gauss_legendre;
+use zonal_codegen::promise::samples::Random;
 use zonal_picture::vector::{add, dot, length};
 
 /// Half of the hemisphere's axes of the ellipsoid around the point.
@@ -88,4 +90,23 @@ fn constant_radiance_on_a_closed_surface_does_not_change() {
     close(&HSH6);
     close(&SH10);
     close(&HSH10);
+}
+
+/// `hsh_gradient`, which is written by hand, and the derivative of the basis by itself are one, at grazing hits too.
+#[test]
+fn what_a_basis_makes_of_itself_is_what_its_kernel_says() {
+    let mut random = Random::new(9);
+    for i in 0..200 {
+        let [x, y, z] = random.unit::<3>();
+        let (direction, distance) = ([x, y, z.abs()], 0.5 + f64::from(i) / 20.0);
+        let normal = random.unit::<3>();
+        let share = share(HSH6.moving, direction, distance, normal);
+        for (e, along) in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].into_iter().enumerate() {
+            let kernel = zonal::sh6::hsh_gradient(direction, along, distance, normal, 1.0);
+            for (found, wanted) in share.slopes[e].iter().zip(kernel) {
+                // Some hundred roundings of numbers up to some hundreds.
+                assert!((found - wanted).abs() < 1e-11, "{direction:?} {normal:?}: {found} {wanted}");
+            }
+        }
+    }
 }

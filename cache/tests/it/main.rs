@@ -2,4 +2,5 @@
 
 mod cache;
 mod gradients;
+mod page;
 mod rotations;

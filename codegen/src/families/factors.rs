@@ -24,11 +24,13 @@ pub fn fault(spec: &Spec) -> Option<[String; 2]> {
     }
     let ([a, b], order, name) = (spec.factors?, spec.order, spec.family.name);
     let orders = &spec.family.orders;
-    if ![a, b].iter().all(|order| orders.contains(order)) {
-        let help = format!("each has an order of {} to {}", orders.start(), orders.end());
+    let (few, many, last) = (a.min(b), a.max(b), (a + b).saturating_sub(1));
+    // How many bands the other one may have is said below: what the result depends on.
+    if !orders.contains(&few) {
+        let help =
+            format!("one of them has an order of {} to {}, the other no lower one", orders.start(), orders.end());
         return Some([format!("factors of the orders {a} and {b}"), help]);
     }
-    let (few, many, last) = (a.min(b), a.max(b), a + b - 1);
     if few == order && many == order {
         return Some([format!("both factors have the result's order {order}"), format!("write `{name}:{order}`")]);
     }

@@ -1,6 +1,6 @@
 //! `docs/LIGHTMAPS.md` and its picture: what each basis errs by and costs in a room with a lightmap.
 
-use crate::canvas::{BRIGHT, Canvas, GROUND, MUTED, Text, difference};
+use crate::canvas::{BRIGHT, Canvas, GROUND, MUTED, Text, difference, over_ground};
 use crate::figures::{Errors, percent, pixel_errors};
 use crate::frame::Frame;
 use crate::lightmap::room::{RAYS, Room, SIZE};
@@ -107,7 +107,7 @@ impl Report {
         let mut put = |column: usize, title: &str, below: &str, frame: &Frame, errors: Option<Canvas>| {
             let left = GAP + column * (width + GAP);
             canvas.write([left, GAP - 4], title, Text::Title, BRIGHT);
-            canvas.put([left, top], &shown(frame, self.samples, exposure));
+            canvas.put([left, top], &over_ground(frame, self.samples, exposure));
             if let Some(errors) = errors {
                 canvas.put([left, top + height + GAP], &errors);
             }
@@ -202,24 +202,4 @@ impl Report {
             text.push('\n');
         }
     }
-}
-
-/// A frame as a screen shows it, over [`GROUND`].
-fn shown(frame: &Frame, samples: usize, exposure: f64) -> Canvas {
-    let [width, height] = frame.size.map(|side| side / samples);
-    let mut canvas = Canvas::new([width, height], GROUND);
-    for (i, pixel) in canvas.pixels.iter_mut().enumerate() {
-        let (left, top) = (i % width * samples, i / width * samples);
-        let all = (0..samples * samples).filter_map(|k| {
-            frame.pixels[(top + k / samples) * frame.size[0] + left + k % samples]
-                .map(|radiance| tone::mapped(radiance.map(|c| c * exposure)))
-        });
-        let found: Vec<[f64; 3]> = all.collect();
-        let ground = (samples * samples - found.len()) as f64;
-        for k in 0..3 {
-            let sum: f64 = found.iter().map(|share| f64::from(tone::encoded(share[k]))).sum();
-            pixel[k] = ((sum + ground * f64::from(GROUND[k])) / (samples * samples) as f64).round() as u8;
-        }
-    }
-    canvas
 }

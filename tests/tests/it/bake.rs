@@ -194,3 +194,56 @@ fn files_of_others_are_spared_and_odd_meshes_taken_with_a_word() {
         ["plane.obj", "--map", "one.hdr", "--lightmap", "8", "--lightmap-uv", "twice.obj", "--basis", "sh2"];
     assert!(works(&folder, &arguments).contains("texels lie on two triangles"));
 }
+
+/// Of a plane that nothing else hides the upper half of the sky is seen: √π in band 0, √(3π)/2 along the normal in band 1,
+/// nothing in the even bands above, and all in the axes of the object, in which z is up.
+#[test]
+fn visibility_is_one_number_a_coefficient_in_the_axes_of_the_object_and_takes_no_map() {
+    let folder = folder();
+    let told = works(&folder, &["plane.obj", "--basis", "visibility3", "--rays", "16384"]);
+    assert!(told.contains("4 vertices, each 9 coefficients of visibility") && told.contains("plane.ply"), "{told}");
+    let about: toml::Table =
+        std::fs::read_to_string(folder.path("plane.toml")).expect("written").parse().expect("TOML");
+    let text = |key: &str| about[key].as_str().expect("text").to_owned();
+    assert_eq!((text("of"), text("space"), text("axes")), ("visibility".into(), "object".into(), "x,-z,y".into()));
+    assert_eq!((about["channels"].as_integer(), about.get("map")), (Some(1), None));
+    let bytes = std::fs::read(folder.path("plane.ply")).expect("written");
+    let end = bytes.windows(11).position(|window| window == b"end_header\n").expect("a head") + 11;
+    let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
+    assert!(head.contains("property float c8\n") && !head.contains("c0_r"), "{head}");
+    let numbers: Vec<f64> =
+        bytes[end..end + 4 * 19 * 4].as_chunks().0.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect();
+    for vertex in numbers.chunks(19) {
+        let mut wanted = [0.0; 9];
+        (wanted[0], wanted[2]) = (PI.sqrt(), (0.75 * PI).sqrt());
+        for (found, wanted) in vertex[10..].iter().zip(wanted) {
+            // Each ray brings 4π / 16384 of what a harmonic is at most, some one; a few hundred rays may fall to either side.
+            assert!((found - wanted).abs() < 0.05, "{vertex:?}");
+        }
+    }
+    let lightmap =
+        ["plane.obj", "--lightmap", "4", "--lightmap-uv", "plane.obj", "--basis", "visibility2", "-o", "v.exr"];
+    works(&folder, &lightmap);
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(folder.path("v.exr"))
+        .expect("an image");
+    let names: Vec<String> =
+        image.layer_data.channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names, ["c0", "c1", "c2", "c3", "covered"]);
+    let alone = ["`visibility3` is of the mesh alone", "leave out `--map`"];
+    refuses(&folder, &["plane.obj", "--basis", "visibility3", "--map", "one.hdr"], &alone);
+    refuses(
+        &folder,
+        &["plane.obj", "--basis", "h6"],
+        &["`h6` stores light, and no map of it is named", "--map sky.hdr"],
+    );
+    let nothing = ["`visibility3` stores visibility, of which nothing is divided by pi"];
+    refuses(&folder, &["plane.obj", "--basis", "visibility3", "--over-pi"], &nothing);
+    let unknown = ["there is no basis `visibility21`", "visibility with one from 2 to 20"];
+    refuses(&folder, &["plane.obj", "--basis", "visibility21"], &unknown);
+}

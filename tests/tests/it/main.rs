@@ -25,6 +25,7 @@ mod hemisphere_rotation;
 mod house;
 mod irradiance;
 mod isd;
+mod isd_extremes;
 mod laws;
 mod lights;
 mod loops;

@@ -188,8 +188,16 @@ fn specs_of_unequal_orders_are_read_written_and_refused() {
     for (text, message, help) in [
         ("product:3+3:3", "both factors have the result's order 3", "write `product:3`"),
         ("product:2+2:4", "the product of the orders 2 and 2 ends at order 3", "write `product:2+2:3`"),
-        ("product:1+3:3", "factors of the orders 1 and 3", "each has an order of 2 to 8"),
-        ("product:9+3:3", "factors of the orders 9 and 3", "each has an order of 2 to 8"),
+        (
+            "product:1+3:3",
+            "factors of the orders 1 and 3",
+            "one of them has an order of 2 to 8, the other no lower one",
+        ),
+        (
+            "product:9+9:3",
+            "factors of the orders 9 and 9",
+            "one of them has an order of 2 to 8, the other no lower one",
+        ),
         (
             "product:2+8:3",
             "bands of the factor of order 8 meet nothing",

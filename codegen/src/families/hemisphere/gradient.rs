@@ -10,6 +10,9 @@ use crate::families::parts::sums::inner;
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
 use crate::math::exact::Exact;
 
+/// The least cosine that a hit is taken to be seen at, as numerator and denominator: the derivative divides by it.
+pub const GRAZING: [i64; 2] = [1, 10];
+
 /// `hsh_gradient`.
 pub static HSH_GRADIENT: Family = Family {
     name: "hsh_gradient",
@@ -64,7 +67,7 @@ fn gradient(order: usize) -> Kernel {
     let slopes = derivatives(g, &values, &[[x, dx], [y, dy], [height, dz]]);
     let facing = inner(g, &dir, &m);
     let facing = g.neg(facing);
-    let least = g.constant(Exact::ratio(1, 10));
+    let least = g.constant(Exact::ratio(GRAZING[0], GRAZING[1]));
     let cosine = g.max(facing, least);
     let secant = g.recip(cosine);
     let change = g.mul(toward, secant);
