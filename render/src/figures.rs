@@ -10,6 +10,7 @@ use zonal_codegen::environment::Projection;
 use zonal_codegen::reflectance::brdf::Table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_picture::method::{Judged, Method};
+use zonal_picture::shade::Shading;
 
 /// How far a frame is from another, in shares of the other's mean radiance. The radiance of a pixel, and an error of it,
 /// is the root of the sum of the squares of R, G and B.
@@ -155,14 +156,30 @@ pub struct Figures {
 /// A subject's reflectance and light as its shaders read them, whatever the method.
 #[derive(Clone, Debug)]
 pub struct Inputs {
-    table: Table,
+    /// One, or one each for red, green and blue.
+    tables: Vec<Table>,
     light: Projection,
 }
 
 impl Inputs {
     /// Those of an order.
     pub fn new(subject: &Subject, order: usize) -> Self {
-        Self { table: Table::new(&subject.brdf, order), light: subject.light(order) }
+        let tables = subject.brdf.channels().iter().map(|brdf| Table::new(brdf, order)).collect();
+        Self { tables, light: subject.light(order) }
+    }
+
+    /// The frame of a stage. A reflectance that differs between channels is drawn once for each.
+    fn frame(&self, stage: &Stage, shading: Shading, timed: bool) -> Result<Frame, Diagnostic> {
+        let frames = self.tables.iter().map(|table| stage.frame(shading, table, &self.light, timed));
+        let frames = frames.collect::<Result<Vec<Frame>, Diagnostic>>()?;
+        let milliseconds = frames.iter().map(|frame| frame.milliseconds).sum();
+        let last = frames.len() - 1;
+        let pixel = |at: usize| {
+            let of = |channel: usize| frames[channel.min(last)].pixels[at].map(|radiance| radiance[channel]);
+            Some([of(0)?, of(1)?, of(2)?])
+        };
+        let pixels = (0..frames[0].pixels.len()).map(pixel).collect();
+        Ok(Frame { size: frames[0].size, pixels, milliseconds })
     }
 }
 
@@ -178,8 +195,8 @@ pub fn drawn(
     exact: Option<&Frame>,
     timed: bool,
 ) -> Result<(Frame, Picture), Diagnostic> {
-    let order = inputs.table.order;
-    let frame = stage.frame(stage.subject.shading(order, method), &inputs.table, &inputs.light, timed)?;
+    let order = inputs.light.order;
+    let frame = inputs.frame(stage, stage.subject.shading(order, method), timed)?;
     let picture = Picture {
         method,
         spec: method.spec(order).map(|spec| spec.to_string()),

@@ -23,14 +23,14 @@
 //! docs/MATH.md#projection-of-maps has the integrals.
 
 mod cube;
-mod decoded;
+pub(crate) mod decoded;
 pub mod error;
 pub mod harmonics;
 pub mod lamps;
 pub mod layout;
 pub mod loaded;
 pub mod map;
-mod openexr;
+pub(crate) mod openexr;
 mod png;
 pub mod project;
 mod radiance;

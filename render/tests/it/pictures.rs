@@ -32,7 +32,7 @@ fn the_exact_picture_is_the_brute_force_sum_under_the_first_bands_of_the_light()
     let gpu = gpu();
     for (brdf, order) in [("lambert", 3), ("phong:20", 6), ("ward:0.3", 5), ("ward:0.3:0.6", 5)] {
         let brdf: Brdf = brdf.parse().unwrap_or_else(|error| panic!("{error}"));
-        let subject = Subject { brdf, ..teapot() };
+        let subject = Subject { brdf: brdf.clone(), ..teapot() };
         let size = [60, 50];
         let stage = Stage::new(&gpu, &subject, size).unwrap_or_else(|error| panic!("{error}"));
         let inputs = Inputs::new(&subject, order);
