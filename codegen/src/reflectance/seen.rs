@@ -58,7 +58,8 @@ pub fn weights(brdf: &Brdf, order: usize) -> Weights {
     let channels = brdf.channels();
     let each = 1.0 / channels.len() as f64;
     let views = views(brdf);
-    let tasks: Vec<_> = channels.iter().flat_map(|brdf| views.iter().map(move |&(view, share)| (brdf, view, share))).collect();
+    let tasks: Vec<_> =
+        channels.iter().flat_map(|brdf| views.iter().map(move |&(view, share)| (brdf, view, share))).collect();
     for (found, share) in threads::map(tasks, |(brdf, view, share)| (grid.energies(brdf, view), each * share)) {
         let (bands, all) = found;
         for (l, (weight, energy)) in of_band.iter_mut().zip(&bands).enumerate() {

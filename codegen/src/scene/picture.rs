@@ -8,9 +8,9 @@ use crate::families::tilt::TILT;
 use crate::families::{SmallAngle, Spec};
 use crate::fault::hint;
 use crate::reflectance::brdf::Brdf;
-use crate::reflectance::measured::{self, Measured};
 #[cfg(feature = "schema")]
 use crate::reflectance::brdf::{EXPONENTS, ROUGHNESSES};
+use crate::reflectance::measured::{self, Measured};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Locator, Order, Placed};
 use serde::{Deserialize, Serialize};
@@ -228,7 +228,9 @@ pub(super) fn brdf(bytes: Reader<'_>, locate: &Locator, table: BrdfTable) -> Res
     };
     let misplaced = |place, key: &str| Err(Diagnostic::at(place, format!("this kind has no `{key}`"), "leave it out"));
     let (brdf, place) = match (kind.value, exponent, alpha, file) {
-        (Kind::Lambert | Kind::Ward | Kind::Measured, Some(exponent), ..) => return misplaced(&exponent.place, "exponent"),
+        (Kind::Lambert | Kind::Ward | Kind::Measured, Some(exponent), ..) => {
+            return misplaced(&exponent.place, "exponent");
+        }
         (Kind::Lambert | Kind::Phong | Kind::Measured, _, Some(alpha), _) => return misplaced(&alpha.place, "alpha"),
         (Kind::Lambert | Kind::Phong | Kind::Ward, .., Some(file)) => return misplaced(&file.place, "file"),
         (Kind::Lambert, ..) => (Brdf::Lambert, kind.place),

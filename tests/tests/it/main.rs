@@ -28,6 +28,7 @@ mod laws;
 mod lights;
 mod loops;
 mod maps;
+mod measured;
 mod methods;
 mod operations;
 mod orders;

@@ -39,30 +39,11 @@ fn directions(theta_h: f64, theta_d: f64, phi_d: f64) -> [[f64; 3]; 2] {
     [of(-sin_d * cos, -sin_d * sin), of(sin_d * cos, sin_d * sin)]
 }
 
-/// Returns view and light of an entry, as unit vectors.
-pub fn entry(i: usize, j: usize, k: usize) -> [[f64; 3]; 2] {
+/// View and light of an entry, as unit vectors.
+fn entry(i: usize, j: usize, k: usize) -> [[f64; 3]; 2] {
     let share = i as f64 / SIZE[0] as f64;
     let degrees = |count: usize, of: f64| of * count as f64;
     directions(share * share * FRAC_PI_2, degrees(j, FRAC_PI_2 / SIZE[1] as f64), degrees(k, PI / SIZE[2] as f64))
-}
-
-/// The bytes of a file whose entries are what a function says of view and light, in R, G and B; negative ones are missing.
-pub fn bytes(of: impl Fn([f64; 3], [f64; 3]) -> [f64; 3]) -> Vec<u8> {
-    let [halves, differences, azimuths] = SIZE;
-    let mut values = Vec::with_capacity(halves * differences * azimuths);
-    for i in 0..halves {
-        for j in 0..differences {
-            for k in 0..azimuths {
-                let [view, light] = entry(i, j, k);
-                values.push(of(view, light));
-            }
-        }
-    }
-    let mut bytes: Vec<u8> = SIZE.iter().flat_map(|&side| (side as i32).to_le_bytes()).collect();
-    for channel in 0..3 {
-        bytes.extend(values.iter().flat_map(|value| (value[channel] / SCALE[channel]).to_le_bytes()));
-    }
-    bytes
 }
 
 fn int(bytes: &[u8], at: usize) -> i32 {
@@ -77,7 +58,11 @@ impl Merl {
         let help = "name a file of MERL's (.binary), an OpenEXR image or an array of NumPy (.npy): docs/SCENE.md has the \
                     layouts";
         if bytes.len() < 12 {
-            return Err(refused(name, format!("it is no tabulated reflectance, its {} bytes are too few", bytes.len()), help));
+            return Err(refused(
+                name,
+                format!("it is no tabulated reflectance, its {} bytes are too few", bytes.len()),
+                help,
+            ));
         }
         let size = [0, 1, 2].map(|at| int(bytes, at));
         if size != SIZE.map(|side| side as i32) {
@@ -92,7 +77,8 @@ impl Merl {
         let wanted = 12 + 24 * count;
         if bytes.len() != wanted {
             let what = if bytes.len() < wanted { "ends too early" } else { "goes on too long" };
-            let message = format!("it {what}: it has {} bytes, 90 × 90 × 180 entries in RGB take {wanted}", bytes.len());
+            let message =
+                format!("it {what}: it has {} bytes, 90 × 90 × 180 entries in RGB take {wanted}", bytes.len());
             return Err(refused(name, message, "take the file from its source again"));
         }
         let (numbers, _) = bytes[12..].as_chunks::<8>();

@@ -77,11 +77,8 @@ fn checked(name: &str, place: impl Fn(usize) -> String, values: &[[f64; 3]]) -> 
     if let Some(at) = values.iter().position(is_bad) {
         let count = values.iter().filter(|value| is_bad(value)).count();
         let value = values[at].iter().find(|x| !x.is_finite() || **x > MAX_VALUE).copied().unwrap_or(f64::NAN);
-        let message = format!(
-            "{count} of its {} entries are no reflectance, the first {value} at {}",
-            values.len(),
-            place(at)
-        );
+        let message =
+            format!("{count} of its {} entries are no reflectance, the first {value} at {}", values.len(), place(at));
         return Err(refused(name, message, "write finite numbers up to 1e9, and a negative one for what is missing"));
     }
     if !values.iter().flatten().any(|x| *x > 0.0) {
@@ -140,7 +137,13 @@ impl Measured {
     /// above zero. No bytes make it panic.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Fault> {
         let (layout, missing) = match bytes {
-            [] => return Err(refused(name, "it is empty", "name a file of MERL's, an OpenEXR image or an array of NumPy")),
+            [] => {
+                return Err(refused(
+                    name,
+                    "it is empty",
+                    "name a file of MERL's, an OpenEXR image or an array of NumPy",
+                ));
+            }
             _ if bytes.starts_with(&openexr::MAGIC) => {
                 let image = openexr::read(name, bytes, &|width, height| pairs::check_image(name, width, height));
                 let image = image.map_err(|error: MapError| Fault::from(&error))?;

@@ -60,16 +60,3 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<usize>, Vec<f64>), Fault> {
     };
     Ok((shape, values))
 }
-
-/// Returns the bytes of a file of f32.
-pub fn bytes(shape: &[usize], values: &[f32]) -> Vec<u8> {
-    let mut head = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape:?}, }}").replace('[', "(").replace(']', ")");
-    // The numbers begin at a multiple of 64 bytes.
-    while (MAGIC.len() + 4 + head.len() + 1) % 64 != 0 {
-        head.push(' ');
-    }
-    head.push('\n');
-    let mut bytes = [MAGIC, &[1, 0], &(head.len() as u16).to_le_bytes(), head.as_bytes()].concat();
-    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    bytes
-}

@@ -21,7 +21,8 @@ const MAX_SIDE: usize = 1024;
 /// The most elevations of an image: its side is 4224 then.
 const MAX_ELEVATIONS: usize = 33;
 /// What an image has to be.
-const IMAGE: &str = "write an image of E A by E A texels with A = 4 (E - 1), as 360 for 10 elevations or 960 for 16, 33 at most";
+const IMAGE: &str =
+    "write an image of E A by E A texels with A = 4 (E - 1), as 360 for 10 elevations or 960 for 16, 33 at most";
 /// What an array has to be.
 const ARRAY: &str = "write the shape (E_v, A_v, E_l, A_l) or (E_v, A_v, E_l, A_l, 3): 2 to 1024 elevations, 3 to 1024 azimuths, \
                      or 1 azimuth of an isotropic view";
@@ -108,7 +109,8 @@ impl Pairs {
     }
 
     pub(super) fn of_array(name: &str, shape: &[usize], values: &[f64]) -> Result<(Self, Missing), Fault> {
-        let unknown = || refused(name, format!("an array of the shape {shape:?} is no table of pairs of directions"), ARRAY);
+        let unknown =
+            || refused(name, format!("an array of the shape {shape:?} is no table of pairs of directions"), ARRAY);
         let (sides, channels) = match *shape {
             [a, b, c, d] => ([a, b, c, d], 1),
             [a, b, c, d, channels @ (1 | 3)] => ([a, b, c, d], channels),
