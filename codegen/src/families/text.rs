@@ -405,12 +405,11 @@ impl FromStr for Spec {
             }
         }
         if is_open {
-            let mut own = ALL.iter().filter(|family| family.name == head.text);
-            let is_meant = |family: &&&Family| match spec.form {
-                Form::Loop => family.looped.is_some(),
-                Form::Unrolled => (family.usual)(order, spec.rgb),
-            };
-            spec.family = own.find(is_meant).expect("one of a family's methods is the usual one");
+            let own = || ALL.iter().filter(|family| family.name == head.text);
+            let usual = || own().find(|family| (family.usual)(order, spec.rgb));
+            let looped = own().find(|family| spec.form == Form::Loop && family.looped.is_some());
+            // Of a family without a loop form it is refused below.
+            spec.family = looped.or_else(usual).expect("one of a family's methods is the usual one");
         }
         spec.check(&Piece { text, at: 0..text.len() })?;
         Ok(spec)

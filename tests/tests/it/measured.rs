@@ -252,7 +252,8 @@ fn a_scene_is_planned_as_with_the_reflectance_that_was_measured() {
     let plan = Plan::new(&Scene::read(&path).expect("a scene")).expect("a plan").environment.expect("an environment");
     assert_eq!(plan.order, analytic.order);
     for (found, wanted) in plan.errors.iter().zip(&analytic.errors) {
-        assert!((found - wanted).abs() < 0.02 * wanted + 1e-4, "{found}, {wanted}");
+        // The views of three degrees from the horizon on are those at three degrees; they weigh 0.05² of all.
+        assert!((found - wanted).abs() < 0.04 * wanted + 1e-4, "{found}, {wanted}");
     }
     let said = printed(command().arg("plan").arg(&path));
     assert!(
