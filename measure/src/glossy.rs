@@ -276,6 +276,10 @@ fn megabytes(bytes: usize) -> String {
 
 /// The page.
 pub fn table(glossy: &Glossy) -> File {
+    let least = |exponent: f64| {
+        let row = glossy.ringing.iter().find(|row| row.exponent == exponent && row.bands == 48);
+        row.map_or_else(String::new, |row| percent(row.least))
+    };
     let needed = glossy.needed.iter().map(|row| {
         let root = row.exponent.sqrt();
         let mut cells = vec![row.exponent.to_string(), short(root), percent(row.at_root)];
