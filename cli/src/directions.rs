@@ -31,7 +31,7 @@ const HEAD: &str = "\
 #[derive(Args)]
 pub struct Arguments {
     /// Searches for mother functions whose levels share no directions, instead of those that rotated zonal harmonics share.
-    #[arg(long, value_name = "NAME", value_parser = Mother::OWN.map(|(_, word)| word))]
+    #[arg(long, value_name = "NAME", value_parser = mothers())]
     mother: Option<String>,
     /// The highest band, 1 to 19, or to 10 with other mother functions; a range as in `2-6`.
     #[arg(long, default_value = "2-6", value_parser = bands)]
@@ -48,6 +48,11 @@ pub struct Arguments {
     /// Replaces files that zonal did not write, too.
     #[arg(long)]
     force: bool,
+}
+
+/// The words of the mother functions that directions help.
+fn mothers() -> Vec<&'static str> {
+    Mother::OWN.iter().filter(|(mother, _)| *mother != Mother::EvenPhong).map(|(_, word)| *word).collect()
 }
 
 fn bands(text: &str) -> Result<RangeInclusive<usize>, String> {

@@ -18,6 +18,7 @@ use zonal_measure::errors::{Comparison, LEVELS, LOBE, MAX, MEAN, RMS, SHOWN};
 use zonal_measure::fronts::{ORDERS, Plan, TURNS};
 use zonal_measure::methods::{METHODS, named};
 use zonal_measure::papers::{LOBES, SPARSITY, TABLE_2, recomputed};
+use zonal_measure::shading::Conditions;
 use zonal_measure::{Report, Silent, errors, render, stale};
 
 fn fresh() -> &'static Report {
@@ -343,7 +344,8 @@ fn ringing_errs_as_was_found_by_other_means() {
 fn isotropic_decomposition_is_as_its_paper_says() {
     let shading = &fresh().shading;
     let condition = |mother: &str, shared: bool, bands: usize| {
-        let mut rows = shading.conditions.iter().filter(|row| row.mother == mother && row.shared == shared);
+        let spread = |row: &&Conditions| row.mother == mother && row.shared == shared && !row.searched;
+        let mut rows = shading.conditions.iter().filter(spread);
         let row = rows.next().expect("is measured");
         row.conditions[row.bands.iter().position(|known| *known == bands).expect("is measured")]
     };
@@ -353,6 +355,10 @@ fn isotropic_decomposition_is_as_its_paper_says() {
             let [own, shared] = [false, true].map(|shared| condition(mother, shared, bands));
             assert!(own < 1e5 && shared > 1e6, "{mother}, {bands} bands: {own:e}, shared {shared:e}");
         }
+    }
+    for row in shading.conditions.iter().filter(|row| row.searched) {
+        let worst = row.conditions.iter().copied().fold(1.0, f64::max);
+        assert!(row.bands.contains(&8) && worst < 100.0 && worst < 0.3 * condition(&row.mother, false, 8), "{row:?}");
     }
     for form in &shading.forms {
         let [decomposed, direct, isotropic, zonal, direct_zonal] = form.operations[..] else { panic!("five forms") };
