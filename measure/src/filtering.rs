@@ -98,7 +98,7 @@ pub fn factors(sharpness: f64) -> Vec<f64> {
     bands.iter().enumerate().map(|(l, band)| pi(l) * band / (pi(0) * bands[0])).collect()
 }
 
-/// A square matrix of coefficients: rows of the view, columns of the light.
+/// Rows of the view, columns of the light.
 type Coefficients = Vec<[f64; COUNT]>;
 
 /// The directions above the surface, with what is known at each.
@@ -121,10 +121,6 @@ impl Grid {
         }
         grid.basis = grid.directions.iter().map(|&direction| harmonics(direction)).collect();
         grid
-    }
-
-    fn count(&self) -> usize {
-        self.directions.len()
     }
 
     /// The reflectance times both cosines, for each view and light.
@@ -155,14 +151,14 @@ impl Grid {
         let row = |v: usize| {
             let slice = slice(coefficients, &self.basis[v]);
             let mut sums = [0.0; 2];
-            for l in 0..self.count() {
+            for l in 0..self.directions.len() {
                 let (wanted, weight) = (truth[v][l], self.weights[v] * self.weights[l]);
                 let error = inner(&slice, &self.basis[l]) - wanted;
                 sums = [sums[0] + weight * error * error, sums[1] + weight * wanted * wanted];
             }
             sums
         };
-        let rows: Vec<[f64; 2]> = (0..self.count()).into_par_iter().map(row).collect();
+        let rows: Vec<[f64; 2]> = (0..self.directions.len()).into_par_iter().map(row).collect();
         let sum = |part: usize| rows.iter().map(|sums| sums[part]).sum::<f64>();
         (sum(0) / sum(1)).sqrt()
     }
@@ -255,7 +251,7 @@ pub fn measure(progress: &dyn Progress) -> (Filtering, Raster) {
         .collect();
     let even: Vec<Coefficients> = data.iter().map(alike).collect();
     let sparse = &even[even.len() - 1];
-    let all = |of: &dyn Fn(usize) -> f64| (0..grid.count()).map(|v| grid.weights[v] * of(v)).sum::<f64>();
+    let all = |of: &dyn Fn(usize) -> f64| (0..grid.directions.len()).map(|v| grid.weights[v] * of(v)).sum::<f64>();
     let total = all(&|v| truth[v].iter().zip(&grid.weights).map(|(value, weight)| weight * value).sum());
     let kernels: Vec<Option<f64>> = std::iter::once(None).chain(SHARPNESSES.map(Some)).collect();
     let kernels = each(progress, "filtering", &kernels, |&sharpness| {
@@ -335,12 +331,9 @@ fn draw(before: &Coefficients, after: &Coefficients) -> ([f64; 2], Raster) {
     ([1, 2].map(|part| significant((sums[part] / sums[0]).sqrt())), raster)
 }
 
-fn named(sharpness: Option<f64>) -> String {
-    sharpness.map_or_else(|| "none".to_owned(), |sharpness| sharpness.to_string())
-}
-
 /// The page.
 pub fn table(filtering: &Filtering) -> File {
+    let named = |sharpness: Option<f64>| sharpness.map_or_else(|| "none".to_owned(), |sharpness| sharpness.to_string());
     let list = |values: &[f64]| values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(" / ");
     let errors = filtering.kernels.iter().map(|row| {
         let mut cells = vec![named(row.sharpness)];

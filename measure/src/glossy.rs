@@ -161,9 +161,12 @@ fn needed(&exponent: &f64) -> Needed {
     Needed { exponent, at_root: significant(error(root)), bands }
 }
 
+/// The radiance of each cut and of the reference.
+type Cuts = [[f64; 3]; STRIP.len() + 1];
+
 /// Nodes of the sphere, exact for products of the reference's bands with as many of the reflectance, with the light of each cut.
 struct Lit {
-    nodes: Vec<([f64; 3], [[f64; 3]; STRIP.len() + 1])>,
+    nodes: Vec<([f64; 3], Cuts)>,
 }
 
 impl Lit {
@@ -193,7 +196,7 @@ impl Lit {
         Self { nodes }
     }
 
-    fn shaded(&self, brdf: &Brdf, [x, y, z]: [[f64; 3]; 3], view: [f64; 3]) -> [[f64; 3]; STRIP.len() + 1] {
+    fn shaded(&self, brdf: &Brdf, [x, y, z]: [[f64; 3]; 3], view: [f64; 3]) -> Cuts {
         let mut sums = [[0.0; 3]; STRIP.len() + 1];
         for (direction, light) in &self.nodes {
             let up = dot(*direction, z);
@@ -223,7 +226,7 @@ fn strips(progress: &dyn Progress) -> (Vec<Convergence>, Raster) {
         (0..SIDE * SIDE).into_par_iter().map(pixel).collect::<Vec<_>>()
     });
     let last = columns - 1;
-    let converged = |(row, (text, pixels)): (usize, (&&str, &Vec<Option<[[f64; 3]; STRIP.len() + 1]>>))| {
+    let converged = |(row, (text, pixels)): (usize, (&&str, &Vec<Option<Cuts>>))| {
         let shown = || pixels.iter().enumerate().filter_map(|(i, shown)| Some((i, shown.as_ref()?)));
         let exposure = tone::exposure(shown().map(|(_, shown)| shown[last]));
         let most = shown().map(|(_, shown)| tone::luminance(shown[last])).fold(0.0, f64::max);

@@ -30,6 +30,7 @@ mod loops;
 mod maps;
 mod measured;
 mod methods;
+mod mothers;
 mod operations;
 mod orders;
 mod packages;

@@ -10,11 +10,11 @@
 //! It is linear between the entries. What is mirrored at the plane of h has 180° − φ_d; of a measurement's two halves the mean
 //! is taken.
 
-use super::{Missing, between, checked, filled, refused};
 use crate::environment::harmonics::{basis, turn_about_z};
 use crate::fault::Fault;
 use crate::math::index::band_degree;
 use crate::math::quadrature::gauss_legendre;
+use crate::reflectance::measured::entries::{Missing, between, checked, filled, refused};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Entries along θ_h, θ_d and φ_d.

@@ -9,11 +9,11 @@
 //! direction (e, a) of the light is column e A + a, that of the view is row e A + a. So E = 10 gives an image of 360², 16 one of
 //! 960², 24 one of 2208². R, G and B are the channels, or Y alone.
 
-use super::{Missing, between, checked, filled, refused};
 use crate::environment::MapError;
 use crate::environment::harmonics::{basis, turn_about_z};
 use crate::fault::Fault;
 use crate::math::quadrature::gauss_legendre;
+use crate::reflectance::measured::entries::{Missing, between, checked, filled, refused};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The most elevations or azimuths that a grid has.
