@@ -17,6 +17,7 @@ use zonal_codegen::plan::light;
 use zonal_codegen::plan::order::{smallest, weights};
 use zonal_codegen::plan::text::{percent, table};
 use zonal_codegen::reflectance::brdf::Brdf;
+use zonal_codegen::reflectance::measured::Measured;
 use zonal_codegen::scene::{Light, frame};
 
 /// Maps are projected at least this far, so that what lies beyond is known.
@@ -38,8 +39,9 @@ pub struct Asked {
     /// Irradiance instead of radiance: the light that a diffuse surface gets, by its normal.
     #[arg(long)]
     pub irradiance: bool,
-    /// Tells the orders for a surface of this reflectance too: phong:EXPONENT, ward:ALPHA or ward:ALPHA:ALPHA.
-    #[arg(long, value_name = "BRDF")]
+    /// Tells the orders for a surface of this reflectance too: phong:EXPONENT, ward:ALPHA, ward:ALPHA:ALPHA or measured:FILE,
+    /// a tabulated one as docs/SCENE.md has them.
+    #[arg(long, value_name = "BRDF", value_parser = reflectance)]
     pub brdf: Option<Brdf>,
     /// The program that takes the coefficients: its axes, signs and factors. docs/ENGINES.md says what they are. Without
     /// it, zonal's: z is up, the map's centre along +x, -y to its right, which no engine with y up has.
@@ -60,6 +62,14 @@ fn formats() -> Vec<&'static str> {
     language::ALL.iter().map(|language| language.name).chain([CSV]).collect()
 }
 
+/// A reflectance by its text, or tabulated in a file.
+fn reflectance(text: &str) -> Result<Brdf, Fault> {
+    match text.strip_prefix("measured:") {
+        Some(file) => Ok(Measured::read(Path::new(file))?.into()),
+        None => text.parse().map_err(Fault::from),
+    }
+}
+
 /// By how much every order errs of something that is seen of the light.
 #[derive(Clone, Debug)]
 pub struct Curve {
@@ -74,7 +84,7 @@ pub struct Curve {
 }
 
 /// What is to be found about a map that is read.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Question {
     /// What coefficients are wanted of.
     pub signal: Light,
@@ -119,11 +129,11 @@ impl Projected {
         let signal = if asked.irradiance { Light::Irradiance } else { Light::Radiance };
         frame::check(&convention, signal, order)?;
         let loaded = Loaded::read(&asked.map).map_err(Fault::from)?;
-        Ok(Self::of(loaded, &Question { signal, order, convention, brdf: asked.brdf }))
+        Ok(Self::of(loaded, &Question { signal, order, convention, brdf: asked.brdf.clone() }))
     }
 
     /// Projects a map that is read.
-    pub fn of(loaded: Loaded, &Question { signal, order, convention, brdf }: &Question) -> Self {
+    pub fn of(loaded: Loaded, &Question { signal, order, convention, ref brdf }: &Question) -> Self {
         let survey = loaded.map.survey(DEPTH.max(order));
         let irradiance = survey.projection.irradiance();
         let projection = match signal {
@@ -141,7 +151,7 @@ impl Projected {
             curve("the light itself (a mirror)".to_owned(), "light", Light::Radiance, None),
             curve("diffuse light".to_owned(), "diffuse", Light::Irradiance, None),
         ];
-        if let Some(brdf) = &brdf {
+        if let Some(brdf) = brdf {
             curves.push(curve(format!("what `{brdf}` reflects"), "reflected", Light::Radiance, Some(brdf)));
         }
         Self {

@@ -22,6 +22,7 @@ use crate::files::{self, Difference, File, FileError, Replace};
 use crate::generate::{self, GenerateError};
 use crate::plan::Plan;
 use crate::plan::environment::EnvironmentPlan;
+use crate::reflectance::brdf::Brdf;
 use crate::scene::diagnostic::{Diagnostic, Place};
 use crate::scene::{self, Located, Maps, Scene, Wanted};
 use std::fmt;
@@ -195,8 +196,8 @@ impl Builder {
         Ok(files::changes(folder.as_ref(), &files))
     }
 
-    /// From a build script: writes the files into `OUT_DIR`, and tells cargo to run the script again when it, the scene
-    /// or the map changes. If no order that the scene affords keeps its budget, cargo shows a warning that says so.
+    /// From a build script: writes the files into `OUT_DIR`, and tells cargo to run the script again when it, the scene,
+    /// the map or the table of a reflectance changes. If no order that the scene affords keeps its budget, cargo shows a warning that says so.
     ///
     /// # Errors
     ///
@@ -210,6 +211,9 @@ impl Builder {
         let scene = self.resolved()?;
         if let (Some(environment), Maps::Folder(maps)) = (&scene.environment, &scene.maps) {
             println!("cargo::rerun-if-changed={}", maps.join(&environment.map.value).display());
+        }
+        if let (Some(table), Maps::Folder(maps)) = (scene.brdf.as_ref().and_then(Brdf::table), &scene.maps) {
+            println!("cargo::rerun-if-changed={}", maps.join(&table.name).display());
         }
         let plan = Plan::new(&scene)?;
         if let Some(warning) = plan.environment.as_ref().and_then(EnvironmentPlan::warning) {

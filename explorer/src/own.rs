@@ -98,9 +98,13 @@ impl Own {
             let loaded = loaded.map_err(|error| Diagnostic::of(&environment.map.place, error))?;
             self.add_map(name, loaded);
         }
-        if let Some(brdf) = scene.brdf {
+        if let Some(brdf) = &scene.brdf {
+            if brdf.table().is_some() {
+                let help = "`zonal render` draws it, `zonal plan --plot` shows what it needs; or leave `[brdf]` out";
+                return Err(Diagnostic::at(&scene.name.place, "the explorer knows no tabulated reflectances", help));
+            }
             self.set("brdf", json!(brdf.to_string()));
-            self.brdfs.push(brdf);
+            self.brdfs.push(brdf.clone());
         }
         let Some(picture) = &scene.picture else { return Ok(()) };
         match picture.mesh.value.as_str() {

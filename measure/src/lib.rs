@@ -8,7 +8,9 @@ pub mod clock;
 pub mod costs;
 pub mod errors;
 pub mod factorisation;
+pub mod filtering;
 pub mod fronts;
+pub mod glossy;
 pub mod hemisphere;
 mod markdown;
 pub mod methods;
@@ -20,6 +22,7 @@ pub mod report;
 pub mod ringing;
 pub mod rounding;
 pub mod shading;
+mod sphere;
 pub mod stability;
 pub mod svg;
 pub mod tables;
@@ -99,6 +102,6 @@ pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     let differs = |file: &File| std::fs::read_to_string(folder.join(&file.name)).map_or(true, |text| text != file.text);
     let files = render(&old).into_iter().filter(differs).map(|file| format!("{} does not show its figures", file.name));
     let bounds = bounds::stale(old.bounds.as_deref().unwrap_or_default());
-    let pictures = fresh.hemisphere.pictures.iter().filter_map(|picture| picture.stale(folder));
+    let pictures = fresh.pictures().filter_map(|picture| picture.stale(folder));
     old.differences(fresh).into_iter().chain(files).chain(bounds).chain(pictures).collect()
 }

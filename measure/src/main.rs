@@ -50,7 +50,7 @@ impl Progress for Bar {
 fn write(folder: &Path, report: &Report) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
     render(report).into_iter().try_for_each(|file| std::fs::write(folder.join(file.name), file.text))?;
-    report.hemisphere.pictures.iter().try_for_each(|picture| std::fs::write(folder.join(&picture.name), picture.png()))
+    report.pictures().try_for_each(|picture| std::fs::write(folder.join(&picture.name), picture.png()))
 }
 
 /// The report that a folder holds.

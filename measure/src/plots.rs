@@ -269,6 +269,8 @@ pub fn files(report: &Report) -> Vec<File> {
         rounding(report),
         factorisation(report),
         crate::shading::plot(&report.shading),
+        crate::filtering::plot(&report.filtering),
+        crate::glossy::plot(&report.glossy),
     ];
     files.extend(crate::stability::report::plots(&report.stability));
     files

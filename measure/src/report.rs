@@ -4,14 +4,17 @@ use crate::bounds::Bounds;
 use crate::costs::Costs;
 use crate::errors::Curve;
 use crate::factorisation::Factorisation;
+use crate::filtering::Filtering;
 use crate::fronts::{Front, Plan};
+use crate::glossy::Glossy;
 use crate::hemisphere::Hemisphere;
+use crate::raster::Raster;
 use crate::ringing::Ringing;
 use crate::rounding::Rounding;
 use crate::shading::Shading;
 use crate::stability::Stability;
 use crate::timing::Timing;
-use crate::{Progress, costs, errors, factorisation, fronts, ringing, rounding, shading};
+use crate::{Progress, costs, errors, factorisation, filtering, fronts, glossy, ringing, rounding, shading};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use zonal_codegen::families::Spec;
@@ -42,6 +45,12 @@ pub struct Report {
     /// Shading by isotropic decomposition.
     #[serde(default)]
     pub shading: Shading,
+    /// Tabulated reflectances, filtered.
+    #[serde(default)]
+    pub filtering: Filtering,
+    /// Glossy surfaces: their bands, ringing, tables.
+    #[serde(default)]
+    pub glossy: Glossy,
     /// The proven rounding bounds beside what was measured last.
     #[serde(default)]
     pub bounds: Option<Vec<Bounds>>,
@@ -51,12 +60,17 @@ pub struct Report {
     pub hemisphere: Hemisphere,
     /// How long kernels took where they were last timed.
     pub timing: Option<Timing>,
+    /// Pictures, which no JSON holds, besides those of the hemisphere.
+    #[serde(skip)]
+    pub drawn: Vec<Raster>,
 }
 
 impl Report {
     /// Measures everything but times and the bounds' million inputs.
     pub fn measure(progress: &dyn Progress) -> Self {
         let (fronts, plans) = fronts::measure(progress);
+        let (filtering, filtered) = filtering::measure(progress);
+        let (glossy, strips) = glossy::measure(progress);
         Self {
             angles: errors::grid(),
             errors: errors::measure(progress),
@@ -67,11 +81,19 @@ impl Report {
             factorisation: factorisation::measure(progress),
             ringing: ringing::measure(progress),
             shading: shading::measure(progress),
+            filtering,
+            glossy,
             bounds: None,
             stability: Stability::measure(progress),
             hemisphere: Hemisphere::measure(progress),
             timing: None,
+            drawn: vec![filtered, strips],
         }
+    }
+
+    /// Returns the pictures, which no JSON holds.
+    pub fn pictures(&self) -> impl Iterator<Item = &Raster> {
+        self.hemisphere.pictures.iter().chain(&self.drawn)
     }
 
     /// JSON with one line an item of each list.

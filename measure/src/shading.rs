@@ -12,7 +12,7 @@ use zonal_codegen::environment::bands::bound_side;
 use zonal_codegen::environment::harmonics::basis;
 use zonal_codegen::families::Spec;
 // Names a family: its directions and mother functions are what is measured.
-use zonal_codegen::families::isd::directions::best;
+use zonal_codegen::families::isd::directions::best_of;
 use zonal_codegen::families::isd::mother::{Decomposition, HOPELESS, Levels, Mother};
 use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::math::quadrature::gauss_legendre;
@@ -41,6 +41,9 @@ pub struct Conditions {
     pub mother: String,
     /// Whether the levels share directions.
     pub shared: bool,
+    /// Whether directions that they do not share are those of a search, instead of a spiral.
+    #[serde(default)]
+    pub searched: bool,
     /// The numbers of bands.
     pub bands: Vec<usize>,
     /// The condition number of M for each.
@@ -91,27 +94,45 @@ pub struct Shading {
     pub convergence: Vec<Convergence>,
 }
 
-/// The directions that levels share: the kept set, of one band the axes.
-fn shared(bands: usize) -> Option<Levels> {
-    let axes = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// Where the directions of the levels come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Spread {
+    /// The spiral.
+    Spiral,
+    /// The kept set of the mother functions.
+    Searched,
+    /// The kept set that levels share, of one band the axes.
+    Shared,
+}
+
+fn kept(mother: Option<Mother>, bands: usize) -> Option<Vec<[f64; 3]>> {
     let unit = |v: &[f64; 3]| {
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         v.map(|x| x / length)
     };
-    let directions = match bands {
-        1 => axes,
-        _ => best(bands)?.directions.iter().map(unit).collect(),
-    };
-    Levels::shared(bands, &directions).ok()
+    Some(best_of(mother, bands)?.directions.iter().map(unit).collect())
 }
 
-fn conditions(&(mother, is_shared): &(Mother, bool)) -> Conditions {
+impl Spread {
+    fn levels(self, mother: Mother, bands: usize) -> Option<Levels> {
+        let axes = || vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        match self {
+            Self::Spiral => Some(Levels::dealt(bands)),
+            Self::Searched => Levels::own(bands, &kept(Some(mother), bands)?).ok(),
+            Self::Shared if bands == 1 => Levels::shared(1, &axes()).ok(),
+            Self::Shared => Levels::shared(bands, &kept(None, bands)?).ok(),
+        }
+    }
+}
+
+fn conditions(&(mother, spread): &(Mother, Spread)) -> Conditions {
     let of = |&bands: &usize| {
-        let levels = if is_shared { shared(bands)? } else { Levels::dealt(bands) };
+        let levels = spread.levels(mother, bands)?;
         Some((bands, significant(Decomposition::measured(mother, &levels).condition.min(1e18))))
     };
     let (bands, conditions) = BANDS.iter().filter_map(of).unzip();
-    Conditions { mother: mother.name().to_owned(), shared: is_shared, bands, conditions }
+    let [shared, searched] = [Spread::Shared, Spread::Searched].map(|other| other == spread);
+    Conditions { mother: mother.name().to_owned(), shared, searched, bands, conditions }
 }
 
 fn forms(&order: &usize) -> Forms {
@@ -244,7 +265,8 @@ fn converged(text: &str) -> Vec<Convergence> {
     let harmonic = REACHED.map(|bands| (Mother::Harmonic, bands));
     let gaussian = [2, 4, 8].map(|bands| (Mother::Gaussian, bands));
     let of = |(mother, bands): (Mother, usize)| {
-        let levels = if mother == Mother::Harmonic { shared(bands)? } else { Levels::dealt(bands) };
+        let spread = if mother == Mother::Harmonic { Spread::Shared } else { Spread::Searched };
+        let levels = spread.levels(mother, bands)?;
         let made = Decomposition::new(mother, &levels).ok()?;
         let slices: Vec<Vec<f64>> = views.iter().map(|&(view, _)| brdf.coefficients(view, bands + 1)).collect();
         let e = light(bands + 1);
@@ -286,7 +308,9 @@ fn converged(text: &str) -> Vec<Convergence> {
 
 /// Measures shading.
 pub fn measure(progress: &dyn Progress) -> Shading {
-    let profiles: Vec<(Mother, bool)> = PROFILES.iter().flat_map(|&mother| [(mother, false), (mother, true)]).collect();
+    let of = |&mother: &Mother| [Spread::Spiral, Spread::Shared, Spread::Searched].map(|spread| (mother, spread));
+    let mut profiles: Vec<(Mother, Spread)> = PROFILES.iter().flat_map(of).collect();
+    profiles.retain(|(mother, spread)| *spread != Spread::Searched || *mother != Mother::Legendre);
     Shading {
         conditions: each(progress, "mother functions", &profiles, conditions),
         forms: each(progress, "shading", &ORDERS, forms),
@@ -314,9 +338,11 @@ pub fn table(shading: &Shading) -> File {
     let parts = [
         "![The condition of M over the bands](conditions.svg)\n\nFigure 13 of Soler et al. 2015: the condition number of M for \
          four profiles of mother functions. Shared directions are those that `zonal search-directions` keeps, to 19 bands; \
-         others are spread over the sphere by the golden angle and dealt to the levels. Kept sets hold harmonics and \
+         others are spread over the sphere by the golden angle and dealt to the levels, or are those that \
+         `zonal search-directions --mother` keeps, to 8 bands. Kept sets hold harmonics and \
          Legendre polynomials, which differ from them by a factor a band, below what spread directions reach; sharing \
-         ruins the profiles with local support, as the paper says."
+         ruins the profiles with local support, as the paper says; the search takes the condition of those that do not share \
+         from some thousands to below a hundred."
             .to_owned(),
         "## Operations, reads, bytes\n\nThe forms of one integral, in operations for one channel / for three, set-up from a \
          quaternion included. Equation 22 evaluates the light's bands at the turned directions; of tables it reads 2l + 1 \
@@ -353,13 +379,22 @@ pub fn table(shading: &Shading) -> File {
 /// The plot of the conditions.
 pub fn plot(shading: &Shading) -> File {
     let colour = |name: &str| PROFILES.iter().position(|mother| mother.name() == name).unwrap_or_default();
-    let stroke = |shared: bool| if shared { Stroke::Dashed } else { Stroke::Dotted };
+    let stroke = |row: &Conditions| match (row.shared, row.searched) {
+        (true, _) => Stroke::Dashed,
+        (_, true) => Stroke::Solid,
+        _ => Stroke::Dotted,
+    };
     let series = shading.conditions.iter().map(|row| Series {
         colour: colour(&row.mother),
-        stroke: stroke(row.shared),
+        stroke: stroke(row),
         points: row.bands.iter().map(|bands| *bands as f64).zip(row.conditions.iter().copied()).collect(),
     });
-    let label = |row: &Conditions| format!("{}, {}", row.mother, if row.shared { "shared" } else { "not shared" });
+    let how = |row: &Conditions| match (row.shared, row.searched) {
+        (true, _) => "shared",
+        (_, true) => "not shared, searched",
+        _ => "not shared",
+    };
+    let label = |row: &Conditions| format!("{}, {}", row.mother, how(row));
     let picture = Picture {
         title: "Conditions of isotropic decomposition".to_owned(),
         subtitle: "Figure 13 of Soler et al. 2015; beyond 1e16 f64 cannot tell".to_owned(),
@@ -371,7 +406,7 @@ pub fn plot(shading: &Shading) -> File {
             y: Axis::decades("condition number of M", 1.0, 1e18),
             series: series.collect(),
         }],
-        keys: shading.conditions.iter().map(|row| key(&label(row), colour(&row.mother), stroke(row.shared))).collect(),
+        keys: shading.conditions.iter().map(|row| key(&label(row), colour(&row.mother), stroke(row))).collect(),
     };
     svg::file("conditions", &picture)
 }

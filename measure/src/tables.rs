@@ -445,6 +445,8 @@ fn index(report: &Report) -> File {
             "reflectances in hemispherical harmonics: Figure 6 and Table 1 of Gautron et al. 2004",
         ),
         ("[shading](shading.md)", "isotropic decomposition: Figure 13 of Soler et al. 2015, costs, convergence"),
+        ("[filtering](filtering.md)", "sparse and noisy reflectances, filtered: Figure 11 of Soler et al. 2015"),
+        ("[glossy](glossy.md)", "glossy surfaces: Figures 4 and 12 and Table I of Soler et al. 2015"),
         ("[timing](timing.md)", "nanoseconds a vector"),
         ("[measure.json](measure.json)", "all of it as data"),
     ];
@@ -478,6 +480,8 @@ pub fn files(report: &Report) -> Vec<File> {
         factorisation(report),
         crate::ringing::table(&report.ringing),
         crate::shading::table(&report.shading),
+        crate::filtering::table(&report.filtering),
+        crate::glossy::table(&report.glossy),
         timing(report),
     ]
 }

@@ -18,6 +18,7 @@ use zonal_measure::errors::{Comparison, LEVELS, LOBE, MAX, MEAN, RMS, SHOWN};
 use zonal_measure::fronts::{ORDERS, Plan, TURNS};
 use zonal_measure::methods::{METHODS, named};
 use zonal_measure::papers::{LOBES, SPARSITY, TABLE_2, recomputed};
+use zonal_measure::shading::Conditions;
 use zonal_measure::{Report, Silent, errors, render, stale};
 
 fn fresh() -> &'static Report {
@@ -35,7 +36,7 @@ fn the_docs_are_not_stale() {
         found.len(),
         found.join("\n")
     );
-    let pictures = fresh().hemisphere.pictures.iter().map(|picture| picture.name.clone());
+    let pictures = fresh().pictures().map(|picture| picture.name.clone());
     let names: Vec<String> = render(fresh()).into_iter().map(|file| file.name).chain(pictures).collect();
     for entry in std::fs::read_dir(&folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
@@ -343,7 +344,8 @@ fn ringing_errs_as_was_found_by_other_means() {
 fn isotropic_decomposition_is_as_its_paper_says() {
     let shading = &fresh().shading;
     let condition = |mother: &str, shared: bool, bands: usize| {
-        let mut rows = shading.conditions.iter().filter(|row| row.mother == mother && row.shared == shared);
+        let spread = |row: &&Conditions| row.mother == mother && row.shared == shared && !row.searched;
+        let mut rows = shading.conditions.iter().filter(spread);
         let row = rows.next().expect("is measured");
         row.conditions[row.bands.iter().position(|known| *known == bands).expect("is measured")]
     };
@@ -353,6 +355,10 @@ fn isotropic_decomposition_is_as_its_paper_says() {
             let [own, shared] = [false, true].map(|shared| condition(mother, shared, bands));
             assert!(own < 1e5 && shared > 1e6, "{mother}, {bands} bands: {own:e}, shared {shared:e}");
         }
+    }
+    for row in shading.conditions.iter().filter(|row| row.searched) {
+        let worst = row.conditions.iter().copied().fold(1.0, f64::max);
+        assert!(row.bands.contains(&8) && worst < 100.0 && worst < 0.3 * condition(&row.mother, false, 8), "{row:?}");
     }
     for form in &shading.forms {
         let [decomposed, direct, isotropic, zonal, direct_zonal] = form.operations[..] else { panic!("five forms") };
@@ -375,5 +381,41 @@ fn isotropic_decomposition_is_as_its_paper_says() {
             let (_, same) = harmonic.iter().find(|row| row.0 == bands).expect("is measured");
             assert!((error - same).abs() <= 1e-3 * same, "{reflectance}, {bands} bands: {error:e}, {same:e}");
         }
+    }
+}
+
+/// What Soler et al. 2015 say of filtering: reciprocity is kept by what has it; energy is over the sphere, not view by view; a
+/// kernel pays where fewer pairs are known than there are coefficients.
+#[test]
+fn filtering_keeps_reciprocity_and_not_the_albedo() {
+    let filtering = &fresh().filtering;
+    let [uneven, even] = filtering.reciprocity;
+    // Rounding of sums of 4096 products, against what noise does.
+    assert!(even.iter().all(|change| *change < 1e-12) && uneven.iter().all(|change| *change > 0.1), "{filtering:?}");
+    let [bands, widest, .., narrowest] = &filtering.kernels[..] else { panic!("seven kernels") };
+    for row in &filtering.kernels {
+        assert!((row.everywhere - bands.everywhere).abs() < 1e-3 && row.above < 1.0, "{row:?}");
+    }
+    assert!((bands.everywhere - 1.0).abs() < 0.01, "{bands:?}");
+    assert!(widest.albedos[0] < 0.8 * bands.albedos[0] && widest.whole[2] > 1.1 * bands.whole[2], "{widest:?}");
+    assert!(narrowest.errors[0] > bands.errors[0], "every kernel blurs");
+    let best = filtering.kernels[1..].iter().map(|row| row.errors[3]).fold(f64::INFINITY, f64::min);
+    assert!(best < 0.8 * bands.errors[3] && filtering.pictures[1] < 0.7 * filtering.pictures[0], "{best}");
+}
+
+/// Figures 4 and 12 and the paper's L = √s: more bands err less, and √s of them are too few.
+#[test]
+fn glossy_surfaces_converge_and_ring() {
+    let glossy = &fresh().glossy;
+    for row in &glossy.convergence {
+        assert!(row.errors.windows(2).all(|pair| pair[1] < pair[0]) && row.errors[4] < 0.02, "{row:?}");
+    }
+    for row in &glossy.needed {
+        assert!(row.at_root > 0.4 && row.bands[0] as f64 > 1.8 * row.exponent.sqrt(), "{row:?}");
+    }
+    for row in &glossy.ringing {
+        let reach = row.bands as f64 / row.exponent.sqrt();
+        assert!(reach > 2.0 || row.least < -1e-3, "{row:?}");
+        assert!(reach < 3.5 || (row.negative == 0.0 && row.least > -1e-3), "{row:?}");
     }
 }

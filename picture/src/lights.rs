@@ -107,8 +107,8 @@ impl Lights {
         for Light { direction, power } in &self.0 {
             let up = dot(*direction, z);
             if up > 0.0 {
-                let value = brdf.value(view, [dot(*direction, x), dot(*direction, y), up]);
-                (0..3).for_each(|channel| sum[channel] += value * power[channel]);
+                let values = brdf.values(view, [dot(*direction, x), dot(*direction, y), up]);
+                (0..3).for_each(|channel| sum[channel] += values[channel] * power[channel]);
             }
         }
         sum

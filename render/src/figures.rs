@@ -11,6 +11,7 @@ use zonal_codegen::environment::Projection;
 use zonal_codegen::reflectance::brdf::Table;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_picture::method::{Judged, Method};
+use zonal_picture::shade::Shading;
 
 /// How far a frame is from another, in shares of the other's mean radiance. The radiance of a pixel, and an error of it,
 /// is the root of the sum of the squares of R, G and B.
@@ -156,8 +157,8 @@ pub struct Figures {
 /// A subject's reflectance and light as its shaders read them, whatever the method.
 #[derive(Clone, Debug)]
 pub struct Inputs {
-    /// The reflectance by view.
-    pub table: Table,
+    /// The reflectance by view: one, or one each for red, green and blue.
+    pub tables: Vec<Table>,
     /// The light.
     pub light: Projection,
 }
@@ -165,7 +166,30 @@ pub struct Inputs {
 impl Inputs {
     /// Those of an order.
     pub fn new(subject: &Subject, order: usize) -> Self {
-        Self { table: Table::new(&subject.brdf, order), light: subject.light(order) }
+        let tables = subject.brdf.channels().iter().map(|brdf| Table::new(brdf, order)).collect();
+        Self { tables, light: subject.light(order) }
+    }
+
+    /// The frame of a stage. A reflectance that differs between channels is drawn once for each.
+    /// The light is read from tables of its bands if there are any, and the reflectance is as `made` makes it.
+    fn frame(
+        &self,
+        stage: &Stage,
+        shading: Shading,
+        bands: Option<&Tables>,
+        made: impl Fn(&Table) -> Table,
+        timed: bool,
+    ) -> Result<Frame, Diagnostic> {
+        let frames = self.tables.iter().map(|table| stage.frame(shading, &made(table), &self.light, bands, timed));
+        let frames = frames.collect::<Result<Vec<Frame>, Diagnostic>>()?;
+        let milliseconds = frames.iter().map(|frame| frame.milliseconds).sum();
+        let last = frames.len() - 1;
+        let pixel = |at: usize| {
+            let of = |channel: usize| frames[channel.min(last)].pixels[at].map(|radiance| radiance[channel]);
+            Some([of(0)?, of(1)?, of(2)?])
+        };
+        let pixels = (0..frames[0].pixels.len()).map(pixel).collect();
+        Ok(Frame { size: frames[0].size, pixels, milliseconds })
     }
 }
 
@@ -181,13 +205,13 @@ pub fn drawn(
     exact: Option<&Frame>,
     timed: bool,
 ) -> Result<(Frame, Picture), Diagnostic> {
-    let order = inputs.table.order;
+    let order = inputs.light.order;
     let shading = stage.subject.shading(order, method);
     let frame = match method.reads_tables() {
-        false => stage.frame(shading, &inputs.table, &inputs.light, None, timed)?,
+        false => inputs.frame(stage, shading, None, Table::clone, timed)?,
         true => {
             let tables = Tables::new(&inputs.light, ERROR)?;
-            stage.frame(shading, &tables.reflectance(&inputs.table, method), &inputs.light, Some(&tables), timed)?
+            inputs.frame(stage, shading, Some(&tables), |table| tables.reflectance(table, method), timed)?
         }
     };
     let picture = Picture {

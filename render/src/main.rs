@@ -121,6 +121,9 @@ fn run(arguments: &Arguments) -> Result<String, Diagnostic> {
         "{}: {}, order {}, {} by {} pixels on {}\n\n",
         figures.scene, figures.brdf, figures.order, figures.size[0], figures.size[1], figures.adapter
     );
+    if let Some(table) = subject.brdf.table() {
+        let _ = writeln!(text, "  {}\n", table.told());
+    }
     for picture in &figures.pictures {
         let name = picture.spec.as_deref().unwrap_or("no rotation");
         let errors = match arguments.compare && picture.method != Method::Exact {

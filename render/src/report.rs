@@ -89,7 +89,7 @@ impl Report {
         let mut of_maps = Vec::new();
         for (name, map) in maps {
             let cases: Result<Vec<Case>, Diagnostic> =
-                BRDFS.iter().map(|(title, brdf)| case(gpu, subject, title, *brdf, map, bar)).collect();
+                BRDFS.iter().map(|(title, brdf)| case(gpu, subject, title, brdf, map, bar)).collect();
             of_maps.push(((*name).to_owned(), cases?));
         }
         let mut followed = Vec::new();
@@ -102,7 +102,8 @@ impl Report {
         let mut of_lit = Vec::new();
         for brdf in LIT {
             bar.set_message(brdf.to_string());
-            of_lit.push((brdf, follow(gpu, &Subject { brdf, ..lit.clone() }, bar)?));
+            let rows = follow(gpu, &Subject { brdf: brdf.clone(), ..lit.clone() }, bar)?;
+            of_lit.push((brdf, rows));
         }
         let slopes = subject.normals.slopes();
         let tilt = |share: f64| {
@@ -253,12 +254,12 @@ fn case(
     gpu: &Gpu,
     subject: &Subject,
     title: &'static str,
-    brdf: Brdf,
+    brdf: &Brdf,
     map: &Map,
     bar: &ProgressBar,
 ) -> Result<Case, Diagnostic> {
     bar.set_message(brdf.to_string());
-    let subject = Subject { brdf, map: map.clone(), ..subject.clone() };
+    let subject = Subject { brdf: brdf.clone(), map: map.clone(), ..subject.clone() };
     let stage = Stage::new(gpu, &subject, SIZE)?;
     let truth = Truth::new(&stage, POINTS, bar)?;
     let inputs = Inputs::new(&subject, subject.order);

@@ -126,7 +126,7 @@ impl Subject {
             mesh,
             normals,
             strength: picture.strength,
-            brdf: scene.brdf.unwrap_or(Brdf::Lambert),
+            brdf: scene.brdf.clone().unwrap_or(Brdf::Lambert),
             map,
             lights: scene.lights.iter().map(|light| light.in_axes(scene.axes())).collect(),
             order,

@@ -1,6 +1,7 @@
 //! Inputs that nobody would write: those that zonal ships, changed at random places from a seed. Whatever a reader is given,
 //! it returns a value or an error.
 
+use crate::tabulated::{SIZE, array, pairs};
 use exr::compression::Compression;
 use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,6 +16,7 @@ use zonal_codegen::families::isd::directions;
 use zonal_codegen::families::product::plan::Records;
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::promise::samples::Random;
+use zonal_codegen::reflectance::measured::Measured;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_picture::mesh::Mesh;
 use zonal_picture::normal_map::NormalMap;
@@ -122,6 +124,18 @@ fn kinds() -> Vec<Kind> {
             name: "directions",
             seeds: texts(&[DIRECTIONS]),
             read: |bytes| directions::Records::read(&String::from_utf8_lossy(bytes)).is_ok(),
+        },
+        Kind {
+            name: "reflectances",
+            seeds: vec![
+                array(&[2, 3, 2, 3, 3], &[0.5; 108]),
+                pairs(2, |view, light| [view[0].abs(), light[2], 0.5]),
+                {
+                    let head = SIZE.map(|side| (side as i32).to_le_bytes()).concat();
+                    [head, vec![0; 48]].concat()
+                },
+            ],
+            read: |bytes| Measured::from_bytes("fuzz", bytes).is_ok(),
         },
         Kind { name: "inputs", seeds: texts(&[INPUTS]), read: read_inputs },
         Kind {

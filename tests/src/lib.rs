@@ -5,6 +5,7 @@ pub mod command;
 pub mod fuzz;
 pub mod house;
 pub mod shader;
+pub mod tabulated;
 pub mod toys;
 pub mod turns;
 

@@ -1,7 +1,7 @@
 //! What the readers of all formats give. It knows none of them.
 
 /// An image as it is decoded.
-pub(super) struct Decoded {
+pub(crate) struct Decoded {
     /// The number of columns.
     pub width: usize,
     /// The number of rows.

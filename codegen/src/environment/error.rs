@@ -124,7 +124,7 @@ impl MapError {
         Self::Malformed { name: name.to_owned(), message: message.replace(char::is_control, " ") }
     }
 
-    pub(super) fn refused(name: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn refused(name: &str, message: impl Into<String>, help: impl Into<String>) -> Self {
         let message = message.into().replace(char::is_control, " ");
         Self::Refused { name: name.to_owned(), message, help: help.into() }
     }

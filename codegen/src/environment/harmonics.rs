@@ -48,3 +48,13 @@ pub fn basis(order: usize, direction: [f64; 3], values: &mut [f64]) {
         }
     }
 }
+
+/// Turns the coefficients of the bands below `order` about z by an angle in radians, from x towards y.
+pub fn turn_about_z(order: usize, angle: f64, signal: &mut [f64]) {
+    for (l, m) in (0..order).flat_map(|l| (1..=l).map(move |m| (l, m))) {
+        let (sin, cos) = (m as f64 * angle).sin_cos();
+        let (plus, minus) = (l * (l + 1) + m, l * (l + 1) - m);
+        (signal[plus], signal[minus]) =
+            (cos * signal[plus] - sin * signal[minus], sin * signal[plus] + cos * signal[minus]);
+    }
+}

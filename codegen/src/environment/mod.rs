@@ -24,14 +24,14 @@
 
 pub mod bands;
 mod cube;
-mod decoded;
+pub(crate) mod decoded;
 pub mod error;
 pub mod harmonics;
 pub mod lamps;
 pub mod layout;
 pub mod loaded;
 pub mod map;
-mod openexr;
+pub(crate) mod openexr;
 mod png;
 pub mod project;
 mod radiance;

@@ -7,18 +7,18 @@ use super::error::MAX_WIDTH;
 use super::error::MapError;
 
 /// The first bytes of a file.
-pub(super) const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+pub(crate) const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
 /// Refuses a size.
-type Check<'a> = &'a dyn Fn(usize, usize) -> Result<(), MapError>;
+pub(crate) type Check<'a> = &'a dyn Fn(usize, usize) -> Result<(), MapError>;
 
 #[cfg(not(feature = "exr"))]
-pub(super) fn read(name: &str, _: &[u8], _: Check<'_>) -> Result<Decoded, MapError> {
+pub(crate) fn read(name: &str, _: &[u8], _: Check<'_>) -> Result<Decoded, MapError> {
     Err(MapError::Unsupported { name: name.to_owned(), format: "OpenEXR", feature: "exr" })
 }
 
 #[cfg(feature = "exr")]
-pub(super) fn read(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
+pub(crate) fn read(name: &str, bytes: &[u8], check: Check<'_>) -> Result<Decoded, MapError> {
     use std::panic::{AssertUnwindSafe, catch_unwind};
     // The decoder is not proof against overflow in damaged files.
     let decoded = catch_unwind(AssertUnwindSafe(|| decode(name, bytes, check)));

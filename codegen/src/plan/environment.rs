@@ -10,6 +10,8 @@ use crate::families::family::Spec;
 use crate::families::{basis, monomial};
 use crate::math::convention::{Convention, Places, ZONAL};
 use crate::promise::law;
+use crate::reflectance::brdf::Brdf;
+use crate::reflectance::measured::Measured;
 use crate::reflectance::requirement::{Requirement, Room};
 use crate::scene::budget::RelativeTo;
 use crate::scene::diagnostic::Diagnostic;
@@ -31,6 +33,9 @@ pub struct EnvironmentPlan {
     pub signal: Light,
     /// What reflects it.
     pub brdf: Option<String>,
+    /// What is told of the file of a tabulated reflectance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub told: Option<String>,
     /// The budget: the relative rms error of what is seen that leaving bands out may cost.
     pub budget: f64,
     /// What that error is relative to.
@@ -87,14 +92,14 @@ pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic>
     // No map is black, so that this is above zero.
     let below: f64 = seen.bands[..max_order].iter().sum();
     let energy: Vec<f64> = seen.bands[..max_order].iter().map(|band| band / below).collect();
-    let brdf = scene.brdf.filter(|_| wanted.signal == Light::Radiance);
+    let brdf = scene.brdf.as_ref().filter(|_| wanted.signal == Light::Radiance);
     let (error, total) = match wanted.relative_to {
         RelativeTo::AllBands => (errors[order - 1], seen.energy()),
         RelativeTo::MaxOrder => (costs[order - 1], below),
     };
     let room = Room { order, max_order, budget: wanted.budget, error, weights: &weights.of_band, energy: total };
     let half = scene.targets.iter().all(|target| target.half.is_some());
-    let requirement = brdf.map(|brdf| Requirement::new(light, &brdf, &room, &vanishing, half));
+    let requirement = brdf.map(|brdf| Requirement::new(light, brdf, &room, &vanishing, half));
     let irradiance = light.irradiance();
     let signal = match wanted.signal {
         Light::Radiance => light,
@@ -105,7 +110,8 @@ pub(super) fn plan(scene: &Scene) -> Result<Option<EnvironmentPlan>, Diagnostic>
         map: wanted.map.value.clone(),
         size: survey.size,
         signal: wanted.signal,
-        brdf: brdf.map(|brdf| brdf.to_string()),
+        brdf: brdf.map(ToString::to_string),
+        told: brdf.and_then(Brdf::table).map(Measured::told),
         budget: wanted.budget,
         relative_to: wanted.relative_to,
         max_order,

@@ -125,6 +125,7 @@ impl EnvironmentPlan {
     /// Why, and what else there is to know, a sentence each.
     pub fn reasons(&self) -> Vec<String> {
         let mut reasons = vec![self.meaning()];
+        reasons.extend(self.told.as_deref().map(capital));
         reasons.extend(lamps(&self.lamps));
         if self.signal == Light::Radiance && self.brdf.is_none() {
             let order = self.order.min(3);

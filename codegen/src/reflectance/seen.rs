@@ -20,15 +20,19 @@ const ELEVATIONS: usize = 96;
 const AZIMUTHS: usize = 512;
 
 /// Views that stand for all of the hemisphere, each with its weight; the weights add up to one. A reflectance is its own
-/// mirror image at both planes of its tangent, so that the azimuths of a quarter are enough; one that is the same all
-/// around needs a single one.
+/// mirror image at both planes of its tangent, so that the azimuths of a quarter are enough, but for a tabulated one; one that
+/// is the same all around needs a single one.
 pub fn views(brdf: &Brdf) -> Vec<([f64; 3], f64)> {
-    let azimuths = if brdf.is_isotropic() { 1 } else { VIEWS[1] };
+    let (azimuths, turn) = match (brdf.is_isotropic(), brdf.is_mirrored()) {
+        (true, _) => (1, 0.5 * PI),
+        (false, true) => (VIEWS[1], 0.5 * PI),
+        (false, false) => (4 * VIEWS[1], 2.0 * PI),
+    };
     let mut views = Vec::new();
     for (cos, weight) in gauss_legendre(VIEWS[0], 0.0, 1.0) {
         let sin = (1.0 - cos * cos).sqrt();
         for i in 0..azimuths {
-            let azimuth = 0.5 * PI * (i as f64 + 0.5) / azimuths as f64;
+            let azimuth = turn * (i as f64 + 0.5) / azimuths as f64;
             views.push(([sin * azimuth.cos(), sin * azimuth.sin(), cos], 2.0 * cos * weight / azimuths as f64));
         }
     }
@@ -37,7 +41,7 @@ pub fn views(brdf: &Brdf) -> Vec<([f64; 3], f64)> {
 
 /// How much of the first bands of a light a reflectance shows. Averaged over all frames of the surface, band l of what is
 /// reflected has the energy |b_l|² |L_l|² / (2l + 1) (docs/MATH.md#the-order-that-a-budget-asks-for), so that the weight is
-/// the mean of |b_l|² / (2l + 1) over the views.
+/// the mean of |b_l|² / (2l + 1) over the views, and over the channels where they differ.
 pub fn weights(brdf: &Brdf, order: usize) -> Weights {
     if let Brdf::Lambert = brdf {
         // |b_l|² is (2l + 1) / 4π times the square of the cosine lobe over π.
@@ -51,7 +55,12 @@ pub fn weights(brdf: &Brdf, order: usize) -> Weights {
     }
     let grid = Grid::new(order);
     let (mut of_band, mut rest) = (vec![0.0; order], 0.0);
-    for (found, share) in threads::map(views(brdf), |(view, share)| (grid.energies(brdf, view), share)) {
+    let channels = brdf.channels();
+    let each = 1.0 / channels.len() as f64;
+    let views = views(brdf);
+    let tasks: Vec<_> =
+        channels.iter().flat_map(|brdf| views.iter().map(move |&(view, share)| (brdf, view, share))).collect();
+    for (found, share) in threads::map(tasks, |(brdf, view, share)| (grid.energies(brdf, view), each * share)) {
         let (bands, all) = found;
         for (l, (weight, energy)) in of_band.iter_mut().zip(&bands).enumerate() {
             *weight += share * energy / (2 * l + 1) as f64;

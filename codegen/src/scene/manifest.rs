@@ -297,7 +297,8 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
             name: table.name.map(|name| locate.at(name)),
         });
     }
-    scene.brdf = manifest.brdf.map(|table| picture::brdf(&locate, table)).transpose()?;
+    let bytes = |file: &Located<String>, limit| scene.bytes(file, limit);
+    scene.brdf = manifest.brdf.map(|table| picture::brdf(&bytes, &locate, table)).transpose()?;
     scene.lights = manifest.light.into_iter().map(|table| sphere::light(&locate, table)).collect::<Result<_, _>>()?;
     scene.picture = manifest.picture.map(|table| picture::picture(&locate, table)).transpose()?;
     Ok(scene)

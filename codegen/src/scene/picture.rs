@@ -12,9 +12,11 @@ use crate::fault::hint;
 use crate::reflectance::brdf::Brdf;
 #[cfg(feature = "schema")]
 use crate::reflectance::brdf::{EXPONENTS, ROUGHNESSES};
+use crate::reflectance::measured::{self, Measured};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::located::{Located, Locator, Order, Placed};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -175,6 +177,8 @@ pub(super) enum Kind {
     Phong,
     /// A Gaussian lobe of the slopes of the half vector.
     Ward,
+    /// As a file has it.
+    Measured,
 }
 
 /// What a surface reflects.
@@ -189,6 +193,9 @@ pub(super) struct BrdfTable {
     exponent: Option<Placed<f64>>,
     /// The roughness, which `ward` needs: one number, or one along the tangent and one across it.
     alpha: Option<Placed<Roughness>>,
+    /// The file of a tabulated reflectance, relative to the scene, which `measured` needs: one of MERL's (.binary), or pairs of
+    /// views and lights as OpenEXR (.exr) or as an array of NumPy (.npy).
+    file: Option<Placed<String>>,
 }
 
 /// One number, or one along x and one along y.
@@ -249,26 +256,39 @@ pub(super) struct PictureTable {
     exposure: Option<Placed<f64>>,
 }
 
-pub(super) fn brdf(locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnostic> {
+/// Reads a file that a scene names, of so many bytes at most.
+type Reader<'a> = &'a dyn Fn(&Located<String>, usize) -> Result<Cow<'static, [u8]>, Diagnostic>;
+
+pub(super) fn brdf(bytes: Reader<'_>, locate: &Locator, table: BrdfTable) -> Result<Brdf, Diagnostic> {
     let kind = locate.at(table.kind);
     let (exponent, alpha) = (table.exponent.map(|e| locate.at(e)), table.alpha.map(|a| locate.at(a)));
+    let file = table.file.map(|file| locate.at(file));
     let missing = |key: &str, example: &str| {
         Diagnostic::at(&kind.place, format!("this kind needs its `{key}`"), format!("add `{key} = {example}`"))
     };
     let misplaced = |place, key: &str| Err(Diagnostic::at(place, format!("this kind has no `{key}`"), "leave it out"));
-    let (brdf, place) = match (kind.value, exponent, alpha) {
-        (Kind::Lambert | Kind::Ward, Some(exponent), _) => return misplaced(&exponent.place, "exponent"),
-        (Kind::Lambert | Kind::Phong, _, Some(alpha)) => return misplaced(&alpha.place, "alpha"),
+    let (brdf, place) = match (kind.value, exponent, alpha, file) {
+        (Kind::Lambert | Kind::Ward | Kind::Measured, Some(exponent), ..) => {
+            return misplaced(&exponent.place, "exponent");
+        }
+        (Kind::Lambert | Kind::Phong | Kind::Measured, _, Some(alpha), _) => return misplaced(&alpha.place, "alpha"),
+        (Kind::Lambert | Kind::Phong | Kind::Ward, .., Some(file)) => return misplaced(&file.place, "file"),
         (Kind::Lambert, ..) => (Brdf::Lambert, kind.place),
-        (Kind::Phong, None, _) => return Err(missing("exponent", "20")),
-        (Kind::Phong, Some(exponent), _) => (Brdf::Phong { exponent: exponent.value }, exponent.place),
-        (Kind::Ward, _, None) => return Err(missing("alpha", "[0.2, 0.6]")),
-        (Kind::Ward, _, Some(alpha)) => {
+        (Kind::Phong, None, ..) => return Err(missing("exponent", "20")),
+        (Kind::Phong, Some(exponent), ..) => (Brdf::Phong { exponent: exponent.value }, exponent.place),
+        (Kind::Ward, _, None, _) => return Err(missing("alpha", "[0.2, 0.6]")),
+        (Kind::Ward, _, Some(alpha), _) => {
             let both = match alpha.value {
                 Roughness::Same(alpha) => [alpha; 2],
                 Roughness::Both(both) => both,
             };
             (Brdf::Ward { alpha: both }, alpha.place)
+        }
+        (Kind::Measured, .., None) => return Err(missing("file", "\"gold.binary\"")),
+        (Kind::Measured, .., Some(file)) => {
+            let bytes = bytes(&file, measured::MAX_BYTES)?;
+            let read = Measured::from_bytes(&file.value, &bytes).map_err(|error| Diagnostic::of(&file.place, error))?;
+            (read.into(), file.place)
         }
     };
     brdf.checked().map_err(|error| Diagnostic::of(&place, error))

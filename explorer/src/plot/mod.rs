@@ -29,7 +29,7 @@ pub fn plan(path: Option<&Path>, json: bool, plot: &Path, replace: Replace) -> R
     let mut sheet = Sheet::default();
     let mut is_empty = true;
     if let Some(projected) = lit(&scene, &plan)? {
-        let brdf = scene.brdf.filter(|_| projected.signal == Light::Radiance).unwrap_or(Brdf::Lambert);
+        let brdf = scene.brdf.clone().filter(|_| projected.signal == Light::Radiance).unwrap_or(Brdf::Lambert);
         let budget = scene.environment.as_ref().map(|environment| environment.budget);
         let name =
             plan.environment.as_ref().map_or_else(String::new, |light| format!("{} of {}", light.name, light.map));
@@ -57,7 +57,7 @@ pub fn project(asked: &Asked, plot: &Path, replace: Replace) -> Result<(), Failu
     let bar = progress("projecting and drawing");
     let projected = Projected::new(asked)?;
     let mut sheet = Sheet::default();
-    let brdf = asked.brdf.filter(|_| !asked.irradiance).unwrap_or(Brdf::Lambert);
+    let brdf = asked.brdf.clone().filter(|_| !asked.irradiance).unwrap_or(Brdf::Lambert);
     let name = asked.map.display().to_string();
     Lit { name: name.clone(), projected: &projected, brdf, budget: None }
         .draw(&mut sheet)
@@ -79,7 +79,7 @@ fn lit(scene: &Scene, plan: &Plan) -> Result<Option<Projected>, Failure> {
         }
     };
     let loaded = loaded.map_err(|error| Diagnostic::of(&wanted.map.place, error))?;
-    let brdf = scene.brdf.filter(|_| wanted.signal == Light::Radiance);
+    let brdf = scene.brdf.clone().filter(|_| wanted.signal == Light::Radiance);
     let question = Question { signal: wanted.signal, order: found.order, convention: wanted.convention.value, brdf };
     Ok(Some(Projected::of(loaded, &question)))
 }

@@ -5,6 +5,7 @@ use indicatif::ProgressBar;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use zonal_codegen::reflectance::brdf::Brdf;
+use zonal_codegen::reflectance::measured::Measured;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_picture::method::Method;
 use zonal_render::figures::{Errors, Figures, Inputs, drawn, pixel_errors};
@@ -27,12 +28,31 @@ fn teapot() -> Subject {
     Subject::new(&scene, Instead::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A tabulated reflectance, isotropic and reddish, as NumPy saves an array.
+fn coloured() -> Brdf {
+    let ward = Brdf::Ward { alpha: [0.4; 2] };
+    let direction = |e: f64, a: f64| [e.sin() * a.cos(), e.sin() * a.sin(), e.cos().max(0.05)];
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    let head = "{'descr': '<f4', 'fortran_order': False, 'shape': (19, 1, 19, 60, 3), }\n";
+    bytes.extend((head.len() as u16).to_le_bytes());
+    bytes.extend(head.bytes());
+    for (v, l, a) in (0..19).flat_map(|v| (0..19).flat_map(move |l| (0..60).map(move |a| (v, l, a)))) {
+        let elevation = |e: i32| f64::from(5 * e).to_radians();
+        let light = direction(elevation(l), f64::from(6 * a).to_radians());
+        let value = ward.value(direction(elevation(v), 0.0), light) / light[2];
+        bytes.extend([1.0, 0.6, 0.3].iter().flat_map(|share| ((share * value) as f32).to_le_bytes()));
+    }
+    Measured::from_bytes("coloured", &bytes).unwrap_or_else(|error| panic!("{error}")).into()
+}
+
 #[test]
 fn the_exact_picture_is_the_brute_force_sum_under_the_first_bands_of_the_light() {
     let gpu = gpu();
-    for (brdf, order) in [("lambert", 3), ("phong:20", 6), ("ward:0.3", 5), ("ward:0.3:0.6", 5)] {
-        let brdf: Brdf = brdf.parse().unwrap_or_else(|error| panic!("{error}"));
-        let subject = Subject { brdf, ..teapot() };
+    let parsed = |text: &str| text.parse::<Brdf>().unwrap_or_else(|error| panic!("{error}"));
+    let analytic = [("lambert", 3), ("phong:20", 6), ("ward:0.3", 5), ("ward:0.3:0.6", 5)];
+    let analytic = analytic.map(|(text, order)| (parsed(text), order));
+    for (brdf, order) in analytic.into_iter().chain([(coloured(), 5)]) {
+        let subject = Subject { brdf: brdf.clone(), ..teapot() };
         let size = [60, 50];
         let stage = Stage::new(&gpu, &subject, size).unwrap_or_else(|error| panic!("{error}"));
         let inputs = Inputs::new(&subject, order);

@@ -458,3 +458,11 @@ fn a_tall_rotation_is_exact_where_its_angles_are() {
     println!("angles in f64, in f32: {errors:?}");
     assert!(errors[0] <= 5e-7 && errors[1] > 2.0 * errors[0], "{errors:?}");
 }
+
+#[test]
+fn what_has_no_loop_form_is_refused() {
+    for text in ["eval:3:loop", "eval:20:loop", "shade:5:loop", "product:3:loop", "light_sphere:4:rgb:loop"] {
+        let error = text.parse::<Spec>().expect_err("it has no loop form");
+        assert!(error.to_string().contains("no loop form"), "{text}: {error}");
+    }
+}

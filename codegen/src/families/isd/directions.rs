@@ -1,6 +1,7 @@
-//! Directions that the rotated zonal harmonics of all bands share: sets as data, and the matrices M and M⁻¹ that they make
-//! (docs/MATH.md#isotropic-decomposition).
+//! Directions of isotropic decomposition: sets as data, of the rotated zonal harmonics that share them and of other mother
+//! functions whose levels do not, and the matrices M and M⁻¹ that shared ones make (docs/MATH.md#isotropic-decomposition).
 
+use crate::families::isd::mother::{Decomposition, Levels, Mother};
 use crate::math::exact::{Exact, Real};
 use crate::math::inverse::inverse;
 use crate::math::linear::condition;
@@ -11,20 +12,25 @@ use std::sync::OnceLock;
 
 /// The most bands above 0 that a set is searched and kept for.
 pub const HIGHEST_BAND: usize = 19;
+/// The most bands above 0 that a set of other mother functions is searched and kept for.
+pub const HIGHEST_OWN: usize = 10;
 
 /// A set of directions as a search finds it and as `data/directions.toml` holds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Record {
-    /// The highest band; band l uses the first 2l + 1 directions.
+    /// The highest band; band l uses the first 2l + 1 directions, or, of other mother functions, the 2l + 1 from l² on.
     pub bands: usize,
+    /// The mother functions; harmonics, which share directions, if it is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mother: Option<Mother>,
     /// The seed of the search that found it, if the search of this program did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,
     /// How many tries that search took.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tries: Option<usize>,
-    /// The largest condition number of any band's M, to four decimals.
+    /// The largest condition number of any band's M, or that of the whole M of other mother functions, to four decimals.
     pub condition: f64,
     /// The directions, which need not be of unit length.
     pub directions: Vec<[f64; 3]>,
@@ -66,17 +72,22 @@ impl Record {
     /// If the number of bands or of directions is wrong, or a direction has no length.
     pub fn counted(&self) -> Result<f64, String> {
         let (bands, count) = (self.bands, self.directions.len());
-        if !(1..=HIGHEST_BAND).contains(&bands) {
-            return Err(format!("a set of {bands} bands: there are sets of 1 to {HIGHEST_BAND}"));
+        let most = self.mother.map_or(HIGHEST_BAND, |_| HIGHEST_OWN);
+        if !(1..=most).contains(&bands) {
+            return Err(format!("a set of {bands} bands: there are sets of 1 to {most}"));
         }
-        if count != 2 * bands + 1 {
-            return Err(format!("the set of {bands} bands has {count} directions, not {}", 2 * bands + 1));
+        let wanted = self.mother.map_or(2 * bands + 1, |_| (bands + 1) * (bands + 1));
+        if count != wanted {
+            return Err(format!("the set of {bands} bands has {count} directions, not {wanted}"));
         }
         let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         if let Some(at) = self.directions.iter().position(|v| !(1e-6..=1e6).contains(&length(v))) {
             return Err(format!("direction {at} of the set of {bands} bands has no length that can be told"));
         }
         let unit: Vec<[f64; 3]> = self.directions.iter().map(|v| v.map(|x| x / length(v))).collect();
+        if let Some(mother) = self.mother {
+            return Ok(Decomposition::measured(mother, &Levels::own(bands, &unit)?).condition);
+        }
         let of = |l: usize| condition(&gram(l, &unit[..2 * l + 1])).sqrt();
         Ok((1..=bands).map(of).fold(1.0, f64::max))
     }
@@ -110,9 +121,14 @@ pub fn kept() -> &'static [Record] {
     &RECORDS.get_or_init(read).set
 }
 
-/// Returns the best kept set of so many bands.
+/// Returns the best kept set of so many bands that rotated zonal harmonics share.
 pub fn best(bands: usize) -> Option<&'static Record> {
-    let fits = kept().iter().filter(|record| record.bands == bands);
+    best_of(None, bands)
+}
+
+/// Returns the best kept set of so many bands of mother functions, shared if there are none.
+pub fn best_of(mother: Option<Mother>, bands: usize) -> Option<&'static Record> {
+    let fits = kept().iter().filter(|record| (record.mother, record.bands) == (mother, bands));
     fits.min_by(|a, b| a.condition.total_cmp(&b.condition))
 }
 
@@ -135,7 +151,7 @@ pub fn shared(order: usize) -> Option<&'static Shared> {
     SETS.get(order)?.get_or_init(read).as_ref()
 }
 
-fn exact_unit(v: [f64; 3]) -> Option<[Exact; 3]> {
+pub(super) fn exact_unit(v: [f64; 3]) -> Option<[Exact; 3]> {
     let real = |x: f64| BigRational::from_float(x).map(|x| Real::from_ratio(x.numer().clone(), x.denom().clone()));
     let [x, y, z] = [real(v[0])?, real(v[1])?, real(v[2])?];
     let square = &x * &x + &y * &y + &z * &z;
@@ -167,7 +183,7 @@ impl Shared {
 }
 
 /// y_l^m for m from −l to l.
-fn values(l: usize, [x, y, z]: &[Exact; 3]) -> Vec<Exact> {
+pub(super) fn values(l: usize, [x, y, z]: &[Exact; 3]) -> Vec<Exact> {
     let mut powers = vec![[Exact::one(), Exact::zero()]];
     for _ in 0..l {
         let [re, im] = powers.last().expect("begins with one");

@@ -7,6 +7,7 @@ pub mod decomposition;
 pub mod direct;
 pub mod directions;
 pub mod mother;
+pub mod mothers;
 pub mod paper;
 pub mod search;
 

@@ -6,13 +6,15 @@ use crate::environment::harmonics::basis;
 use crate::math::index::coefficients;
 use crate::math::linear::condition;
 use crate::math::quadrature::gauss_legendre;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// The largest condition number that is not refused: f32, whose roundoff is 6e-8, keeps one digit there.
 pub const HOPELESS: f64 = 1e6;
 
 /// A profile of mother functions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Mother {
     /// y_l^0, of which `isd_weights` makes its weights.
     Harmonic,
@@ -38,6 +40,19 @@ impl Mother {
         (Self::Phong, "clamped Phong"),
         (Self::EvenPhong, "even Phong"),
     ];
+
+    /// Those whose levels have directions of their own, with the words that specs, files and commands have for them.
+    pub const OWN: [(Self, &'static str); 4] = [
+        (Self::Gaussian, "gaussian"),
+        (Self::GaussLegendre, "gauss_legendre"),
+        (Self::Phong, "phong"),
+        (Self::EvenPhong, "even_phong"),
+    ];
+
+    /// Returns the one of [`Mother::OWN`] that a word means.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::OWN.iter().find(|(_, known)| *known == word).map(|(mother, _)| *mother)
+    }
 
     /// Returns its name.
     pub fn name(self) -> &'static str {
