@@ -92,7 +92,7 @@ fn row(stage: &Stage, inputs: &Inputs, exact: &Frame, asked: f64) -> Result<(Row
     let order = inputs.light.order;
     let tables = Tables::new(&inputs.light, asked)?;
     let draw = |method: Method| {
-        let (shading, table) = (stage.subject.shading(order, method), tables.reflectance(&inputs.table, method));
+        let (shading, table) = (stage.subject.shading(order, method), tables.reflectance(&inputs.tables[0], method));
         stage.frame(shading, &table, &inputs.light, Some(&tables), false)
     };
     let frames = [draw(METHODS[0])?, draw(METHODS[1])?];
