@@ -34,12 +34,15 @@ pub fn subject(scenes: &Path) -> Result<Subject, Diagnostic> {
     Subject::new(&Scene::read(&scenes.join("teapot.toml"))?, Instead::default())
 }
 
+/// A map with its name.
+pub type Named = (&'static str, Map);
+
 /// Returns the mirror and the maps of the page about reflections, from the folder of scenes.
 ///
 /// # Errors
 ///
 /// If a file is not there or at fault.
-pub fn mirror(scenes: &Path) -> Result<(Ball, Vec<(&'static str, Map)>), Fault> {
+pub fn mirror(scenes: &Path) -> Result<(Ball, Vec<Named>), Fault> {
     let path = scenes.join(format!("normals/{NORMALS}.webp"));
     let bytes = input::read(&path, normal_map::MAX_BYTES).map_err(|error| {
         Fault::new(format!("{}: cannot be read ({error})", path.display()), "name the folder of scenes")

@@ -14,6 +14,8 @@ use tera::Context;
 /// How many directions text is made for at most: what few textures and compilers take.
 pub const MAX_ORDER: usize = 16;
 
+/// What the head says of the tables.
+const WHAT: &str = "Reads of the bands of a light, each a cubemap with linear filtering and no levels, in the cube's frame of OpenGL and Direct3D: faces +x, -x, +y, -y, +z, -z, y up. Directions are those of the coefficients: z up.";
 /// The matrix of a quaternion.
 const MATRIX: usize = 17;
 /// A direction turned by a matrix.
@@ -87,11 +89,8 @@ impl Reads<'_> {
             return None;
         }
         let mut context = Context::new();
-        let what = format!(
-            "Reads of the bands of a light, each a cubemap with linear filtering and no levels, in the cube's frame of OpenGL and Direct3D: faces +x, -x, +y, -y, +z, -z, y up. Directions are those of the coefficients: z up."
-        );
         let mut head = plain::head(self.origin);
-        head.extend(docs::wrap(&docs::ascii(&what), 0));
+        head.extend(docs::wrap(WHAT, 0));
         context.insert("head", &head);
         context.insert("guard", &format!("ZONAL_{}_BANDS_GLSL", self.name.to_uppercase()));
         context.insert("name", self.name);
