@@ -147,7 +147,9 @@ fn ringing(&(exponent, bands): &(f64, usize)) -> Ringing {
         least = least.min(value);
         over = over.max(value - cos.max(0.0).powf(exponent));
     }
-    let [negative, least, over] = [negative / all, least, over].map(significant);
+    // What is smaller f32 may have rounded.
+    let [negative, least, over] =
+        [negative / all, least, over].map(|x| if x.abs() < 1e-5 { 0.0 } else { significant(x) });
     Ringing { exponent, bands, negative, least, over }
 }
 
@@ -332,8 +334,8 @@ pub fn table(glossy: &Glossy) -> File {
             "## Ringing\n\n![How far a lobe cut off at band L goes below zero](glossy.svg)\n\nFigure 12: the lobe cut off after band L, \
              by `basis:n:loop` in f32: the share of all directions in which it is below minus a thousandth of the peak, its least \
              value, and by how much it exceeds the lobe at most, in per cent of the peak. That artifacts *completely disappear at \
-             L ≈ 50* holds for s = 100, not for s = 400, which falls to {} % at L = 48, and for 900, to {} %. What is left of s = 25 \
-             is what f32 rounds.",
+             L ≈ 50* holds for s = 100, not for s = 400, which falls to {} % at L = 48, and for 900, to {} %. What is \
+             below 1e-5 of the peak is told as nothing, since f32 rounds it.",
             least(400.0),
             least(900.0),
         ),
