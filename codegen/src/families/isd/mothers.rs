@@ -70,7 +70,8 @@ pub static MOTHER_WEIGHTS: Family = Family {
     what: |spec| {
         let (name, order) = (mother(spec).name(), spec.order);
         format!(
-            "From coefficients of order {order} to the weights of turned copies of {name} functions: the inverse of `mother_matrix:{order}` (Soler et al. 2015)."
+            "From coefficients of order {order} to the weights of turned copies of {name} functions: the inverse of `{}` (Soler et al. 2015).",
+            spec.sibling(&MOTHER_MATRIX)
         )
     },
     kernel: |spec| {
@@ -88,7 +89,8 @@ pub static MOTHER_SHADE: Family = Family {
     what: |spec| {
         let (name, order) = (mother(spec).name(), spec.order);
         format!(
-            "Shades by turned copies of {name} functions, of order {order}: the light, convolved with each level's function, at the level's directions, times the weights that `mother_weights:{order}` makes (Soler et al. 2015, equations 6 and 17). `shade:{order}` gives the same for fewer operations."
+            "Shades by turned copies of {name} functions, of order {order}: the light, convolved with each level's function, at the level's directions, times the weights that `{}` makes (Soler et al. 2015, equations 6 and 17). `shade:{order}` gives the same for fewer operations.",
+            spec.sibling(&MOTHER_WEIGHTS)
         )
     },
     orders: ORDERS,
