@@ -23,7 +23,7 @@ use zonal_picture::mesh::Mesh;
 use zonal_picture::vector::dot;
 
 /// How objects are looked at.
-const CAMERA: Camera = Camera { azimuth: 30.0, elevation: 15.0, distance: 4.0, field: 21.0 };
+const CAMERA: Camera = Camera { azimuth: 30.0, elevation: 15.0, distance: 4.0, field: 24.0 };
 /// What they reflect: an exponent that the orders hold.
 const BRDF: Brdf = Brdf::Phong { exponent: 10.0 };
 /// The size of a picture.

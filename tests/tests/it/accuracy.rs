@@ -12,7 +12,7 @@ use zonal_tests::catalogue;
 fn every_kernel_that_is_measured_keeps_its_rounding_bound() {
     let is_measured = |function: &&Function| !function.spec.rgb && !function.built.accuracy.proven;
     let functions: Vec<_> = catalogue().iter().filter(is_measured).collect();
-    assert!(functions.len() > 200, "{}", functions.len());
+    assert!(functions.len() > 150, "{}", functions.len());
     functions.par_iter().for_each(|function| {
         let promised = function.built.accuracy.rounding_f32;
         for contraction in [Contraction::Separate, Contraction::Fused] {

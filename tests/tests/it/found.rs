@@ -80,6 +80,12 @@ fn integrals(order: usize, reach: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
     sums
 }
 
+/// Coefficients of whole bands, turned, and what follows them as it is: numbers about the signal's own axis.
+fn turned(sphere: &Sphere, matrix: &[f64; 9], list: &[f64]) -> Vec<f64> {
+    let (bands, rest) = list.split_at(list.len().isqrt().pow(2));
+    [&sphere.turned(matrix, bands)[..], rest].concat()
+}
+
 /// What is found of coefficients turns as they do: the direction that the record says, while the other numbers stay; where it
 /// says none and as many numbers are found, all of them do. A value at a direction stays where that turns too.
 pub(crate) fn what_is_found_turns_with_the_signal(spec: &Spec) -> Tried {
@@ -98,8 +104,8 @@ pub(crate) fn what_is_found_turns_with_the_signal(spec: &Spec) -> Tried {
             *dir = apply(&matrix, dir).to_vec();
         }
         let last = other.last_mut().expect("there are coefficients");
-        *last = sphere.turned(&matrix, last);
-        let (found, turned) = (runner.run(&input), runner.run(&other));
+        *last = turned(&sphere, &matrix, last);
+        let (found, after) = (runner.run(&input), runner.run(&other));
         let want = match spec.family.direction {
             _ if is_at => found,
             Some(at) => {
@@ -108,9 +114,9 @@ pub(crate) fn what_is_found_turns_with_the_signal(spec: &Spec) -> Tried {
                 ensure(length <= ROUNDING, || format!("{length:e} too long at {input:?}"))?;
                 [before, &apply(&matrix, &rest[..3]), &rest[3..]].concat()
             }
-            None => sphere.turned(&matrix, &found),
+            None => turned(&sphere, &matrix, &found),
         };
-        let error = difference(&turned, &want) / norm(&want);
+        let error = difference(&after, &want) / norm(&want);
         ensure(error <= ROUNDING * 10.0, || format!("{error:e} at {input:?}"))?;
     }
     Ok(true)

@@ -60,6 +60,7 @@ pub static MOTHER_MATRIX: Family = Family {
         let lambda = weights(&mut builder, spec.order);
         product(builder, &lambda, &set(spec).matrix(), "the coefficients, index l(l+1)+m")
     },
+    shown: |order| shown(&MOTHER_MATRIX, order),
     ..DECOMPOSED
 };
 
@@ -79,6 +80,7 @@ pub static MOTHER_WEIGHTS: Family = Family {
         let c = signal(&mut builder, spec.order);
         product(builder, &c, &set(spec).inverse(), WEIGHTS)
     },
+    shown: |order| shown(&MOTHER_WEIGHTS, order),
     ..DECOMPOSED
 };
 
@@ -99,8 +101,14 @@ pub static MOTHER_SHADE: Family = Family {
     fault: |spec| Set::of(spec).err(),
     proof: Proof::Nothing,
     kernel: |spec| shade(spec),
+    shown: |order| shown(&MOTHER_SHADE, order),
     ..SHADING
 };
+
+/// The rows of the catalogue: the lowest order, by the first of the functions.
+fn shown(family: &'static Family, order: usize) -> Vec<Spec> {
+    if order == *ORDERS.start() { Spec::new(family, order).both() } else { vec![] }
+}
 
 fn mother(spec: &Spec) -> Mother {
     spec.chosen.iter().find_map(|choice| Mother::of_word(choice)).unwrap_or(Mother::OWN[0].0)
