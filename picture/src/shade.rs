@@ -15,7 +15,7 @@
 //! | vertex locations 0 to 3 | the same | position, normal, tangent, texture coordinates, as in [`Mesh`](super::mesh::Mesh) |
 //!
 //! A method that reads the light's bands from tables is there in WGSL alone, and finds in group 1 what
-//! [`Reads`](zonal_codegen::emit::bands::Reads) says; for [`Method::IsdTables`] `views` holds the weights of rotated zonal
+//! [`Reads`] says; for [`Method::IsdTables`] `views` holds the weights of rotated zonal
 //! harmonics.
 //!
 //! The result is linear radiance, negative where a lobe rings, with alpha 1.

@@ -24,6 +24,8 @@ use zonal_picture::vector::dot;
 
 /// How objects are looked at.
 const CAMERA: Camera = Camera { azimuth: 30.0, elevation: 15.0, distance: 4.0, field: 24.0 };
+/// What places are drawn from, of which few are to be off the object.
+const NEARER: Camera = Camera { field: 21.0, ..CAMERA };
 /// What they reflect: an exponent that the orders hold.
 const BRDF: Brdf = Brdf::Phong { exponent: 10.0 };
 /// The size of a picture.
@@ -129,7 +131,7 @@ fn listing(text: &str) -> Result<Listing, Fault> {
 
 /// Places of the object's picture, spread over those from which something of the sky is hidden.
 fn places(object: &Object) -> Vec<Place> {
-    let all: Vec<Place> = object.places(&CAMERA, [60, 54]).into_iter().flatten().collect();
+    let all: Vec<Place> = object.places(&NEARER, [60, 54]).into_iter().flatten().collect();
     let all: Vec<Place> = all.into_par_iter().filter(|place| place.openness(object) <= OPEN).collect();
     let step = (all.len() / PLACES).max(1);
     all.into_iter().step_by(step).take(PLACES).collect()
