@@ -45,6 +45,7 @@ const BUFFERS: u32 = 3;
 /// A device that compiles.
 pub struct Compiler {
     instance: Instance,
+    physical: vk::PhysicalDevice,
     device: Device,
     statistics: khr::pipeline_executable_properties::Device,
     sets: vk::DescriptorSetLayout,
@@ -100,7 +101,7 @@ impl Compiler {
         let create = vk::PipelineLayoutCreateInfo::default().set_layouts(&all);
         // SAFETY: the layouts live to the end of the call.
         let layout = unsafe { device.create_pipeline_layout(&create, None)? };
-        Ok(Self { instance, device, statistics, sets, layout, _entry: entry })
+        Ok(Self { instance, physical, device, statistics, sets, layout, _entry: entry })
     }
 
     /// Compiles a compute shader, SPIR-V whose entry point is `main`, and returns what was counted.
@@ -156,11 +157,8 @@ impl Compiler {
     pub fn driver(&self) -> String {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-        // SAFETY: the instance lives.
-        let devices = unsafe { self.instance.enumerate_physical_devices() }.unwrap_or_default();
-        let Some(&physical) = devices.first() else { return String::new() };
         // SAFETY: the device is one of the instance's, and the structures live to the end of the call.
-        unsafe { self.instance.get_physical_device_properties2(physical, &mut properties) };
+        unsafe { self.instance.get_physical_device_properties2(self.physical, &mut properties) };
         let text = |words: Result<&CStr, _>| words.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default();
         let (name, info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
         format!("{name}, {info}")

@@ -4,7 +4,6 @@ use crate::shader;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use zonal_codegen::catalog;
 use zonal_codegen::emit::Function;
 use zonal_codegen::families::Spec;
 use zonal_codegen::generate;
@@ -65,9 +64,4 @@ pub fn shaders(specs: &[Spec]) -> Vec<Kernel> {
     let all: Vec<Spec> = specs.iter().flat_map(with_pieces).collect();
     let functions: BTreeMap<Spec, Function> = all.iter().cloned().zip(generate::build(&all)).collect();
     specs.par_iter().flat_map_iter(|spec| kernels_of(spec, &functions)).collect()
-}
-
-/// Returns the specs of the catalogue.
-pub fn catalogue() -> Vec<Spec> {
-    catalog::standard()
 }

@@ -7,8 +7,9 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
+use zonal_codegen::catalog;
 use zonal_measure_gpu::compile::{self, GPUS};
-use zonal_measure_gpu::kernels::{catalogue, shaders};
+use zonal_measure_gpu::kernels::shaders;
 use zonal_measure_gpu::page;
 
 /// Compile every kernel of the catalogue for AMD's GPUs, by the driver's own compiler, and write what it counts.
@@ -35,7 +36,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         return compile::child(folder);
     }
     let building = bar("building", 1);
-    let kernels = shaders(&catalogue());
+    let kernels = shaders(&catalog::standard());
     building.finish();
     let compiling = bar("compiling", GPUS.len());
     let report = compile::compile(&std::env::current_exe()?, &kernels, || compiling.inc(1))?;

@@ -12,6 +12,7 @@ pub mod paper;
 pub mod search;
 
 use crate::families::family::{Acts, Family, Group, Measure};
+use crate::families::parts::quaternion::matrix_of_quaternion;
 use crate::ir::graph::Id;
 use crate::ir::kernel::{Builder, Domain, Shape};
 
@@ -29,6 +30,16 @@ fn to_local(builder: &mut Builder) -> Vec<Id> {
 fn light(builder: &mut Builder, order: usize) -> Vec<Id> {
     let doc = "the coefficients of the light in the world, index l(l+1)+m";
     builder.param("e", Shape::Array(order * order), Domain::Signal, doc)
+}
+
+/// Declares the rotation and the light, and returns the light's coefficients and the rotation of the local frame back to the
+/// world, by its rows.
+fn light_and_back(builder: &mut Builder, order: usize) -> (Vec<Id>, [[Id; 3]; 3]) {
+    let q = to_local(builder);
+    let e = light(builder, order);
+    let rows = matrix_of_quaternion(&mut builder.graph, &q);
+    // The inverse's rows are the columns.
+    (e, std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i])))
 }
 
 /// Declares a light that is a zonal function about a direction.

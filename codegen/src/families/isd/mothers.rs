@@ -5,9 +5,8 @@
 use crate::families::family::{Acts, Family, Group, Measure, Proof, Spec};
 use crate::families::isd::directions::{best_of, exact_unit, values};
 use crate::families::isd::mother::{Decomposition, Levels, Mother};
-use crate::families::isd::{SHADED, SHADING, light, to_local};
+use crate::families::isd::{SHADED, SHADING, light_and_back};
 use crate::families::parts::params::signal;
-use crate::families::parts::quaternion::matrix_of_quaternion;
 use crate::families::parts::sums::inner;
 use crate::families::parts::{columns, turned};
 use crate::ir::graph::Id;
@@ -252,13 +251,9 @@ fn product(mut builder: Builder, signal: &[Id], matrix: &[Vec<Exact>], doc: &str
 fn shade(spec: &Spec) -> Kernel {
     let order = spec.order;
     let mut builder = Builder::new();
-    let q = to_local(&mut builder);
-    let e = light(&mut builder, order);
+    let (e, back) = light_and_back(&mut builder, order);
     let lambda = weights(&mut builder, order);
     let g = &mut builder.graph;
-    let rows = matrix_of_quaternion(g, &q);
-    // The inverse's rows are the columns.
-    let back = std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i]));
     let set = set(spec);
     let factors: Vec<Vec<Exact>> = (0..order).map(|l| set.factors(l).into_iter().map(Exact::real).collect()).collect();
     let mut sum = None;

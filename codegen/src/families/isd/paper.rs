@@ -4,9 +4,9 @@
 
 use crate::families::family::Family;
 use crate::families::isd::decomposition::{ORDERS, directions, outside, shown, weights};
-use crate::families::isd::{SHADED, SHADING, light, to_local, zonal_light};
+use crate::families::isd::{SHADED, SHADING, light_and_back, to_local, zonal_light};
 use crate::families::parts::legendre::{leading, monic};
-use crate::families::parts::quaternion::{matrix_of_quaternion, turned};
+use crate::families::parts::quaternion::turned;
 use crate::families::parts::sums::inner;
 use crate::families::parts::{columns, turned as lobes};
 use crate::ir::graph::Id;
@@ -49,13 +49,9 @@ pub static ISD_SHADE_ZONAL: Family = Family {
 /// Σ π_l λ_l^j Σ_k e_l^k y_l^k(R⁻¹ z^j).
 fn environment(order: usize) -> Kernel {
     let mut builder = Builder::new();
-    let q = to_local(&mut builder);
-    let e = light(&mut builder, order);
+    let (e, back) = light_and_back(&mut builder, order);
     let lambda = weights(&mut builder, order);
     let g = &mut builder.graph;
-    let rows = matrix_of_quaternion(g, &q);
-    // The inverse's rows are the columns.
-    let back = std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i]));
     let set = directions(order);
     let first = |l: usize| (0..2 * l + 1).collect();
     let bands: Vec<Vec<usize>> = (0..order).map(first).collect();

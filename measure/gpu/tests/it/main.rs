@@ -90,7 +90,7 @@ fn the_page_is_made_of_its_figures() {
     // Every kernel of the catalogue is in it, with the operations that it has now.
     let known: std::collections::BTreeMap<&str, usize> =
         report.rows.iter().map(|row| (row.spec.as_str(), row.operations)).collect();
-    for spec in zonal_measure_gpu::kernels::catalogue() {
+    for spec in zonal_codegen::catalog::standard() {
         let operations = spec.code().cost(spec.channels()).total;
         assert_eq!(known.get(spec.to_string().as_str()), Some(&operations), "{spec}: `cargo measure-gpu`");
     }
