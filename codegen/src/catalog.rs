@@ -1,6 +1,7 @@
 //! The checked-in set: every family at every order from 2 to 10, as a file an order, a
 //! group and a language, with a table of costs and a list of all kernels.
 
+mod batch;
 mod frame;
 
 // Names a language: the checked-in set is in these, whichever others zonal knows.
@@ -116,6 +117,7 @@ pub fn files_of(functions: &[Function]) -> Result<Vec<File>, GenerateError> {
     let mut files = shaders?;
     files.extend(rust?);
     files.extend(frame::files(&orders, &modules));
+    files.extend(batch::files(&orders)?);
     let rows: Vec<Row> = functions.iter().map(Row::of).collect();
     files.push(File { path: COSTS.to_owned(), text: markdown(&rows) });
     files.push(File { path: MANIFEST.to_owned(), text: manifest(functions)? });

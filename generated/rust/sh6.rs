@@ -8,82 +8,82 @@ use super::real::{Channels, Real, Signal};
 ///
 /// - dir: the direction, of unit length.
 /// - Returns y_lm(dir), bands ascending, m from -l to l.
-/// - Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 39 live values.
+/// - Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 36 live values.
 /// - Error: f32 rounding at most 1.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///   contracted or not; the worst of 256 measured is 2.5e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 36] {
-    let t0 = T::lit(0.4886025119029199) * dir[1];
-    let t1 = T::lit(0.4886025119029199) * dir[2];
-    let t2 = T::lit(0.4886025119029199) * dir[0];
-    let t3 = t0 * (T::lit(2.23606797749979) * dir[0]);
-    let t4 = T::lit(2.23606797749979) * dir[2];
-    let t5 = t0 * t4;
-    let t6 = dir[2] * dir[2];
-    let t7 = T::lit(0.94617469575756).fms(t6, T::lit(0.31539156525252));
-    let t8 = t2 * t4;
-    let t9 = t2.fms(t2, t0 * t0);
-    let t10 = T::lit(2.2882280821594225) * t9;
-    let t11 = T::lit(1.0801234497346435) * dir[0];
-    let t12 = T::lit(1.0801234497346435) * dir[1];
-    let t13 = t3.fma(t11, t10 * t12);
-    let t14 = T::lit(2.6457513110645907) * dir[2];
-    let t15 = t3 * t14;
-    let t16 = T::lit(4.677071733467427).fms(t6, T::lit(0.9354143466934853));
-    let t17 = T::lit(3.8188130791298667).fms(t6, T::lit(2.29128784747792));
-    let t18 = t10 * t14;
-    let t19 = t3.fms(t12, t10 * t11);
-    let t20 = t3 * (T::lit(9.597724091861606) * t9);
-    let t21 = T::lit(3.0) * dir[2];
-    let t22 = T::lit(6.06217782649107).fms(t6, T::lit(0.8660254037844386));
-    let t23 = T::lit(4.286607049870562).fms(t6, T::lit(1.8371173070873836));
-    let t24 = t7.fms(T::lit(3.913118960624632).fms(t6, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
-    let t25 = T::lit(2.097195678763837) * t10.fms(t10, t3 * t3);
-    let t26 = T::lit(1.0488088481701516) * dir[0];
-    let t27 = T::lit(1.0488088481701516) * dir[1];
-    let t28 = T::lit(3.3166247903554) * dir[2];
-    let t29 = T::lit(7.46240577829965).fms(t6, T::lit(0.82915619758885));
-    let t30 = T::lit(4.9749371855331).fms(t6, T::lit(1.6583123951777));
-    let t31 = t16.fms(T::lit(4.162331077653483).fms(t6, T::lit(1.9424211695716251)), T::lit(0.8899438184514795));
-    let t32 = t17.fms(T::lit(3.948733974326455).fms(t6, T::lit(2.018241809100188)), T::lit(1.0340212763768453));
+    let t0 = T::lit(0.4886025119029199) * dir[2];
+    let t1 = dir[2] * dir[2];
+    let t2 = T::lit(0.94617469575756).fms(t1, T::lit(0.31539156525252));
+    let t3 = T::lit(3.8188130791298667).fms(t1, T::lit(2.29128784747792));
+    let t4 = t2.fms(T::lit(3.913118960624632).fms(t1, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
+    let t5 = t3.fms(T::lit(3.948733974326455).fms(t1, T::lit(2.018241809100188)), T::lit(1.0340212763768453));
+    let t6 = T::lit(0.4886025119029199) * dir[0];
+    let t7 = T::lit(0.4886025119029199) * dir[1];
+    let t8 = T::lit(2.23606797749979) * dir[2];
+    let t9 = t6 * t8;
+    let t10 = t7 * t8;
+    let t11 = T::lit(4.677071733467427).fms(t1, T::lit(0.9354143466934853));
+    let t12 = T::lit(4.286607049870562).fms(t1, T::lit(1.8371173070873836));
+    let t13 = t11.fms(T::lit(4.162331077653483).fms(t1, T::lit(1.9424211695716251)), T::lit(0.8899438184514795));
+    let t14 = t6.fms(t6, t7 * t7);
+    let t15 = T::lit(2.2882280821594225) * t14;
+    let t16 = t7 * (T::lit(2.23606797749979) * dir[0]);
+    let t17 = T::lit(2.6457513110645907) * dir[2];
+    let t18 = t15 * t17;
+    let t19 = t16 * t17;
+    let t20 = T::lit(6.06217782649107).fms(t1, T::lit(0.8660254037844386));
+    let t21 = T::lit(4.9749371855331).fms(t1, T::lit(1.6583123951777));
+    let t22 = T::lit(1.0801234497346435) * dir[1];
+    let t23 = T::lit(1.0801234497346435) * dir[0];
+    let t24 = t16.fms(t22, t15 * t23);
+    let t25 = t16.fma(t23, t15 * t22);
+    let t26 = T::lit(3.0) * dir[2];
+    let t27 = T::lit(7.46240577829965).fms(t1, T::lit(0.82915619758885));
+    let t28 = T::lit(2.097195678763837) * t15.fms(t15, t16 * t16);
+    let t29 = t16 * (T::lit(9.597724091861606) * t14);
+    let t30 = T::lit(3.3166247903554) * dir[2];
+    let t31 = T::lit(1.0488088481701516) * dir[1];
+    let t32 = T::lit(1.0488088481701516) * dir[0];
     [
         T::lit(0.28209479177387814),
-        -t0,
-        t1,
-        -t2,
-        t3,
-        -t5,
-        t7,
-        -t8,
-        t10,
-        -t13,
+        -t7,
+        t0,
+        -t6,
+        t16,
+        -t10,
+        t2,
+        -t9,
         t15,
-        -(t0 * t16),
-        t17 * t1,
-        -(t2 * t16),
-        t18,
+        -t25,
         t19,
-        t20,
-        -(t13 * t21),
-        t3 * t22,
-        -(t23 * t5),
+        -(t7 * t11),
+        t3 * t0,
+        -(t6 * t11),
+        t18,
         t24,
-        -(t23 * t8),
-        t10 * t22,
-        t19 * t21,
-        t25,
-        -t20.fma(t26, t25 * t27),
-        t20 * t28,
-        -(t13 * t29),
-        t30 * t15,
-        -(t0 * t31),
-        t32 * t1,
-        -(t2 * t31),
-        t30 * t18,
-        t19 * t29,
-        t25 * t28,
-        t20.fms(t27, t25 * t26),
+        t29,
+        -(t25 * t26),
+        t16 * t20,
+        -(t12 * t10),
+        t4,
+        -(t12 * t9),
+        t15 * t20,
+        t24 * t26,
+        t28,
+        -t29.fma(t32, t28 * t31),
+        t29 * t30,
+        -(t25 * t27),
+        t21 * t19,
+        -(t7 * t13),
+        t5 * t0,
+        -(t6 * t13),
+        t21 * t18,
+        t24 * t27,
+        t28 * t30,
+        t29.fms(t31, t28 * t32),
     ]
 }
 

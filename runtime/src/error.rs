@@ -67,6 +67,57 @@ pub enum Error {
     },
     /// Axes that are not three different ones.
     Axes([Axis; 3]),
+    /// A batch has signals of no order that is compiled and has the kernel.
+    Order {
+        /// How many coefficients they have.
+        count: usize,
+    },
+    /// A batch has not as many signals or parameters as results.
+    Batch {
+        /// How many there are.
+        found: usize,
+        /// How many results there is room for.
+        results: usize,
+    },
+    /// The slices of a batch's channels are not of one length.
+    Planes,
+    /// The parameters of a batch have more or fewer numbers than the kernel takes.
+    Parameters {
+        /// How many each has.
+        found: usize,
+        /// How many the kernel takes.
+        wanted: usize,
+    },
+    /// The results of a batch have other coefficients or channels than the kernel gives.
+    Results {
+        /// The coefficients and the channels that they have.
+        found: [usize; 2],
+        /// Those that the kernel gives.
+        wanted: [usize; 2],
+    },
+    /// A row has no place for a signal's numbers.
+    Stride {
+        /// How many numbers a row has.
+        stride: usize,
+        /// How many the signal reaches over.
+        width: usize,
+    },
+    /// A slice is not made of whole rows.
+    Rows {
+        /// How many numbers there are.
+        numbers: usize,
+        /// How many a row has.
+        stride: usize,
+        /// How many are too many.
+        over: usize,
+    },
+    /// A row's signal has no numbers or channels, or too many.
+    Row {
+        /// Its coefficients a channel, 1 to 100.
+        count: usize,
+        /// Its channels, 1 to 4.
+        channels: usize,
+    },
 }
 
 /// How many channels, in words before which *order n* stands.
@@ -108,6 +159,37 @@ impl fmt::Display for Error {
             Self::Bands { convention, most, order } => {
                 write!(f, "`{convention}` takes {most} bands, not {order}; `zonal::resize` leaves the others out")
             }
+            Self::Order { count } => {
+                let order = count.isqrt();
+                match order * order == count {
+                    true => write!(
+                        f,
+                        "no such kernel of order {order} is there: orders are 2 to 10, of products 2 to 8, and each a feature \
+                         of zonal, `order{order}`"
+                    ),
+                    false => write!(f, "{count} coefficients are no order: order n has n²"),
+                }
+            }
+            Self::Batch { found, results } => write!(f, "{found} signals or parameters, but {results} results"),
+            Self::Planes => write!(f, "the slices of the channels are not of one length"),
+            Self::Parameters { found, wanted } => {
+                write!(f, "parameters of {found} numbers each, but the kernel takes {wanted}")
+            }
+            Self::Results { found: [count, channels], wanted } => write!(
+                f,
+                "results of {count} numbers in {channels} channels, but there are {} in {}",
+                wanted[0], wanted[1]
+            ),
+            Self::Stride { stride, width } => {
+                write!(f, "a row of {stride} numbers, but its signal reaches over {width}")
+            }
+            Self::Rows { numbers, stride, over } => {
+                write!(f, "{numbers} numbers are no whole rows of {stride}: {over} are left over")
+            }
+            Self::Row { count, channels } => write!(
+                f,
+                "a signal of {count} coefficients in {channels} channels, but a batch takes 1 to 100 in 1 to 4"
+            ),
             Self::Axes(axes) => write!(f, "{axes:?} are not three different axes"),
         }
     }

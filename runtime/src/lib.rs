@@ -120,6 +120,8 @@
 compile_error!("zonal needs square roots: turn on its feature `std`, or `libm` where there is no standard library");
 
 mod arithmetic;
+#[cfg(feature = "batch")]
+pub mod batch;
 mod coefficients;
 mod convention;
 mod error;

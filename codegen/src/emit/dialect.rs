@@ -99,16 +99,32 @@ impl Dialect {
 
     /// Returns whether a result of this shape is written to a parameter.
     pub fn is_written(self, shape: Shape) -> bool {
-        self.arrays == Arrays::Reference && shape.is_array()
+        self.arrays == Arrays::Reference && shape.is_array() || self.is_handed_over(shape)
+    }
+
+    /// Returns whether a result of this shape is handed to a function, number by number.
+    pub fn is_handed_over(self, shape: Shape) -> bool {
+        self.arrays == Arrays::Sink && matches!(shape, Shape::Array(_))
+    }
+
+    /// Returns whether a value is asked of a function, number by number.
+    pub fn is_asked_for(self, shape: Shape, kind: Kind) -> bool {
+        self.is_handed_over(shape) && !kind.is_scalar()
     }
 
     /// Returns a parameter in a signature.
     pub fn parameter(self, param: &Param) -> String {
+        if let Some(generic) = self.language.generic.as_ref().filter(|_| self.is_asked_for(param.shape, param.kind)) {
+            return (generic.source)(param.name, &self.number(param.kind));
+        }
         (self.language.parameter)(param.name, &self.passed(param.shape, param.kind), Way::In)
     }
 
     /// Returns the parameter that a result is written to.
     pub fn output(self, name: &str, shape: Shape, kind: Kind) -> String {
+        if let Some(generic) = self.language.generic.as_ref().filter(|_| self.is_handed_over(shape)) {
+            return (generic.sink)(name, &self.number(kind));
+        }
         (self.language.parameter)(name, &self.passed(shape, kind), Way::Out)
     }
 
@@ -138,6 +154,7 @@ impl Dialect {
             Shape::Vec3 | Shape::Vec4 | Shape::Pair => format!("{name}{}", (self.language.component)(index)),
             Shape::Mat3 | Shape::Vectors(_) => of(3),
             Shape::Pairs(_) => of(2),
+            Shape::Array(_) if self.is_asked_for(shape, kind) => format!("{name}({index})"),
             Shape::Array(_) => format!("{name}[{index}]{}", self.within(kind)),
         }
     }

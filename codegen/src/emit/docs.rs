@@ -1,6 +1,7 @@
 //! What stands above a function: what it computes, over which inputs, at what cost and within which error, in plain
 //! ASCII so that every compiler reads it.
 
+use crate::emit::language::Arrays;
 use crate::families::family::{Form, Spec};
 use crate::ir::code::Code;
 use crate::ir::kernel::Domain;
@@ -89,7 +90,7 @@ pub fn special(code: &Code, channels: usize) -> String {
 }
 
 /// What a kernel costs, in a sentence.
-pub fn cost(built: &Built, channels: usize) -> String {
+fn cost(built: &Built, channels: usize, arrays: Arrays) -> String {
     let cost = built.code.cost(channels);
     let special = special(&built.code, channels);
     let choice = match cost.choice {
@@ -97,13 +98,14 @@ pub fn cost(built: &Built, channels: usize) -> String {
         n => format!(", {n} min, max or select"),
     };
     let footprint = built.code.footprint();
+    let live = if arrays == Arrays::Sink { footprint.passing } else { footprint.live };
     let below = match &built.code {
         Code::Branch(branch) => format!(" above the limit, {} below it", branch.costs(channels)[0].total),
         _ => String::new(),
     };
     format!(
-        "Operations: {} ({} mul, {} add, {} fma{choice}){special}{below}; {} constants, {} live values.",
-        cost.total, cost.mul, cost.add, cost.fma, footprint.constants, footprint.live
+        "Operations: {} ({} mul, {} add, {} fma{choice}){special}{below}; {} constants, {live} live values.",
+        cost.total, cost.mul, cost.add, cost.fma, footprint.constants
     )
 }
 
@@ -155,10 +157,10 @@ pub fn error(spec: &Spec, params: &[Param], accuracy: &Accuracy) -> String {
 }
 
 /// What a kernel computes, and then sentences on its parameters, its result, its cost and its error.
-fn sentences(built: &Built, spec: &Spec) -> (String, Vec<String>) {
+fn sentences(built: &Built, spec: &Spec, arrays: Arrays) -> (String, Vec<String>) {
     let mut rest: Vec<String> = built.code.params().iter().map(parameter).collect();
     rest.push(format!("Returns {}.", built.code.result_doc()));
-    rest.push(cost(built, spec.channels()));
+    rest.push(cost(built, spec.channels(), arrays));
     rest.push(error(spec, built.code.params(), &built.accuracy));
     let what = (spec.family.what)(spec);
     let what = match spec.form {
@@ -173,16 +175,16 @@ fn sentences(built: &Built, spec: &Spec) -> (String, Vec<String>) {
 }
 
 /// All that stands above a function, a sentence a line.
-pub fn function(built: &Built, spec: &Spec) -> Vec<String> {
-    let (what, rest) = sentences(built, spec);
+pub fn function(built: &Built, spec: &Spec, arrays: Arrays) -> Vec<String> {
+    let (what, rest) = sentences(built, spec, arrays);
     let mut lines = wrap(&what, 0);
     lines.extend(rest.iter().flat_map(|sentence| wrap(sentence, 4)));
     lines.iter().map(|line| ascii(line)).collect()
 }
 
 /// The same as Markdown whose first paragraph stands alone, as an index of functions shows it.
-pub fn listed(built: &Built, spec: &Spec) -> Vec<String> {
-    let (what, rest) = sentences(built, spec);
+pub fn listed(built: &Built, spec: &Spec, arrays: Arrays) -> Vec<String> {
+    let (what, rest) = sentences(built, spec, arrays);
     let mut lines = wrap(&what, 0);
     lines.push(String::new());
     lines.extend(rest.iter().flat_map(|sentence| wrap(&format!("- {sentence}"), 2)));

@@ -1,6 +1,6 @@
 //! A function as text, in pieces that a template lays out: what stands above it, its signature, its lines.
 
-use crate::emit::body::Body;
+use crate::emit::body::{Body, RESULT};
 use crate::emit::dialect::{Dialect, Laid};
 use crate::emit::docs;
 use crate::emit::language::{self, Target};
@@ -9,11 +9,9 @@ use crate::emit::module::{Function, Limit};
 use crate::emit::parts::{self, PartText, Whole};
 use crate::families::family::Spec;
 use crate::ir::code::Code;
+use crate::ir::kernel::Shape;
 use crate::ir::listing::Listing;
 use serde::Serialize;
-
-/// What a result is called that is put together item by item.
-const RESULT: &str = "result";
 
 /// A function, ready for a template.
 #[derive(Serialize)]
@@ -72,6 +70,13 @@ impl Printer<'_> {
         self.function.limit(language, why, format!("take a lower order or another method{other}"))
     }
 
+    /// What a part of the function is called with.
+    fn arguments(&self, result: Shape) -> Vec<&'static str> {
+        let mut arguments: Vec<&str> = self.function.built.code.params().iter().map(|param| param.name).collect();
+        arguments.extend(self.dialect.is_handed_over(result).then_some(RESULT));
+        arguments
+    }
+
     /// The lines of a listing, to its result. `part` is for the names of its parts, if it is cut.
     fn listing(&mut self, listing: &Listing, part: &str, at: At) -> Result<Vec<String>, Limit> {
         let (dialect, language) = (self.dialect, self.dialect.language);
@@ -84,7 +89,7 @@ impl Printer<'_> {
                 let whole = Whole {
                     name: [self.name, part],
                     params: &self.params,
-                    arguments: self.function.built.code.params().iter().map(|param| param.name).collect(),
+                    arguments: self.arguments(listing.result),
                     has_signal: self.function.has_signal(),
                 };
                 let (lines, parts) = parts::cut(&whole, dialect, generic, &body, chunk);
@@ -102,6 +107,9 @@ impl Printer<'_> {
     fn ending(&self, listing: &Listing, numbers: &[String], at: At) -> Vec<String> {
         let (dialect, statements) = (self.dialect, self.dialect.language.statements);
         let (shape, kind) = (listing.result, listing.result_kind);
+        if dialect.is_handed_over(shape) {
+            return if at == At::Branch { vec!["return;".to_owned()] } else { vec![] };
+        }
         let passed = dialect.passed(shape, kind);
         let (is_written, is_struct) = (dialect.is_written(shape), passed.is_struct());
         if is_written || is_struct {
@@ -170,6 +178,10 @@ impl Function {
                 lines.extend(printer.listing(&branch.above, "above", At::End)?);
                 lines
             }
+            Code::Loop(_) if dialect.is_handed_over(shape) => {
+                let why = "a loop asks for its numbers in no fixed order".to_owned();
+                return Err(self.limit(language, why, "leave `loop` out, or leave `arrays` out".to_owned()));
+            }
             Code::Loop(kernel) => {
                 if let Some(table) = loop_body::too_long(kernel, language) {
                     return Err(printer.too_long(table.values.len(), "values in a table", |target| target.max_table));
@@ -188,7 +200,10 @@ impl Function {
         let generic = language.generic.as_ref();
         Ok(FunctionText {
             // What is generic is read in rustdoc.
-            doc: generic.map_or_else(|| docs::function(&self.built, spec), |_| docs::listed(&self.built, spec)),
+            doc: generic.map_or_else(
+                || docs::function(&self.built, spec, dialect.arrays),
+                |_| docs::listed(&self.built, spec, dialect.arrays),
+            ),
             tables,
             generics: generic.map_or("", |generic| generic.bounds[usize::from(self.has_signal())]).to_owned(),
             name,

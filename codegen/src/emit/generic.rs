@@ -4,7 +4,7 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::function::WrapperText;
 // Names a language: a module of Rust is laid out as crates are, which no other language has.
-use crate::emit::language::RUST;
+use crate::emit::language::{Arrays, RUST};
 use crate::emit::language::record::{Generic, Numbers, Way};
 use crate::emit::module::{Function, Limit, Module};
 use crate::emit::plain::{self, head, render};
@@ -64,7 +64,7 @@ impl Module {
                     functions.len() - 1
                 }
             };
-            if let (Some(rgb), Some(generic)) = (rgb, &RUST.generic) {
+            if let (Some(rgb), Some(generic), false) = (rgb, &RUST.generic, dialect.arrays == Arrays::Sink) {
                 functions[at].wrappers.push(function.wrapper(dialect, generic, &name, rgb));
             }
         }

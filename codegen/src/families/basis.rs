@@ -109,8 +109,17 @@ fn basis(order: usize, bands: &[usize]) -> Kernel {
     let dir = direction(&mut builder);
     let all = columns::values(&mut builder.graph, &dir, order, columns::orthonormal);
     let outputs: Vec<Id> = bands.iter().flat_map(|&l| all[l * l..(l + 1) * (l + 1)].to_vec()).collect();
+    // By columns the polynomials of one m live at a time, by bands those of all.
+    let column = |m: usize| bands.iter().filter(move |&&l| l >= m).flat_map(move |&l| degrees(l, m));
+    builder.graph.lay_out_in((0..order).flat_map(column).map(|i| all[i]).collect());
     let count = outputs.len();
     builder.finish(outputs, Shape::Array(count), "y_lm(dir), bands ascending, m from −l to l")
+}
+
+/// The harmonics of a band with the degree m, positive and negative.
+fn degrees(l: usize, m: usize) -> impl Iterator<Item = usize> {
+    let signs = if m == 0 { 1 } else { 2 };
+    [m as isize, -(m as isize)].into_iter().take(signs).map(move |m| index(l, m))
 }
 
 /// Σ c_i y_i(dir) without storing the basis: the kernel `eval`.

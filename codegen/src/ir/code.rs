@@ -89,10 +89,11 @@ impl Code {
     pub fn footprint(&self) -> Footprint {
         match self {
             Self::Straight(listing) => listing.footprint(),
-            Self::Loop(kernel) => Footprint {
-                constants: kernel.tables.iter().map(|table| table.values.len()).sum(),
-                live: array_items(&kernel.body),
-            },
+            Self::Loop(kernel) => {
+                let constants = kernel.tables.iter().map(|table| table.values.len()).sum();
+                let live = array_items(&kernel.body);
+                Footprint { constants, live, passing: live }
+            }
             Self::Branch(branch) => branch.footprint(),
         }
     }
@@ -123,7 +124,11 @@ impl Branch {
         let mut constants: Vec<_> = [&self.below, &self.above].iter().flat_map(|listing| &listing.constants).collect();
         constants.sort();
         constants.dedup();
-        Footprint { constants: constants.len(), live: below.live.max(above.live) }
+        Footprint {
+            constants: constants.len(),
+            live: below.live.max(above.live),
+            passing: below.passing.max(above.passing),
+        }
     }
 }
 

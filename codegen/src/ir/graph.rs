@@ -39,6 +39,7 @@ pub struct Graph {
     stages: Vec<Vec<Id>>,
     directions: Vec<[Id; 3]>,
     as_made: bool,
+    first: Vec<Id>,
 }
 
 impl Graph {
@@ -98,6 +99,17 @@ impl Graph {
     /// Whether the nodes are to be laid out in the order in which they were made.
     pub fn is_laid_out_as_made(&self) -> bool {
         self.as_made
+    }
+
+    /// Notes the order in which results are laid out, each with all that it needs: that in which fewest values live at once.
+    /// What is no result is not laid out for it.
+    pub fn lay_out_in(&mut self, results: Vec<Id>) {
+        self.first = results;
+    }
+
+    /// The results that are laid out before others, in order.
+    pub fn laid_out_first(&self) -> &[Id] {
+        &self.first
     }
 
     /// Returns what these nodes need that depends on a signal, themselves among it, in the order in which it was made.

@@ -9,7 +9,7 @@ use crate::math::exact::Exact;
 use std::collections::{HashMap, HashSet};
 
 /// An operand of an operation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operand {
     /// The result of an earlier step.
     Step(usize),
@@ -80,6 +80,8 @@ pub struct Footprint {
     pub constants: usize,
     /// The most values that are alive at once, inputs not counted.
     pub live: usize,
+    /// The same where a number of the result is handed over as soon as it is known, and no longer counts.
+    pub passing: usize,
 }
 
 /// A kernel laid out.
@@ -128,7 +130,9 @@ impl<'a> Layout<'a> {
         let signed = kernel.outputs.iter().copied().collect();
         let mut layout = Self { graph, order: Vec::new(), users: HashMap::new(), signed };
         let mut seen = HashSet::new();
-        let mut stack: Vec<(Id, bool)> = kernel.outputs.iter().rev().map(|&id| (id, false)).collect();
+        let first = graph.laid_out_first().iter().filter(|id| kernel.outputs.contains(id));
+        let outputs: Vec<Id> = first.chain(&kernel.outputs).copied().collect();
+        let mut stack: Vec<(Id, bool)> = outputs.iter().rev().map(|&id| (id, false)).collect();
         while let Some((id, ready)) = stack.pop() {
             if ready {
                 layout.order.push(id);
@@ -304,25 +308,35 @@ impl Listing {
     pub fn footprint(&self) -> Footprint {
         let mut last = vec![0; self.steps.len()];
         for (place, step) in self.steps.iter().enumerate() {
+            last[place] = place;
             for operand in step.op.operands() {
                 if let Operand::Step(used) = operand {
                     last[used] = place;
                 }
             }
         }
+        let passing = most_alive(&last);
         for operand in &self.outputs {
             if let Operand::Step(used) = *operand {
                 last[used] = self.steps.len();
             }
         }
-        let mut ends = vec![0usize; self.steps.len() + 1];
-        let (mut alive, mut live) = (0usize, 0usize);
-        for (place, &end) in last.iter().enumerate() {
-            alive -= ends[place];
-            alive += 1;
-            ends[end] += 1;
-            live = live.max(alive);
-        }
-        Footprint { constants: self.constants.len(), live }
+        Footprint { constants: self.constants.len(), live: most_alive(&last), passing }
     }
+}
+
+/// How many values are alive at once, at the most, of steps that are each last used at a place.
+fn most_alive(last: &[usize]) -> usize {
+    let mut ends = vec![0usize; last.len() + 1];
+    let (mut alive, mut most) = (0usize, 0usize);
+    for (place, &end) in last.iter().enumerate() {
+        alive -= ends[place];
+        alive += 1;
+        most = most.max(alive);
+        match end > place {
+            true => ends[end] += 1,
+            false => alive -= 1,
+        }
+    }
+    most
 }

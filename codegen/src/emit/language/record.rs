@@ -185,12 +185,21 @@ pub enum Arrays {
     /// As a value whose items are vectors of four, an item at the head of each and zeros behind it: as uniform buffers hold
     /// them.
     Vec4,
+    /// Number by number: a signal is a function of the index, and a number of the result is handed to a function as soon as
+    /// it is known, so that fewer live at once and nothing says where numbers lie. What the signal's function gave for an
+    /// index is not asked for again after the result of that index, so that both may be one place.
+    Sink,
 }
 
 impl Arrays {
     /// All of them, each with its name.
-    pub const ALL: [(Self, &'static str); 4] =
-        [(Self::Value, "value"), (Self::Struct, "struct"), (Self::Reference, "reference"), (Self::Vec4, "vec4")];
+    pub const ALL: [(Self, &'static str); 5] = [
+        (Self::Value, "value"),
+        (Self::Struct, "struct"),
+        (Self::Reference, "reference"),
+        (Self::Vec4, "vec4"),
+        (Self::Sink, "sink"),
+    ];
 
     /// Returns its name.
     pub fn name(self) -> &'static str {
@@ -278,6 +287,10 @@ pub struct Generic {
     pub constant: &'static str,
     /// An array of a number of each channel as a number of a signal; the number of channels is three.
     pub channels: &'static str,
+    /// A parameter that is a function from an index to a number of this type.
+    pub source: fn(name: &str, of: &str) -> String,
+    /// A parameter that is a function which takes an index and a number of this type.
+    pub sink: fn(name: &str, of: &str) -> String,
 }
 
 /// Words that no name may be.

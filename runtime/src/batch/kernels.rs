@@ -1,0 +1,408 @@
+//! The generated kernels over many blocks: each order's set-up once a block, then band after band, so that what lives at once
+//! fits into registers. A macro ties them together; the mathematics is all in the generated functions.
+
+use core::mem::MaybeUninit;
+use core::ptr;
+
+use super::registers::{BLOCK, Register, sink, source};
+
+/// The most registers that a line takes: sixteen f64 in pairs.
+const MOST_PARTS: usize = 8;
+
+/// The most channels that share a set-up.
+pub const MOST_CHANNELS: usize = 4;
+
+/// Where the lines of many blocks lie: each a number of each of sixteen signals, the lines of a channel one after the other.
+pub struct Lines<P> {
+    /// The first line of each channel.
+    pub at: [P; MOST_CHANNELS],
+    /// How many numbers lie from a block to the next.
+    pub step: usize,
+}
+
+/// What a kernel works on.
+pub struct Pass<T> {
+    /// How many blocks.
+    pub blocks: usize,
+    /// How many channels share the parameters.
+    pub channels: usize,
+    /// The parameters, which channels share.
+    pub params: Lines<*const T>,
+    /// The signals.
+    pub from: Lines<*const T>,
+    /// The other factor of a product.
+    pub other: Lines<*const T>,
+    /// Where results go. It may be where the signals are.
+    pub to: Lines<*mut T>,
+    /// Whether results go past the caches; then they begin at multiples of 64 bytes.
+    pub streams: bool,
+}
+
+impl<T> Lines<*const T> {
+    #[inline(always)]
+    fn block(&self, channel: usize, block: usize) -> *const T {
+        self.at[channel].wrapping_add(block * self.step)
+    }
+}
+
+impl<T> Lines<*mut T> {
+    #[inline(always)]
+    fn block(&self, channel: usize, block: usize) -> *mut T {
+        self.at[channel].wrapping_add(block * self.step)
+    }
+}
+
+/// A kernel for a register.
+pub trait Kernel {
+    /// Runs it over a pass.
+    ///
+    /// # Safety
+    ///
+    /// All lines that the pass speaks of are there, those of results nobody else's, and the function around it is compiled for
+    /// the unit of the register, which the processor has.
+    unsafe fn run<R: Register>(pass: &Pass<R::Number>);
+}
+
+/// The first number of an array that is not written yet.
+#[inline(always)]
+fn first_of<A, T>(array: &mut MaybeUninit<A>) -> *mut T {
+    array.as_mut_ptr().cast()
+}
+
+/// Writes lines past the caches.
+///
+/// # Safety
+///
+/// As [`Kernel::run`]; the lines are there.
+#[inline(always)]
+unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, lines: core::ops::Range<usize>) {
+    for place in lines.start * R::PARTS..lines.end * R::PARTS {
+        // SAFETY: the caller's.
+        unsafe { R::load(from.add(place * R::LANES)).stream(to.add(place * R::LANES)) }
+    }
+}
+
+/// Copies the line of band 0, which no rotation changes.
+///
+/// # Safety
+///
+/// As [`Kernel::run`]; the lines are there.
+#[inline(always)]
+unsafe fn copy<R: Register>(from: *const R::Number, to: *mut R::Number) {
+    for part in 0..R::PARTS {
+        // SAFETY: the caller's.
+        unsafe { R::load(from.add(part * R::LANES)).store(to.add(part * R::LANES)) }
+    }
+}
+
+/// The bands of a block in every channel, of set-ups that lie a part of the lines each.
+macro_rules! bands {
+    ($register:ident, $pass:ident, $block:ident, $of:ty, $set_up:expr, $module:ident, $count:literal, [$($l:literal $band:ident)*]) => {
+        for channel in 0..$pass.channels {
+            let (from, to) = ($pass.from.block(channel, $block), $pass.to.block(channel, $block));
+            // Two blocks ahead is far enough for memory.
+            let ahead = $pass.from.block(channel, $block + 2);
+            let mut lines = MaybeUninit::<[[<$register as Register>::Number; BLOCK]; $count + 1]>::uninit();
+            let aside: *mut <$register as Register>::Number = lines.as_mut_ptr().cast();
+            let aside = aside.wrapping_add(aside.align_offset(64));
+            let into = if $pass.streams { aside } else { to };
+            // SAFETY: the caller's; a kernel reads what it overwrites before, and writes every line of its band.
+            unsafe {
+                $register::prefetch(ahead);
+                copy::<$register>(from, into);
+                if $pass.streams {
+                    stream::<$register>(into, to, 0..1);
+                }
+                $(
+                    for line in $l * $l..($l + 1) * ($l + 1) {
+                        $register::prefetch(ahead.wrapping_add(line * BLOCK));
+                    }
+                    for part in 0..$register::PARTS {
+                        let [from, into] = [from.cast_mut(), into].map(|at| at.add($l * $l * BLOCK + part * $register::LANES));
+                        zonal_kernels::batch::$module::$band::<$of, $register>(
+                            $set_up(part),
+                            &source(#[inline(always)] |i| $register::load(from.add(i * BLOCK))),
+                            &mut sink(#[inline(always)] |i, x: $register| x.store(into.add(i * BLOCK))),
+                        );
+                    }
+                    if $pass.streams {
+                        stream::<$register>(into, to, $l * $l..($l + 1) * ($l + 1));
+                    }
+                )*
+            }
+        }
+    };
+}
+
+/// A kernel in pieces with a set-up for each signal.
+macro_rules! each {
+    ($kernel:ident: $about:literal, $module:ident, $count:literal, $set_up:ident($($param:literal)*), $bands:tt) => {
+        #[doc = $about]
+        pub struct $kernel;
+        impl Kernel for $kernel {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                for block in 0..pass.blocks {
+                    let mut set_ups = [const { MaybeUninit::uninit() }; MOST_PARTS];
+                    for part in 0..R::PARTS {
+                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
+                        // SAFETY: the caller's; the set-up writes every number of its array.
+                        unsafe {
+                            let params = [$(R::load(params.add($param * BLOCK))),*];
+                            let first = first_of::<_, R>(&mut set_ups[part]);
+                            zonal_kernels::batch::$module::$set_up::<R>(
+                                params,
+                                &mut sink(#[inline(always)] |i, x| first.add(i).write(x)),
+                            );
+                        }
+                    }
+                    // SAFETY: the set-ups of all parts are written above.
+                    let set_up = source(#[inline(always)] |part: usize| unsafe { set_ups[part].assume_init_ref() });
+                    bands!(R, pass, block, R, set_up, $module, $count, $bands);
+                }
+                if pass.streams {
+                    R::fence();
+                }
+            }
+        }
+    };
+}
+
+/// A kernel in pieces with one set-up for all signals.
+macro_rules! all {
+    ($kernel:ident: $about:literal, $module:ident, $count:literal, $set_up:ident($($param:literal)*), $bands:tt) => {
+        #[doc = $about]
+        pub struct $kernel;
+        impl Kernel for $kernel {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                let mut set_up = MaybeUninit::uninit();
+                // SAFETY: the caller's; the parameters are a number each, and the set-up writes every number of its array.
+                unsafe {
+                    let params = [$(*pass.params.at[0].add($param)),*];
+                    let first = first_of::<_, R::Number>(&mut set_up);
+                    zonal_kernels::batch::$module::$set_up::<R::Number>(
+                        params,
+                        &mut sink(#[inline(always)] |i, x| first.add(i).write(x)),
+                    );
+                }
+                // SAFETY: it is written above.
+                let set_up = source(#[inline(always)] |_: usize| unsafe { set_up.assume_init_ref() });
+                for block in 0..pass.blocks {
+                    bands!(R, pass, block, R::Number, set_up, $module, $count, $bands);
+                }
+                if pass.streams {
+                    R::fence();
+                }
+            }
+        }
+    };
+}
+
+/// The kernels of an order that go by directions: the basis and sums over it.
+macro_rules! directions {
+    ($basis:ident $eval:ident $eval_all:ident: $module:ident, $count:literal) => {
+        /// The basis at a direction of each.
+        pub struct $basis;
+        impl Kernel for $basis {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                for block in 0..pass.blocks {
+                    let to = pass.to.block(0, block);
+                    let mut lines = MaybeUninit::<[[R::Number; BLOCK]; $count + 1]>::uninit();
+                    let aside: *mut R::Number = lines.as_mut_ptr().cast();
+                    // A line that one register fills is streamed at once, another when it is whole.
+                    let is_aside = pass.streams && R::PARTS > 1;
+                    let into = if is_aside { aside } else { to };
+                    for part in 0..R::PARTS {
+                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
+                        let into = into.wrapping_add(part * R::LANES);
+                        // SAFETY: the caller's.
+                        unsafe {
+                            let params = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            if pass.streams && R::PARTS == 1 {
+                                zonal_kernels::batch::$module::basis::<R>(
+                                    params,
+                                    &mut sink(#[inline(always)] |i, x: R| x.stream(into.add(i * BLOCK))),
+                                );
+                            } else {
+                                zonal_kernels::batch::$module::basis::<R>(
+                                    params,
+                                    &mut sink(#[inline(always)] |i, x: R| x.store(into.add(i * BLOCK))),
+                                );
+                            }
+                        }
+                    }
+                    if is_aside {
+                        // SAFETY: every line is written above.
+                        unsafe { stream::<R>(aside, to, 0..$count) }
+                    }
+                }
+                if pass.streams {
+                    R::fence();
+                }
+            }
+        }
+
+        /// The value of each signal in a direction of its own.
+        pub struct $eval;
+        impl Kernel for $eval {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                for block in 0..pass.blocks {
+                    for part in 0..R::PARTS {
+                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
+                        // SAFETY: the caller's.
+                        unsafe {
+                            let dir = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            for channel in 0..pass.channels {
+                                let from = pass.from.block(channel, block).add(part * R::LANES);
+                                let ahead = pass.from.block(channel, block + 2);
+                                for line in 0..$count / R::PARTS {
+                                    R::prefetch(ahead.wrapping_add((part * ($count / R::PARTS) + line) * BLOCK));
+                                }
+                                let value = zonal_kernels::batch::$module::eval::<R, R>(
+                                    dir,
+                                    &source(#[inline(always)] |i| R::load(from.add(i * BLOCK))),
+                                );
+                                value.store(pass.to.block(channel, block).add(part * R::LANES));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+
+        /// The value of one signal in each direction.
+        pub struct $eval_all;
+        impl Kernel for $eval_all {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                for block in 0..pass.blocks {
+                    for part in 0..R::PARTS {
+                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
+                        // SAFETY: the caller's; a channel's signal is a number a line.
+                        unsafe {
+                            let dir = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            for channel in 0..pass.channels {
+                                let signal = pass.from.at[channel];
+                                let one = R::lit(1.0);
+                                let value = zonal_kernels::batch::$module::eval::<R, R>(
+                                    dir,
+                                    &source(#[inline(always)] |i| one * *signal.add(i)),
+                                );
+                                value.store(pass.to.block(channel, block).add(part * R::LANES));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    };
+}
+
+/// The product of each two signals.
+macro_rules! product {
+    ($product:ident: $module:ident) => {
+        /// The product of each two signals.
+        pub struct $product;
+        impl Kernel for $product {
+            #[inline(always)]
+            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+                for block in 0..pass.blocks {
+                    for channel in 0..pass.channels {
+                        for part in 0..R::PARTS {
+                            let [a, b] = [&pass.from, &pass.other]
+                                .map(|lines| lines.block(channel, block).wrapping_add(part * R::LANES));
+                            let into = pass.to.block(channel, block).wrapping_add(part * R::LANES);
+                            // SAFETY: the caller's.
+                            unsafe {
+                                zonal_kernels::batch::$module::product::<R, R>(
+                                    &source(#[inline(always)] |i| R::load(a.add(i * BLOCK))),
+                                    &source(#[inline(always)] |i| R::load(b.add(i * BLOCK))),
+                                    &mut sink(#[inline(always)] |i, x: R| x.store(into.add(i * BLOCK))),
+                                );
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    };
+}
+
+/// Copies `lines` lines of each block and channel: what changes where numbers lie and nothing else.
+///
+/// # Safety
+///
+/// All lines that the pass speaks of are there, those of results nobody else's.
+pub unsafe fn copy_lines<T>(pass: &Pass<T>, lines: usize) {
+    for block in 0..pass.blocks {
+        for channel in 0..pass.channels {
+            let (from, to) = (pass.from.block(channel, block), pass.to.block(channel, block));
+            // SAFETY: the caller's.
+            unsafe { ptr::copy(from, to, lines * BLOCK) }
+        }
+    }
+}
+
+/// The kernels of an order.
+macro_rules! orders {
+    ($(
+        $feature:literal $module:ident, $count:literal:
+        each $rotate_set_up:ident $rotate_bands:tt,
+        all $all_set_up:ident $all_bands:tt,
+        tilt $tilt_bands:tt
+        $(, product $product:ident)?;
+    )*) => { $(
+        /// The kernels of an order.
+        #[cfg(feature = $feature)]
+        pub mod $module {
+            use super::*;
+            each!(Rotate: "Each by a quaternion of its own.", $module, $count, $rotate_set_up(0 1 2 3), $rotate_bands);
+            all!(RotateAll: "All by one quaternion.", $module, $count, $all_set_up(0 1 2 3), $all_bands);
+            each!(Tilt: "Each to a normal of its own.", $module, $count, tilt_setup(0 1 2), $tilt_bands);
+            directions!(Basis Eval EvalAll: $module, $count);
+            $(product!($product: $module);)?
+        }
+    )* };
+}
+
+orders! {
+    "order2" sh2, 4:
+        each rotate_setup [1 band_1_rotate],
+        all rotate_zyz_setup [1 band_1_rotate_zyz],
+        tilt [1 band_1_tilt], product Product;
+    "order3" sh3, 9:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate],
+        all rotate_zyz_setup [1 band_1_rotate_zyz 2 band_2_rotate_zyz],
+        tilt [1 band_1_tilt 2 band_2_tilt], product Product;
+    "order4" sh4, 16:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt], product Product;
+    "order5" sh5, 25:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt], product Product;
+    "order6" sh6, 36:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt], product Product;
+    "order7" sh7, 49:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt], product Product;
+    "order8" sh8, 64:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt], product Product;
+    "order9" sh9, 81:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt 8 band_8_tilt];
+    "order10" sh10, 100:
+        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate 9 band_9_rotate],
+        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate 9 band_9_rotate],
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt 8 band_8_tilt 9 band_9_tilt];
+}

@@ -1,0 +1,250 @@
+//! The vector units: which there are, which the processor has, and each kernel compiled for each of them, once in this crate
+//! however many programs use it.
+
+use core::fmt;
+use core::sync::atomic::{AtomicU8, Ordering};
+
+use super::kernels::{self, Kernel, Pass};
+use super::registers::{Quads, Register};
+use super::rows::{Tile, Tiles};
+use super::signals::Storage;
+
+/// A vector unit, by what it needs of the processor; later ones are wider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Unit {
+    /// What every processor of its kind has: SSE2 on x86-64, NEON on aarch64, elsewhere what the compiler makes of arrays.
+    Base,
+    /// AVX2 with FMA, on x86-64.
+    Avx2,
+    /// AVX-512 (F, DQ and VL), on x86-64.
+    Avx512,
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Base if cfg!(target_arch = "x86_64") => "SSE2",
+            Self::Base if cfg!(target_arch = "aarch64") => "NEON",
+            Self::Base => "none",
+            Self::Avx2 => "AVX2",
+            Self::Avx512 => "AVX-512",
+        })
+    }
+}
+
+/// The widest unit that may be used.
+static WIDEST: AtomicU8 = AtomicU8::new(Unit::Avx512 as u8);
+
+impl Unit {
+    /// All of them, from the narrowest to the widest.
+    pub const ALL: [Self; 3] = [Self::Base, Self::Avx2, Self::Avx512];
+
+    /// Returns whether the processor has it.
+    pub fn is_there(self) -> bool {
+        match self {
+            Self::Base => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                Self::Avx2.is_there()
+                    && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// Returns the one that batches use: the widest that the processor has, and no wider than [`at_most`](Self::at_most) said.
+    pub fn used() -> Self {
+        let most = WIDEST.load(Ordering::Relaxed);
+        let may = |unit: &&Self| **unit as u8 <= most && unit.is_there();
+        Self::ALL.iter().rev().find(may).copied().unwrap_or(Self::Base)
+    }
+
+    /// Lets batches of the whole program use no wider unit from now on: for processors that clock down for one, and to compare.
+    /// Results of a unit that fuses a product and a sum differ in the last digits from those of one that does not.
+    pub fn at_most(self) {
+        WIDEST.store(self as u8, Ordering::Relaxed);
+    }
+}
+
+/// A kernel as it is called: over a pass whose lines are there, on a processor that has the unit.
+pub type Run<T> = unsafe fn(&Pass<T>);
+
+/// The kernels of an order and a unit.
+pub struct Kernels<T> {
+    /// Rotates each by a quaternion of its own.
+    pub rotate: Run<T>,
+    /// Rotates all by one quaternion.
+    pub rotate_all: Run<T>,
+    /// Tilts each to a normal of its own.
+    pub tilt: Run<T>,
+    /// The basis at each direction.
+    pub basis: Run<T>,
+    /// The value of each in a direction of its own.
+    pub eval: Run<T>,
+    /// The value of one in each direction.
+    pub eval_all: Run<T>,
+    /// The product of each two, up to order 8.
+    pub product: Option<Run<T>>,
+}
+
+/// How rows are read to lines and written from them, tiles of four columns at a time.
+#[derive(Clone, Copy)]
+pub struct Moves<T> {
+    /// Reads a block's rows.
+    pub gather: unsafe fn(rows: *const T, stride: usize, tiles: &[Tile], lines: *mut T),
+    /// Writes a block's rows.
+    pub scatter: unsafe fn(lines: *const T, tiles: &[Tile], rows: *mut T, stride: usize),
+}
+
+/// A precision that batches work in: `f32` or `f64`.
+pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> {
+    /// Returns the kernels of an order for a unit, if the order is compiled.
+    #[doc(hidden)]
+    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>>;
+    /// Returns how rows are read and written, if a unit does it.
+    #[doc(hidden)]
+    fn moves(unit: Unit) -> Option<Moves<Self>>;
+    /// Returns what writes past the caches so many numbers, a multiple of sixteen, to a multiple of 64 bytes.
+    #[doc(hidden)]
+    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize);
+}
+
+/// A unit: every kernel and every move compiled for it.
+macro_rules! unit {
+    ($unit:ident, $single:ty, $double:ty $(, #[$features:meta])?) => {
+        mod $unit {
+            use super::*;
+
+            /// # Safety
+            ///
+            /// As [`Kernel::run`]; the processor has the unit.
+            $(#[$features])?
+            unsafe fn run<K: Kernel, R: Register>(pass: &Pass<R::Number>) {
+                // SAFETY: the caller's, and this function is compiled for the unit.
+                unsafe { K::run::<R>(pass) }
+            }
+
+            /// # Safety
+            ///
+            /// As [`Tiles::gather`]; the processor has the unit.
+            $(#[$features])?
+            unsafe fn gather<R: Quads>(rows: *const R::Number, stride: usize, tiles: &[Tile], lines: *mut R::Number) {
+                // SAFETY: the caller's, and this function is compiled for the unit.
+                unsafe { Tiles::gather::<R>(rows, stride, tiles, lines) }
+            }
+
+            /// # Safety
+            ///
+            /// As [`Tiles::scatter`]; the processor has the unit.
+            $(#[$features])?
+            unsafe fn scatter<R: Quads>(lines: *const R::Number, tiles: &[Tile], rows: *mut R::Number, stride: usize) {
+                // SAFETY: the caller's, and this function is compiled for the unit.
+                unsafe { Tiles::scatter::<R>(lines, tiles, rows, stride) }
+            }
+
+            /// # Safety
+            ///
+            /// There are so many numbers, and room for them at a multiple of 64 bytes; the processor has the unit.
+            $(#[$features])?
+            unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, count: usize) {
+                for i in (0..count).step_by(R::LANES) {
+                    // SAFETY: the caller's.
+                    unsafe { R::load(from.add(i)).stream(to.add(i)) }
+                }
+                R::fence();
+            }
+
+            pub const MOVES: Moves<f32> = Moves { gather: gather::<$single>, scatter: scatter::<$single> };
+            pub const STREAM_SINGLE: unsafe fn(*const f32, *mut f32, usize) = stream::<$single>;
+            pub const STREAM_DOUBLE: unsafe fn(*const f64, *mut f64, usize) = stream::<$double>;
+
+            unit!(@ kernels single f32 $single);
+            unit!(@ kernels double f64 $double);
+        }
+    };
+    (@ kernels $name:ident $number:ident $register:ty) => {
+        /// The kernels of an order.
+        pub fn $name(order: usize) -> Option<Kernels<$number>> {
+            unit!(@ orders $register, order,
+                "order2" 2 sh2 product, "order3" 3 sh3 product, "order4" 4 sh4 product, "order5" 5 sh5 product,
+                "order6" 6 sh6 product, "order7" 7 sh7 product, "order8" 8 sh8 product, "order9" 9 sh9 none,
+                "order10" 10 sh10 none)
+        }
+    };
+    (@ orders $register:ty, $order:ident, $($feature:literal $number:literal $module:ident $product:ident),*) => {
+        match $order {
+            $(
+                #[cfg(feature = $feature)]
+                $number => Some(Kernels {
+                    rotate: run::<kernels::$module::Rotate, $register>,
+                    rotate_all: run::<kernels::$module::RotateAll, $register>,
+                    tilt: run::<kernels::$module::Tilt, $register>,
+                    basis: run::<kernels::$module::Basis, $register>,
+                    eval: run::<kernels::$module::Eval, $register>,
+                    eval_all: run::<kernels::$module::EvalAll, $register>,
+                    product: unit!(@ $product $module $register),
+                }),
+            )*
+            _ => None,
+        }
+    };
+    (@ product $module:ident $register:ty) => { Some(run::<kernels::$module::Product, $register>) };
+    (@ none $module:ident $register:ty) => { None };
+}
+
+#[cfg(target_arch = "x86_64")]
+use super::registers::x86::*;
+#[cfg(target_arch = "x86_64")]
+unit!(avx512, F32x16, F64x8, #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]);
+#[cfg(target_arch = "x86_64")]
+unit!(avx2, F32x8, F64x4, #[target_feature(enable = "avx2,fma")]);
+
+#[cfg(target_arch = "aarch64")]
+use super::registers::neon::*;
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+use super::registers::plain::*;
+
+unit!(base, F32x4, F64x2);
+
+/// Takes what a unit has.
+macro_rules! of {
+    ($unit:expr, $what:ident $(($order:expr))?) => {
+        match $unit {
+            #[cfg(target_arch = "x86_64")]
+            Unit::Avx512 => avx512::$what $(($order))?,
+            #[cfg(target_arch = "x86_64")]
+            Unit::Avx2 => avx2::$what $(($order))?,
+            _ => base::$what $(($order))?,
+        }
+    };
+}
+
+impl Number for f32 {
+    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>> {
+        of!(unit, single(order))
+    }
+    fn moves(unit: Unit) -> Option<Moves<Self>> {
+        Some(of!(unit, MOVES))
+    }
+    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {
+        of!(unit, STREAM_SINGLE)
+    }
+}
+
+impl Number for f64 {
+    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>> {
+        of!(unit, double(order))
+    }
+    fn moves(_: Unit) -> Option<Moves<Self>> {
+        None
+    }
+    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {
+        of!(unit, STREAM_DOUBLE)
+    }
+}
