@@ -63,6 +63,25 @@ pub trait Kernel {
     unsafe fn run<R: Register>(pass: &Pass<R::Number>);
 }
 
+/// Lines on the stack, from a multiple of 64 bytes on. A function that has them keeps its registers in such places too: where
+/// they lie across two lines of the cache, a kernel takes half as long again.
+#[repr(C, align(64))]
+pub struct Aside<A>(MaybeUninit<A>);
+
+impl<A> Aside<A> {
+    /// Returns lines of no meaning.
+    #[inline(always)]
+    pub const fn new() -> Self {
+        Self(MaybeUninit::uninit())
+    }
+
+    /// The first number.
+    #[inline(always)]
+    pub fn first<T>(&mut self) -> *mut T {
+        self.0.as_mut_ptr().cast()
+    }
+}
+
 /// The first number of an array that is not written yet.
 #[inline(always)]
 fn first_of<A, T>(array: &mut MaybeUninit<A>) -> *mut T {
@@ -102,9 +121,8 @@ macro_rules! bands {
             let (from, to) = ($pass.from.block(channel, $block), $pass.to.block(channel, $block));
             // Two blocks ahead is far enough for memory.
             let ahead = $pass.from.block(channel, $block + 2);
-            let mut lines = MaybeUninit::<[[<$register as Register>::Number; BLOCK]; $count + 1]>::uninit();
-            let aside: *mut <$register as Register>::Number = lines.as_mut_ptr().cast();
-            let aside = aside.wrapping_add(aside.align_offset(64));
+            let mut lines = Aside::<[[<$register as Register>::Number; BLOCK]; $count]>::new();
+            let aside: *mut <$register as Register>::Number = lines.first();
             let into = if $pass.streams { aside } else { to };
             // SAFETY: the caller's; a kernel reads what it overwrites before, and writes every line of its band.
             unsafe {
@@ -136,28 +154,34 @@ macro_rules! bands {
 
 /// A kernel in pieces with a set-up for each signal.
 macro_rules! each {
-    ($kernel:ident: $about:literal, $module:ident, $count:literal, $set_up:ident($($param:literal)*), $bands:tt) => {
+    ($kernel:ident: $about:literal, $module:ident, $count:literal, $ahead:literal, $set_up:ident($($param:literal)*), $bands:tt) => {
         #[doc = $about]
         pub struct $kernel;
         impl Kernel for $kernel {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
-                for block in 0..pass.blocks {
-                    let mut set_ups = [const { MaybeUninit::uninit() }; MOST_PARTS];
-                    for part in 0..R::PARTS {
-                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
-                        // SAFETY: the caller's; the set-up writes every number of its array.
-                        unsafe {
-                            let params = [$(R::load(params.add($param * BLOCK))),*];
-                            let first = first_of::<_, R>(&mut set_ups[part]);
-                            zonal_kernels::batch::$module::$set_up::<R>(
-                                params,
-                                &mut sink(#[inline(always)] |i, x| first.add(i).write(x)),
-                            );
+                // A set-up that is one long chain is done a block ahead, beside bands that do not wait for it; which of the two
+                // it is, is an index and not a choice, so that the compiler leaves them in memory.
+                let mut set_ups = [const { [const { MaybeUninit::uninit() }; MOST_PARTS] }; 1 + $ahead];
+                for ahead in 0..pass.blocks + $ahead {
+                    let (next, now) = (ahead % (1 + $ahead), (ahead + $ahead) % (1 + $ahead));
+                    if ahead < pass.blocks {
+                        for part in 0..R::PARTS {
+                            let params = pass.params.block(0, ahead).wrapping_add(part * R::LANES);
+                            // SAFETY: the caller's; the set-up writes every number of its array.
+                            unsafe {
+                                let params = [$(R::load(params.add($param * BLOCK))),*];
+                                let first = first_of::<_, R>(&mut set_ups[next][part]);
+                                zonal_kernels::batch::$module::$set_up::<R>(
+                                    params,
+                                    &mut sink(#[inline(always)] |i, x| first.add(i).write(x)),
+                                );
+                            }
                         }
                     }
-                    // SAFETY: the set-ups of all parts are written above.
-                    let set_up = source(#[inline(always)] |part: usize| unsafe { set_ups[part].assume_init_ref() });
+                    let Some(block) = ahead.checked_sub($ahead) else { continue };
+                    // SAFETY: the set-ups of all parts of this block are written.
+                    let set_up = source(#[inline(always)] |part: usize| unsafe { set_ups[now][part].assume_init_ref() });
                     bands!(R, pass, block, R, set_up, $module, $count, $bands);
                 }
                 if pass.streams {
@@ -209,8 +233,8 @@ macro_rules! directions {
             unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
                 for block in 0..pass.blocks {
                     let to = pass.to.block(0, block);
-                    let mut lines = MaybeUninit::<[[R::Number; BLOCK]; $count + 1]>::uninit();
-                    let aside: *mut R::Number = lines.as_mut_ptr().cast();
+                    let mut lines = Aside::<[[R::Number; BLOCK]; $count]>::new();
+                    let aside: *mut R::Number = lines.first();
                     // A line that one register fills is streamed at once, another when it is whole.
                     let is_aside = pass.streams && R::PARTS > 1;
                     let into = if is_aside { aside } else { to };
@@ -359,9 +383,9 @@ macro_rules! orders {
         #[cfg(feature = $feature)]
         pub mod $module {
             use super::*;
-            each!(Rotate: "Each by a quaternion of its own.", $module, $count, $rotate_set_up(0 1 2 3), $rotate_bands);
+            each!(Rotate: "Each by a quaternion of its own.", $module, $count, 1, $rotate_set_up(0 1 2 3), $rotate_bands);
             all!(RotateAll: "All by one quaternion.", $module, $count, $all_set_up(0 1 2 3), $all_bands);
-            each!(Tilt: "Each to a normal of its own.", $module, $count, tilt_setup(0 1 2), $tilt_bands);
+            each!(Tilt: "Each to a normal of its own.", $module, $count, 0, tilt_setup(0 1 2), $tilt_bands);
             directions!(Basis Eval EvalAll: $module, $count);
             $(product!($product: $module);)?
         }

@@ -369,7 +369,7 @@ macro_rules! functions {
 fn here<S: Storage, D: Storage<Number = S::Number>>(task: &Task<'_, S, D>) -> Result<(), Error> {
     task.check()?;
     // SAFETY: it is checked, and what made the views is borrowed by the function that calls.
-    unsafe { task.over(0..task.to.block_count()) };
+    unsafe { task.over(&task.moves(), 0..task.to.block_count()) };
     Ok(())
 }
 

@@ -11,11 +11,12 @@ const AT_ONCE: usize = 64;
 /// Runs a task over all its blocks, on all threads.
 fn threads<S: Storage, D: Storage<Number = S::Number>>(task: &Task<'_, S, D>) -> Result<(), Error> {
     task.check()?;
+    let moves = task.moves();
     let blocks = task.to.block_count();
     (0..blocks.div_ceil(AT_ONCE)).into_par_iter().for_each(|run| {
         let first = run * AT_ONCE;
         // SAFETY: it is checked, what made the views is borrowed by the function that calls, and no two runs share a block.
-        unsafe { task.over(first..(first + AT_ONCE).min(blocks)) }
+        unsafe { task.over(&moves, first..(first + AT_ONCE).min(blocks)) }
     });
     Ok(())
 }

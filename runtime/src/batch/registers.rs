@@ -86,6 +86,19 @@ pub trait Quads: Register {
     ///
     /// The processor has the unit.
     unsafe fn transpose(rows: [Self; 4]) -> [Self; 4];
+
+    /// Whether a register has four quads, which [`cross`](Self::cross) exchanges.
+    const IS_WIDE: bool = false;
+
+    /// Exchanges rows and columns of the four by four quads that four registers of four quads hold.
+    ///
+    /// # Safety
+    ///
+    /// The processor has the unit.
+    #[inline(always)]
+    unsafe fn cross(quads: [Self; 4]) -> [Self; 4] {
+        quads
+    }
 }
 
 /// A register type: its operations, each an expression of the registers that it names. What is fused is one instruction; where a
@@ -326,6 +339,7 @@ macro_rules! quads {
         scatter |$to:ident, $apart:ident, $quads:ident| $scattered:expr;
         interleave |$a:ident, $b:ident| $low:expr, $high:expr;
         halves |$c:ident, $d:ident| $lower:expr, $upper:expr;
+        $(cross |$e:ident, $f:ident| $both_low:expr, $both_high:expr, $even:expr, $odd:expr;)?
     ) => {
         impl Quads for $name {
             #[inline(always)]
@@ -350,6 +364,20 @@ macro_rules! quads {
                     [Self(x), Self(y), Self(z), Self(w)]
                 }
             }
+            $(
+                const IS_WIDE: bool = true;
+                #[inline(always)]
+                unsafe fn cross([p, q, r, s]: [Self; 4]) -> [Self; 4] {
+                    // SAFETY: registers are there, so that the unit is too.
+                    unsafe {
+                        let split = of_two(#[inline(always)] |$e, $f| ($both_low, $both_high));
+                        let pick = of_two(#[inline(always)] |$e, $f| ($even, $odd));
+                        let ((pq, pq_high), (rs, rs_high)) = (split(p.0, q.0), split(r.0, s.0));
+                        let ((x, y), (z, w)) = (pick(pq, rs), pick(pq_high, rs_high));
+                        [Self(x), Self(y), Self(z), Self(w)]
+                    }
+                }
+            )?
         }
     };
 }

@@ -1,14 +1,16 @@
 //! Rows: where the numbers of a signal lie in memory that is not made of blocks, and how sixteen rows become lines of a block
 //! and back, four columns at a time.
 
+use core::mem::MaybeUninit;
+
 use super::kernels::MOST_CHANNELS;
-use super::registers::{BLOCK, Quads, source};
+use super::registers::{BLOCK, Quads, sink, source};
 
 /// The most coefficients of a channel: order 10.
 pub const MOST_COUNT: usize = 100;
 
-/// The most lines that a block has in all its channels, and one for what is of no meaning.
-pub const MOST_LINES: usize = MOST_CHANNELS * MOST_COUNT + 1;
+/// The most lines that a block has in all its channels.
+pub const MOST_LINES: usize = MOST_CHANNELS * MOST_COUNT;
 
 /// Where in a row each coefficient of each channel lies: coefficient 0 of channel c at `first[0] + c first[1]`, coefficient i
 /// above at `rest[0] + c rest[1] + (i − 1) rest[2]`, counted in numbers from the row's beginning.
@@ -78,13 +80,46 @@ pub struct Tile {
     lines: [u16; 4],
 }
 
-/// The columns of a row, four at a time where four lie side by side.
+/// Sixteen columns side by side and the line of each.
+#[derive(Clone, Copy, Debug)]
+pub struct Wide {
+    column: u32,
+    lines: [u16; BLOCK],
+}
+
+/// Items on the stack, so many of which there are.
+struct Few<T, const N: usize> {
+    items: [MaybeUninit<T>; N],
+    count: usize,
+}
+
+impl<T: Copy, const N: usize> Few<T, N> {
+    const fn new() -> Self {
+        Self { items: [const { MaybeUninit::uninit() }; N], count: 0 }
+    }
+
+    fn push(&mut self, item: T) {
+        self.items[self.count].write(item);
+        self.count += 1;
+    }
+
+    fn all(&mut self) -> &mut [T] {
+        // SAFETY: so many are written.
+        unsafe { core::slice::from_raw_parts_mut(self.items.as_mut_ptr().cast(), self.count) }
+    }
+
+    fn get(&self) -> &[T] {
+        // SAFETY: so many are written.
+        unsafe { core::slice::from_raw_parts(self.items.as_ptr().cast(), self.count) }
+    }
+}
+
+/// The columns of a row: sixteen at a time, then four, where as many lie side by side.
 pub struct Tiles {
-    tiles: [Tile; MOST_COUNT + 8],
-    tile_count: usize,
+    wide: Few<Wide, { MOST_LINES / BLOCK }>,
+    tiles: Few<Tile, { MOST_LINES / 2 }>,
     /// Columns that lie alone, each with its line.
-    alone: [(u32, u16); MOST_LINES],
-    alone_count: usize,
+    alone: Few<(u32, u16), MOST_LINES>,
     /// How many numbers of a row tiles touch; it may be more than the row has.
     pub touched: usize,
 }
@@ -93,27 +128,21 @@ impl Tiles {
     /// Returns the columns of a row. Where `over` is so, fewer than four columns side by side are a tile too, which touches what
     /// lies behind them.
     pub fn new(row: &Row, over: bool) -> Self {
-        let mut columns = [(0_u32, 0_u16); MOST_LINES];
-        let mut known = 0;
+        let mut columns = Few::<(u32, u16), MOST_LINES>::new();
         for channel in 0..row.channels {
             for i in 0..row.count {
-                columns[known] = (row.column(channel, i) as u32, (channel * row.count + i) as u16);
-                known += 1;
+                columns.push((row.column(channel, i) as u32, (channel * row.count + i) as u16));
             }
         }
-        let columns = &mut columns[..known];
+        let columns = columns.all();
         columns.sort_unstable();
-        let mut tiles = Self {
-            tiles: [Tile::default(); MOST_COUNT + 8],
-            tile_count: 0,
-            alone: [(0, 0); MOST_LINES],
-            alone_count: 0,
-            touched: 0,
-        };
+        let mut tiles = Self { wide: Few::new(), tiles: Few::new(), alone: Few::new(), touched: 0 };
         let mut at = 0;
         while at < columns.len() {
-            let is_next = |i: &usize| columns[*i].0 as usize == columns[at].0 as usize + (i - at);
-            let end = (at + 1..columns.len()).take_while(is_next).last().map_or(at + 1, |last| last + 1);
+            let mut end = at + 1;
+            while end < columns.len() && columns[end].0 as usize == columns[at].0 as usize + (end - at) {
+                end += 1;
+            }
             tiles.add(&columns[at..end], over);
             at = end;
         }
@@ -121,77 +150,185 @@ impl Tiles {
     }
 
     /// Adds columns side by side.
-    fn add(&mut self, run: &[(u32, u16)], over: bool) {
-        let is_full = self.tile_count + run.len().div_ceil(4) > self.tiles.len();
-        if is_full || run.len() < 4 && !(over && run.len() > 1) {
-            for &column in run {
-                self.alone[self.alone_count] = column;
-                self.alone_count += 1;
-            }
+    fn add(&mut self, whole: &[(u32, u16)], over: bool) {
+        let run = whole;
+        if run.len() < 4 && !(over && run.len() > 1) {
+            run.iter().for_each(|&column| self.alone.push(column));
             return;
         }
+        let (wide, run) = run.split_at(run.len() / BLOCK * BLOCK);
+        for run in wide.chunks_exact(BLOCK) {
+            self.wide.push(Wide { column: run[0].0, lines: core::array::from_fn(|i| run[i].1) });
+            self.touched = self.touched.max(run[0].0 as usize + BLOCK);
+        }
+        // What is left over begins with columns that are done already, if there are too few.
+        let run = if run.len() % 4 > 0 && run.len() < 4 && !wide.is_empty() { &whole[whole.len() - 4..] } else { run };
         for start in (0..run.len()).step_by(4) {
             // The last tile begins where it ends with the run.
             let start = start.min(run.len().saturating_sub(4));
-            let line = |i: usize| run.get(start + i).map_or(MOST_LINES as u16 - 1, |column| column.1);
-            self.tiles[self.tile_count] = Tile { column: run[start].0, lines: [0, 1, 2, 3].map(line) };
+            // What is no column goes to the line of the first, before that does.
+            let line = |i: usize| run.get(start + i).map_or(run[0].1, |column| column.1);
+            self.tiles.push(Tile { column: run[start].0, lines: [0, 1, 2, 3].map(line) });
             self.touched = self.touched.max(run[start].0 as usize + 4);
-            self.tile_count += 1;
         }
-    }
-
-    /// The tiles.
-    pub fn tiles(&self) -> &[Tile] {
-        &self.tiles[..self.tile_count]
     }
 
     /// The columns that lie alone, each with its line.
     pub fn alone(&self) -> &[(u32, u16)] {
-        &self.alone[..self.alone_count]
+        self.alone.get()
     }
 
-    /// Reads sixteen rows to lines.
+    /// Reads the rows of some blocks to lines, of which a block has `step` numbers.
     ///
     /// # Safety
     ///
-    /// The rows are there as far as the tiles touch them, and so are [`MOST_LINES`] lines; the function around is compiled for
-    /// the unit of the register, which the processor has.
+    /// The rows are there as far as the tiles touch them, and so is room for the lines; the function around is compiled for the
+    /// unit of the register, which the processor has.
     #[inline(always)]
-    pub unsafe fn gather<R: Quads>(rows: *const R::Number, stride: usize, tiles: &[Tile], lines: *mut R::Number) {
-        for part in 0..R::PARTS {
-            for tile in tiles {
-                let first = part * R::LANES * stride + tile.column as usize;
+    pub unsafe fn gather<R: Quads>(&self, rows: Rows<*const R::Number>, lines: *mut R::Number, step: usize) {
+        let Rows { first, stride, blocks } = rows;
+        for block in 0..blocks {
+            let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
+            // Some blocks ahead is far enough for memory; what lies in a cache is there at once.
+            let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
+            for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
+                R::prefetch(ahead.wrapping_add(at));
+            }
+            for wide in self.wide.get() {
+                let line = source(#[inline(always)] |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK));
+                let first = rows.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
-                    let row = source(#[inline(always)] |i: usize| R::gather(rows.add(first + i * stride), 4 * stride));
-                    let columns = R::transpose([row(0), row(1), row(2), row(3)]);
-                    for (line, column) in tile.lines.iter().zip(columns) {
-                        column.store(lines.add(*line as usize * BLOCK + part * R::LANES));
+                    if R::IS_WIDE {
+                        turn::<R>(
+                            source(#[inline(always)] |i: usize| first.add(i * stride)),
+                            source(#[inline(always)] |i: usize| line(i)),
+                        );
+                        continue;
+                    }
+                    for part in 0..R::PARTS {
+                        for x in [0, 4, 8, 12] {
+                            let first = first.add(part * R::LANES * stride + x);
+                            let row = source(#[inline(always)] |i: usize| R::gather(first.add(i * stride), 4 * stride));
+                            let columns = R::transpose([row(0), row(1), row(2), row(3)]);
+                            for i in 0..4 {
+                                columns[i].store(line(x + i).add(part * R::LANES));
+                            }
+                        }
+                    }
+                }
+            }
+            for part in 0..R::PARTS {
+                let (rows, lines) = (rows.wrapping_add(part * R::LANES * stride), lines.wrapping_add(part * R::LANES));
+                for tile in self.tiles.get() {
+                    // SAFETY: the caller's.
+                    unsafe {
+                        let first = rows.add(tile.column as usize);
+                        let row = source(#[inline(always)] |i: usize| R::gather(first.add(i * stride), 4 * stride));
+                        let columns = R::transpose([row(0), row(1), row(2), row(3)]);
+                        let line = source(#[inline(always)] |i: usize| lines.add(tile.lines[i] as usize * BLOCK));
+                        columns[3].store(line(3));
+                        columns[2].store(line(2));
+                        columns[1].store(line(1));
+                        columns[0].store(line(0));
                     }
                 }
             }
         }
     }
 
-    /// Writes lines to sixteen rows.
+    /// Writes lines to the rows of some blocks.
     ///
     /// # Safety
     ///
     /// As [`gather`](Self::gather), and the rows are nobody else's.
     #[inline(always)]
-    pub unsafe fn scatter<R: Quads>(lines: *const R::Number, tiles: &[Tile], rows: *mut R::Number, stride: usize) {
-        for part in 0..R::PARTS {
-            for tile in tiles {
-                let first = part * R::LANES * stride + tile.column as usize;
+    pub unsafe fn scatter<R: Quads>(&self, lines: *const R::Number, step: usize, rows: Rows<*mut R::Number>) {
+        let Rows { first, stride, blocks } = rows;
+        for block in 0..blocks {
+            let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
+            for wide in self.wide.get() {
+                let line = source(#[inline(always)] |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK));
+                let first = rows.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
-                    let line = source(#[inline(always)] |i: usize| R::load(lines.add(tile.lines[i] as usize * BLOCK + part * R::LANES)));
-                    let quads = R::transpose([line(0), line(1), line(2), line(3)]);
-                    for (i, quad) in quads.into_iter().enumerate() {
-                        quad.scatter(rows.add(first + i * stride), 4 * stride);
+                    if R::IS_WIDE {
+                        turn::<R>(
+                            source(#[inline(always)] |i: usize| line(i)),
+                            source(#[inline(always)] |i: usize| first.add(i * stride)),
+                        );
+                        continue;
+                    }
+                    for part in 0..R::PARTS {
+                        for x in [0, 4, 8, 12] {
+                            let first = first.add(part * R::LANES * stride + x);
+                            let column = source(#[inline(always)] |i: usize| R::load(line(x + i).add(part * R::LANES)));
+                            let quads = R::transpose([column(0), column(1), column(2), column(3)]);
+                            for i in 0..4 {
+                                quads[i].scatter(first.add(i * stride), 4 * stride);
+                            }
+                        }
+                    }
+                }
+            }
+            for part in 0..R::PARTS {
+                let (rows, lines) = (rows.wrapping_add(part * R::LANES * stride), lines.wrapping_add(part * R::LANES));
+                for tile in self.tiles.get() {
+                    // SAFETY: the caller's.
+                    unsafe {
+                        let line = source(#[inline(always)] |i: usize| R::load(lines.add(tile.lines[i] as usize * BLOCK)));
+                        let [p, q, r, s] = R::transpose([line(0), line(1), line(2), line(3)]);
+                        let first = rows.add(tile.column as usize);
+                        p.scatter(first, 4 * stride);
+                        q.scatter(first.add(stride), 4 * stride);
+                        r.scatter(first.add(2 * stride), 4 * stride);
+                        s.scatter(first.add(3 * stride), 4 * stride);
                     }
                 }
             }
         }
     }
+}
+
+/// Exchanges rows and columns of sixteen by sixteen numbers, of which a register holds a row.
+///
+/// # Safety
+///
+/// There are sixteen numbers at each place that is read and room at each that is written; the function around is compiled for
+/// the unit of the register, which the processor has.
+#[inline(always)]
+unsafe fn turn<R: Quads>(from: impl Fn(usize) -> *const R::Number, to: impl Fn(usize) -> *mut R::Number) {
+    // SAFETY: the caller's. What is written out is not left to a loop, so that all of it stays in registers.
+    unsafe {
+        let four = source(
+            #[inline(always)]
+            |i: usize| R::transpose([R::load(from(i)), R::load(from(i + 1)), R::load(from(i + 2)), R::load(from(i + 3))]),
+        );
+        let ([a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]) = (four(0), four(4), four(8), four(12));
+        let mut store = sink(
+            #[inline(always)]
+            |x: usize, quads: [R; 4]| {
+                let [p, q, r, s] = R::cross(quads);
+                p.store(to(x));
+                q.store(to(x + 4));
+                r.store(to(x + 8));
+                s.store(to(x + 12));
+            },
+        );
+        store(0, [a0, b0, c0, d0]);
+        store(1, [a1, b1, c1, d1]);
+        store(2, [a2, b2, c2, d2]);
+        store(3, [a3, b3, c3, d3]);
+    }
+}
+
+/// The rows of some blocks.
+#[derive(Clone, Copy)]
+pub struct Rows<P> {
+    /// The first row.
+    pub first: P,
+    /// How many numbers a row has.
+    pub stride: usize,
+    /// How many blocks of sixteen rows.
+    pub blocks: usize,
 }

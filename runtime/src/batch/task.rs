@@ -1,22 +1,21 @@
 //! A kernel over many signals in any layouts: blocks are worked on where they lie, rows sixteen at a time through lines on the
 //! stack. Sizes are checked before anything is touched.
 
-use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use super::kernels::{Lines, MOST_CHANNELS, Pass};
+use super::kernels::{Aside, Lines, MOST_CHANNELS, Pass};
 use super::registers::BLOCK;
-use super::rows::{MOST_LINES, Row, Tiles};
+use super::rows::{MOST_LINES, Row, Rows, Tiles};
 use super::signals::{Places, Storage, View};
 use super::units::{Moves, Number, Run, Unit};
 use crate::error::Error;
 
-/// From how many bytes of results on they are written past the caches.
+/// From how many bytes of signals and results on results are written past the caches.
 static STREAMS_FROM: AtomicUsize = AtomicUsize::new(16 << 20);
 
-/// Writes results past the caches from so many bytes a call on, for all of the program: half of the last cache is a good value, and
-/// 16 MiB what is used if nothing is said. Only blocks, and rows without gaps, can be written so.
+/// Writes results past the caches where a call's signals and results take so many bytes or more, for all of the program: half of the
+/// last cache is a good value, and 16 MiB what is used if nothing is said. Only blocks, and rows without gaps, can be written so.
 pub fn stream_from(bytes: usize) {
     STREAMS_FROM.store(bytes, Ordering::Relaxed);
 }
@@ -41,6 +40,14 @@ pub(super) enum Input<S: Storage> {
     Each(View<S>),
 }
 
+/// What reads and writes rows for a task, where it has any.
+pub(super) struct Moved<S: Storage, D: Storage<Number = S::Number>> {
+    params: Option<Moving<S::Number>>,
+    from: Option<Moving<S>>,
+    other: Option<Moving<S>>,
+    to: Option<Moving<D>>,
+}
+
 /// A kernel and all that it works on.
 pub(super) struct Task<'a, S: Storage, D: Storage<Number = S::Number>> {
     /// The kernel; without one, signals are copied.
@@ -55,40 +62,31 @@ pub(super) struct Task<'a, S: Storage, D: Storage<Number = S::Number>> {
 // SAFETY: what it points to is borrowed for as long as it is there, and threads write to different blocks.
 unsafe impl<S: Storage, D: Storage<Number = S::Number>> Sync for Task<'_, S, D> {}
 
-/// Lines on the stack: those of a block, in all its channels.
-#[repr(C, align(64))]
-struct Aside<T>(MaybeUninit<[[T; BLOCK]; MOST_LINES]>);
+/// Room for the lines of a block in all its channels, or of several blocks.
+type Room<S> = Aside<[[<S as Storage>::Number; BLOCK]; MOST_LINES]>;
 
-impl<T> Aside<T> {
-    fn new() -> Self {
-        Self(MaybeUninit::uninit())
-    }
-
-    fn first(&mut self) -> *mut T {
-        self.0.as_mut_ptr().cast()
-    }
-}
-
-/// How many blocks' parameters are read at once: four lines each.
-const READ_AT_ONCE: usize = 8;
+/// How many blocks are read at once at most, so that the processor works on one while it waits for another.
+const MOST_AT_ONCE: usize = 8;
 
 /// How many parameters a signal has at most.
 const MOST_PARAMS: usize = 4;
 
 /// Rows that are read or written.
-struct Rows<S: Storage> {
+struct Moving<S: Storage> {
     view: View<S>,
     stride: usize,
     row: Row,
     tiles: Option<(Tiles, Moves<S::Number>)>,
 }
 
-impl<S: Storage> Rows<S> {
-    /// The rows of a view, if it is made of rows that are no lines.
-    fn of(view: View<S>, unit: Unit, over: bool) -> Option<Self> {
-        let Places::Rows { stride, row } = view.places else { return None };
-        let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-        Some(Self { view, stride, row, tiles: moves.map(|moves| (Tiles::new(&row, over), moves)) })
+impl<S: Storage> Moving<S> {
+    /// Puts the rows of a view there, if it is made of rows.
+    fn fill(at: &mut Option<Self>, view: View<S>, unit: Unit, over: bool) {
+        if let Places::Rows { stride, row } = view.places {
+            let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
+            let tiles = moves.map(|moves| (Tiles::new(&row, over), moves));
+            *at = Some(Self { view, stride, row, tiles });
+        }
     }
 
     /// How many signals of a block there are.
@@ -101,79 +99,134 @@ impl<S: Storage> Rows<S> {
         self.view.planes[plane].wrapping_add(block * BLOCK * self.stride)
     }
 
-    /// Reads a block.
+    /// Whether blocks up to one are full, and so is what tiles touch of them.
+    fn is_full(&self, blocks: &Range<usize>, touched: usize) -> bool {
+        let end = (blocks.end * BLOCK - 1) * self.stride + touched;
+        self.filled(blocks.end - 1) == BLOCK && self.view.lengths[..self.view.plane_count].iter().all(|length| end <= *length)
+    }
+
+    /// Reads blocks, each to lines of `step` numbers.
     ///
     /// # Safety
     ///
-    /// The view's memory may be read, and there are [`MOST_LINES`] lines.
-    unsafe fn read(&self, block: usize, lines: *mut S::Number) {
-        let filled = self.filled(block);
+    /// The view's memory may be read, and there is room for the lines.
+    unsafe fn read(&self, blocks: Range<usize>, lines: *mut S::Number, step: usize) {
         for plane in 0..self.view.plane_count {
-            let rows = self.first(plane, block);
             let lines = lines.wrapping_add(plane * self.row.channels * self.row.count * BLOCK);
-            // SAFETY: the caller's; a tile is read where the last row still has what it touches.
+            // SAFETY: the caller's; tiles are read where the last row still has what they touch.
             unsafe {
-                if let Some((tiles, moves)) = &self.tiles {
-                    let end = (block * BLOCK + BLOCK - 1) * self.stride + tiles.touched;
-                    if filled == BLOCK && end <= self.view.lengths[plane] {
-                        (moves.gather)(rows.cast_const().cast(), self.stride, tiles.tiles(), lines);
-                        for &(column, line) in tiles.alone() {
-                            for k in 0..BLOCK {
-                                let number = rows.add(k * self.stride + column as usize).cast::<S::Number>().read();
-                                lines.add(line as usize * BLOCK + k).write(number);
-                            }
+                match &self.tiles {
+                    Some((tiles, moves)) if self.is_full(&blocks, tiles.touched) => {
+                        let first = self.first(plane, blocks.start).cast_const().cast();
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        (moves.gather)(tiles, rows, lines, step);
+                        if !tiles.alone().is_empty() {
+                            self.read_alone(rows, tiles, lines, step);
                         }
-                        continue;
                     }
-                }
-                let mut row = [S::Number::default(); MOST_LINES];
-                for k in 0..BLOCK {
-                    // What a block has too much is like the last that is there.
-                    let first = rows.add(k.min(filled - 1) * self.stride);
-                    self.each_run(|column, line, count| {
-                        S::widen(core::slice::from_raw_parts(first.add(column), count), &mut row[..count]);
-                        for (i, number) in row[..count].iter().enumerate() {
-                            lines.add(line(i) * BLOCK + k).write(*number);
+                    _ => {
+                        for (place, block) in blocks.clone().enumerate() {
+                            self.read_plainly(plane, block, lines.wrapping_add(place * step));
                         }
-                    });
+                    }
                 }
             }
         }
     }
 
-    /// Writes a block.
+    /// Reads what is in no tile.
     ///
     /// # Safety
     ///
-    /// The view's memory may be written, and there are as many lines as it has numbers.
-    unsafe fn write(&self, block: usize, lines: *const S::Number) {
-        let filled = self.filled(block);
+    /// As [`read`](Self::read).
+    unsafe fn read_alone(&self, rows: Rows<*const S::Number>, tiles: &Tiles, lines: *mut S::Number, step: usize) {
+        for k in 0..rows.blocks * BLOCK {
+            for &(column, line) in tiles.alone() {
+                // SAFETY: the caller's.
+                unsafe {
+                    let number = rows.first.add(k * rows.stride + column as usize).read();
+                    lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).write(number);
+                }
+            }
+        }
+    }
+
+    /// Reads a block number by number: one that is not full, or of another precision.
+    ///
+    /// # Safety
+    ///
+    /// As [`read`](Self::read).
+    #[inline(never)]
+    unsafe fn read_plainly(&self, plane: usize, block: usize, lines: *mut S::Number) {
+        let (rows, filled) = (self.first(plane, block), self.filled(block));
+        let mut row = [S::Number::default(); MOST_LINES];
+        for k in 0..BLOCK {
+            // What a block has too much is like the last that is there.
+            let first = rows.wrapping_add(k.min(filled - 1) * self.stride);
+            self.each_run(|column, line, count| {
+                // SAFETY: the caller's.
+                unsafe {
+                    S::widen(core::slice::from_raw_parts(first.add(column), count), &mut row[..count]);
+                    for (i, number) in row[..count].iter().enumerate() {
+                        lines.add((line + i) * BLOCK + k).write(*number);
+                    }
+                }
+            });
+        }
+    }
+
+    /// Writes blocks, each of lines of `step` numbers.
+    ///
+    /// # Safety
+    ///
+    /// The view's memory may be written, and there are lines.
+    unsafe fn write(&self, blocks: Range<usize>, lines: *const S::Number, step: usize) {
         for plane in 0..self.view.plane_count {
-            let rows = self.first(plane, block);
             let lines = lines.wrapping_add(plane * self.row.channels * self.row.count * BLOCK);
             // SAFETY: the caller's; tiles touch what they write alone.
             unsafe {
-                if let Some((tiles, moves)) = self.tiles.as_ref().filter(|_| filled == BLOCK) {
-                    (moves.scatter)(lines, tiles.tiles(), rows.cast(), self.stride);
-                    for &(column, line) in tiles.alone() {
-                        for k in 0..BLOCK {
-                            let number = lines.add(line as usize * BLOCK + k).read();
-                            rows.add(k * self.stride + column as usize).cast::<S::Number>().write(number);
+                match &self.tiles {
+                    Some((tiles, moves)) if self.filled(blocks.end - 1) == BLOCK => {
+                        let first = self.first(plane, blocks.start).cast();
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        (moves.scatter)(tiles, lines, step, rows);
+                        for k in 0..rows.blocks * BLOCK {
+                            for &(column, line) in tiles.alone() {
+                                let number = lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).read();
+                                rows.first.add(k * rows.stride + column as usize).write(number);
+                            }
                         }
                     }
-                    continue;
-                }
-                let mut row = [S::Number::default(); MOST_LINES];
-                for k in 0..filled {
-                    let first = rows.add(k * self.stride);
-                    self.each_run(|column, line, count| {
-                        for (i, number) in row[..count].iter_mut().enumerate() {
-                            *number = lines.add(line(i) * BLOCK + k).read();
+                    _ => {
+                        for (place, block) in blocks.clone().enumerate() {
+                            self.write_plainly(plane, block, lines.wrapping_add(place * step));
                         }
-                        S::narrow(&row[..count], core::slice::from_raw_parts_mut(first.add(column), count));
-                    });
+                    }
                 }
             }
+        }
+    }
+
+    /// Writes a block number by number: one that is not full, or of another precision.
+    ///
+    /// # Safety
+    ///
+    /// As [`write`](Self::write).
+    #[inline(never)]
+    unsafe fn write_plainly(&self, plane: usize, block: usize, lines: *const S::Number) {
+        let rows = self.first(plane, block);
+        let mut row = [S::Number::default(); MOST_LINES];
+        for k in 0..self.filled(block) {
+            let first = rows.wrapping_add(k * self.stride);
+            self.each_run(|column, line, count| {
+                // SAFETY: the caller's.
+                unsafe {
+                    for (i, number) in row[..count].iter_mut().enumerate() {
+                        *number = lines.add((line + i) * BLOCK + k).read();
+                    }
+                    S::narrow(&row[..count], core::slice::from_raw_parts_mut(first.add(column), count));
+                }
+            });
         }
     }
 
@@ -181,14 +234,13 @@ impl<S: Storage> Rows<S> {
     ///
     /// # Safety
     ///
-    /// As [`write`](Self::write); the rows have no gaps, are sixteen, and begin at a multiple of 16 bytes.
+    /// As [`write`](Self::write); the rows have no gaps and are sixteen.
     unsafe fn stream(&self, unit: Unit, block: usize, lines: *const S::Number, aside: *mut S::Number) {
         let Some((tiles, moves)) = &self.tiles else { return };
         let to: *mut S::Number = self.first(0, block).cast();
-        let unit = if to.align_offset(64) == 0 { unit } else { Unit::Base };
         // SAFETY: the caller's; all columns are in tiles, since they lie side by side.
         unsafe {
-            (moves.scatter)(lines, tiles.tiles(), aside, self.stride);
+            (moves.scatter)(tiles, lines, 0, Rows { first: aside, stride: self.stride, blocks: 1 });
             S::Number::stream(unit)(aside, to, BLOCK * self.stride);
         }
     }
@@ -197,22 +249,20 @@ impl<S: Storage> Rows<S> {
     fn streams(&self) -> bool {
         let has_no_gaps = self.stride == self.row.count * self.row.channels && self.view.plane_count == 1;
         let is_in_tiles = |(tiles, _): &(Tiles, _)| tiles.alone().is_empty();
-        let is_aligned = self.view.planes[0].align_offset(16) == 0 && (self.stride * size_of::<S>()).is_multiple_of(4);
-        has_no_gaps && is_aligned && self.tiles.as_ref().is_some_and(is_in_tiles)
+        has_no_gaps && self.tiles.as_ref().is_some_and(is_in_tiles)
     }
 
-    /// Columns side by side that are lines one after the other, or all of one number: the first column, the line of each, how many.
+    /// Columns side by side that are lines one after the other: the first of both, and how many.
     #[inline(always)]
-    fn each_run(&self, mut run: impl FnMut(usize, &dyn Fn(usize) -> usize, usize)) {
+    fn each_run(&self, mut run: impl FnMut(usize, usize, usize)) {
         let (row, count) = (&self.row, self.row.count);
         for channel in 0..row.channels {
             let is_dense = count < 3 || row.column(channel, 2) == row.column(channel, 1) + 1;
-            let start = if is_dense { 1 } else { count };
-            for i in 0..start.min(count) {
-                run(row.column(channel, i), &|_| channel * count + i, 1);
+            for i in 0..if is_dense { 1 } else { count } {
+                run(row.column(channel, i), channel * count + i, 1);
             }
             if is_dense && count > 1 {
-                run(row.column(channel, 1), &|i| channel * count + 1 + i, count - 1);
+                run(row.column(channel, 1), channel * count + 1, count - 1);
             }
         }
     }
@@ -230,6 +280,27 @@ unsafe fn widen<S: Storage>(view: &View<S>, block: usize, lines: *mut S::Number)
         unsafe {
             let from = core::slice::from_raw_parts(view.line(channel, block).cast_const(), count);
             S::widen(from, core::slice::from_raw_parts_mut(lines.add(channel * count), count));
+        }
+    }
+}
+
+/// Reads blocks to lines, so many numbers a block.
+///
+/// # Safety
+///
+/// The view may be read, and there are lines for all of these blocks and [`MOST_LINES`] in all.
+unsafe fn read<S: Storage>(
+    view: &View<S>,
+    rows: &Option<Moving<S>>,
+    blocks: Range<usize>,
+    first: *mut S::Number,
+    step: usize,
+) {
+    // SAFETY: the caller's.
+    unsafe {
+        match rows {
+            Some(rows) => rows.read(blocks, first, step),
+            None => blocks.enumerate().for_each(|(place, block)| widen(view, block, first.wrapping_add(place * step))),
         }
     }
 }
@@ -263,22 +334,19 @@ pub(super) fn map<S: Storage, D: Storage<Number = S::Number>>(
     let unit = Unit::used();
     let task = Task { run: None, unit, params: Params::None, from: Input::Each(*from), other: None, to: *to };
     task.check()?;
-    let (from_rows, to_rows) = (Rows::of(*from, unit, true), Rows::of(*to, unit, false));
-    let (mut given, mut made) = (Aside::<S::Number>::new(), Aside::new());
+    let Moved { from: from_rows, to: to_rows, .. } = task.moves();
+    let (mut given, mut made) = (Room::<S>::new(), Room::<S>::new());
     for block in 0..to.block_count() {
         let (given, made): (*mut S::Number, *mut S::Number) = (given.first(), made.first());
         // SAFETY: sizes are checked and what made the views is borrowed by the function that calls; every line is written before
         // it is read.
         unsafe {
-            match &from_rows {
-                Some(rows) => rows.read(block, given),
-                None => widen(from, block, given),
-            }
+            read(from, &from_rows, block..block + 1, given, 0);
             for channel in 0..to.channels {
                 of(given.add(channel * from.count * BLOCK), made.add(channel * to.count * BLOCK));
             }
             match &to_rows {
-                Some(rows) => rows.write(block, made),
+                Some(rows) => rows.write(block..block + 1, made, 0),
                 None => narrow(to, block, made),
             }
         }
@@ -345,58 +413,79 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         Ok(())
     }
 
+    /// Returns what reads and writes rows, for all of the blocks.
+    #[inline(always)]
+    pub fn moves(&self) -> Moved<S, D> {
+        let mut moves = Moved { params: None, from: None, other: None, to: None };
+        self.fill(&mut moves);
+        moves
+    }
+
+    /// Puts what reads and writes rows there; what is not there is not copied, since tables are thousands of bytes.
+    fn fill(&self, moves: &mut Moved<S, D>) {
+        if let Params::Each(view) = &self.params {
+            Moving::fill(&mut moves.params, *view, self.unit, true);
+        }
+        if let Input::Each(view) = &self.from {
+            Moving::fill(&mut moves.from, *view, self.unit, true);
+        }
+        if let Some(view) = self.other {
+            Moving::fill(&mut moves.other, view, self.unit, true);
+        }
+        Moving::fill(&mut moves.to, self.to, self.unit, false);
+    }
+
     /// Runs the kernel over some of the blocks.
     ///
     /// # Safety
     ///
     /// [`check`](Self::check) has passed, the views' memory is borrowed, and nobody else touches these blocks of the results.
-    pub unsafe fn over(&self, blocks: Range<usize>) {
-        if blocks.is_empty() {
-            return;
-        }
-        // The last block may be half empty, so that it is worked on by itself.
-        let last = self.to.block_count() - 1;
-        if blocks.end > last && blocks.start < last {
-            // SAFETY: the caller's.
-            unsafe {
-                self.part(blocks.start..last);
-                self.part(last..blocks.end);
+    pub unsafe fn over(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+        // A last block that is not full is worked on by itself.
+        let views = [self.to.signals].into_iter().chain(self.signals());
+        let is_full = views.into_iter().all(|signals| signals.is_multiple_of(BLOCK));
+        let last = self.to.block_count().saturating_sub(1);
+        let middle = if is_full { blocks.end } else { blocks.end.min(last).max(blocks.start) };
+        for part in [blocks.start..middle, middle..blocks.end] {
+            if !part.is_empty() {
+                // SAFETY: the caller's.
+                unsafe { self.part(moves, part) }
             }
-            return;
         }
-        // SAFETY: the caller's.
-        unsafe { self.part(blocks) }
+    }
+
+    /// How many signals and parameters there are.
+    fn signals(&self) -> impl Iterator<Item = usize> {
+        let params = if let Params::Each(view) = &self.params { Some(view.signals) } else { None };
+        let from = if let Input::Each(view) = &self.from { Some(view.signals) } else { None };
+        params.into_iter().chain(from).chain(self.other.map(|view| view.signals))
     }
 
     /// # Safety
     ///
     /// As [`over`](Self::over).
-    unsafe fn part(&self, blocks: Range<usize>) {
+    unsafe fn part(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
         let unit = self.unit;
         let as_lines = if let Input::Each(view) = &self.from { direct(view, &blocks) } else { None };
         let other_lines = self.other.as_ref().and_then(|view| direct(view, &blocks));
         let to_lines = direct(&self.to, &blocks);
-        let is_plain = |lines: &Option<Lines<_>>, is_there: bool| lines.is_some() || !is_there;
-        let at_once = match is_plain(&as_lines, matches!(self.from, Input::Each(_)))
-            && is_plain(&other_lines, self.other.is_some())
-            && to_lines.is_some()
-        {
-            true => READ_AT_ONCE,
-            false => 1,
-        };
-        let param_rows = if let Params::Each(view) = &self.params { Rows::of(*view, unit, true) } else { None };
+        let lines_of = |view: &View<S>, is_there: bool| if is_there { 0 } else { view.count * view.channels };
+        let of_from = if let Input::Each(view) = &self.from { lines_of(view, as_lines.is_some()) } else { 0 };
+        let of_other = self.other.as_ref().map_or(0, |view| lines_of(view, other_lines.is_some()));
+        let of_to = if to_lines.is_some() { 0 } else { self.to.count * self.to.channels };
+        let most = of_from.max(of_other).max(of_to);
+        let at_once = (MOST_LINES / most.max(1)).clamp(1, MOST_AT_ONCE);
         let param_lines = if let Params::Each(view) = &self.params { direct(view, &blocks) } else { None };
-        let from_rows = if let Input::Each(view) = &self.from { Rows::of(*view, unit, true) } else { None };
-        let other_rows = self.other.and_then(|view| Rows::of(view, unit, true));
-        let to_rows = Rows::of(self.to, unit, false);
+        let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows } = moves;
         let is_in_place = matches!(&self.from, Input::Each(view) if view.planes[0].cast::<D>() == self.to.planes[0]);
-        let is_large = self.to.bytes() >= STREAMS_FROM.load(Ordering::Relaxed) && !is_in_place;
+        let bytes = if let Input::Each(view) = &self.from { view.bytes() } else { 0 };
+        let is_large = bytes + self.to.bytes() >= STREAMS_FROM.load(Ordering::Relaxed) && !is_in_place;
         let is_aligned = |at: &*mut S::Number| at.is_null() || at.align_offset(64) == 0;
         let streams = is_large && to_lines.as_ref().is_some_and(|lines| lines.at.iter().all(is_aligned));
         let (mut params_aside, mut from_aside, mut other_aside, mut to_aside) =
-            (Aside::<S::Number>::new(), Aside::new(), Aside::new(), Aside::new());
+            (Room::<S>::new(), Room::<S>::new(), Room::<S>::new(), Room::<S>::new());
         // Without parameters in rows nothing is read ahead, and one call does all that lies in lines.
-        let is_whole = at_once > 1 && (param_lines.is_some() || !matches!(self.params, Params::Each(_)));
+        let is_whole = most == 0 && (param_lines.is_some() || !matches!(self.params, Params::Each(_)));
         let mut start = blocks.start;
         while start < blocks.end {
             let end = if is_whole { blocks.end } else { (start + at_once).min(blocks.end) };
@@ -412,15 +501,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     (Params::Shared(numbers), _) => Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0 },
                     (Params::Each(_), Some(lines)) => shared(&forward(lines)),
                     (Params::Each(view), None) => {
-                        let first = params_aside.first();
-                        for block in start..end {
-                            let lines = first.add((block - start) * MOST_PARAMS * BLOCK);
-                            match &param_rows {
-                                Some(rows) => rows.read(block, lines),
-                                None => widen(view, block, lines),
-                            }
-                        }
-                        shared(&aside(first, 0, MOST_PARAMS * BLOCK))
+                        let (first, step) = (params_aside.first(), MOST_PARAMS * BLOCK);
+                        read(view, param_rows, start..end, first, step);
+                        shared(&aside(first, 0, step))
                     }
                 };
                 let mut taken = None;
@@ -429,25 +512,19 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     (Input::Shared(at), _) => Lines { at: *at, step: 0 },
                     (Input::Each(_), Some(lines)) => shared(&forward(lines)),
                     (Input::Each(view), None) => {
-                        let first = from_aside.first();
-                        match &from_rows {
-                            Some(rows) => rows.read(start, first),
-                            None => widen(view, start, first),
-                        }
+                        let (first, step) = (from_aside.first(), of_from * BLOCK);
+                        read(view, from_rows, start..end, first, step);
                         taken = Some(first);
-                        shared(&aside(first, view.count, 0))
+                        shared(&aside(first, view.count, step))
                     }
                 };
                 let other = match (&self.other, &other_lines) {
                     (None, _) => nowhere(),
                     (Some(_), Some(lines)) => shared(&forward(lines)),
                     (Some(view), None) => {
-                        let first = other_aside.first();
-                        match &other_rows {
-                            Some(rows) => rows.read(start, first),
-                            None => widen(view, start, first),
-                        }
-                        shared(&aside(first, view.count, 0))
+                        let (first, step) = (other_aside.first(), of_other * BLOCK);
+                        read(view, other_rows, start..end, first, step);
+                        shared(&aside(first, view.count, step))
                     }
                 };
                 // A kernel of one signal to one may write where it reads.
@@ -456,9 +533,10 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     Some(first) => first,
                     None => to_aside.first(),
                 };
+                let step = of_to * BLOCK;
                 let to = match &to_lines {
                     Some(lines) => forward(lines),
-                    None => aside(first, self.to.count, 0),
+                    None => aside(first, self.to.count, step),
                 };
                 let pass = Pass { blocks: end - start, channels: self.to.channels, params, from, other, to, streams };
                 match self.run {
@@ -466,12 +544,13 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     None => super::kernels::copy_lines(&pass, self.to.count),
                 }
                 if to_lines.is_none() {
-                    match &to_rows {
-                        Some(rows) if is_large && rows.streams() && rows.filled(start) == BLOCK => {
-                            rows.stream(unit, start, first, other_aside.first());
+                    let lines = |block: usize| first.add((block - start) * step);
+                    match to_rows {
+                        Some(rows) if is_large && rows.streams() && rows.filled(end - 1) == BLOCK => {
+                            (start..end).for_each(|block| rows.stream(unit, block, lines(block), other_aside.first()));
                         }
-                        Some(rows) => rows.write(start, first),
-                        None => narrow(&self.to, start, first),
+                        Some(rows) => rows.write(start..end, first, step),
+                        None => (start..end).for_each(|block| narrow(&self.to, block, lines(block))),
                     }
                 }
             }

@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::kernels::{self, Kernel, Pass};
 use super::registers::{Quads, Register};
-use super::rows::{Tile, Tiles};
+use super::rows::{Rows, Tiles};
 use super::signals::Storage;
 
 /// A vector unit, by what it needs of the processor; later ones are wider.
@@ -96,10 +96,10 @@ pub struct Kernels<T> {
 /// How rows are read to lines and written from them, tiles of four columns at a time.
 #[derive(Clone, Copy)]
 pub struct Moves<T> {
-    /// Reads a block's rows.
-    pub gather: unsafe fn(rows: *const T, stride: usize, tiles: &[Tile], lines: *mut T),
-    /// Writes a block's rows.
-    pub scatter: unsafe fn(lines: *const T, tiles: &[Tile], rows: *mut T, stride: usize),
+    /// Reads rows.
+    pub gather: unsafe fn(tiles: &Tiles, rows: Rows<*const T>, lines: *mut T, step: usize),
+    /// Writes rows.
+    pub scatter: unsafe fn(tiles: &Tiles, lines: *const T, step: usize, rows: Rows<*mut T>),
 }
 
 /// A precision that batches work in: `f32` or `f64`.
@@ -110,7 +110,7 @@ pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> {
     /// Returns how rows are read and written, if a unit does it.
     #[doc(hidden)]
     fn moves(unit: Unit) -> Option<Moves<Self>>;
-    /// Returns what writes past the caches so many numbers, a multiple of sixteen, to a multiple of 64 bytes.
+    /// Returns what writes so many numbers past the caches.
     #[doc(hidden)]
     fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize);
 }
@@ -134,28 +134,36 @@ macro_rules! unit {
             ///
             /// As [`Tiles::gather`]; the processor has the unit.
             $(#[$features])?
-            unsafe fn gather<R: Quads>(rows: *const R::Number, stride: usize, tiles: &[Tile], lines: *mut R::Number) {
+            unsafe fn gather<R: Quads>(tiles: &Tiles, rows: Rows<*const R::Number>, lines: *mut R::Number, step: usize) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
-                unsafe { Tiles::gather::<R>(rows, stride, tiles, lines) }
+                unsafe { tiles.gather::<R>(rows, lines, step) }
             }
 
             /// # Safety
             ///
             /// As [`Tiles::scatter`]; the processor has the unit.
             $(#[$features])?
-            unsafe fn scatter<R: Quads>(lines: *const R::Number, tiles: &[Tile], rows: *mut R::Number, stride: usize) {
+            unsafe fn scatter<R: Quads>(tiles: &Tiles, lines: *const R::Number, step: usize, rows: Rows<*mut R::Number>) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
-                unsafe { Tiles::scatter::<R>(lines, tiles, rows, stride) }
+                unsafe { tiles.scatter::<R>(lines, step, rows) }
             }
 
             /// # Safety
             ///
-            /// There are so many numbers, and room for them at a multiple of 64 bytes; the processor has the unit.
+            /// There are so many numbers, and room for them; the processor has the unit.
             $(#[$features])?
             unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, count: usize) {
-                for i in (0..count).step_by(R::LANES) {
-                    // SAFETY: the caller's.
-                    unsafe { R::load(from.add(i)).stream(to.add(i)) }
+                // What lies in a line of the cache that is not all of it is stored: another block has the rest.
+                let before = to.align_offset(64).min(count);
+                let lines = (count - before) / R::LANES * R::LANES;
+                // SAFETY: the caller's.
+                unsafe {
+                    from.copy_to_nonoverlapping(to, before);
+                    for i in (before..before + lines).step_by(R::LANES) {
+                        R::load(from.add(i)).stream(to.add(i));
+                    }
+                    let done = before + lines;
+                    from.add(done).copy_to_nonoverlapping(to.add(done), count - done);
                 }
                 R::fence();
             }

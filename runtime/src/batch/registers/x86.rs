@@ -158,6 +158,8 @@ quads! {
     };
     interleave |a, b| _mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b);
     halves |a, b| _mm512_shuffle_ps::<0x44>(a, b), _mm512_shuffle_ps::<0xEE>(a, b);
+    cross |a, b| _mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xEE>(a, b),
+        _mm512_shuffle_f32x4::<0x88>(a, b), _mm512_shuffle_f32x4::<0xDD>(a, b);
 }
 
 quads! {
