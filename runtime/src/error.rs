@@ -164,7 +164,7 @@ impl fmt::Display for Error {
                 match order * order == count {
                     true => write!(
                         f,
-                        "no such kernel of order {order} is there: orders are 2 to 10, of products 2 to 8, and each a feature \
+                        "no such kernel of order {order} is there: orders are 2 to 10, of products 2 to 6, and each a feature \
                          of zonal, `order{order}`"
                     ),
                     false => write!(f, "{count} coefficients are no order: order n has n²"),

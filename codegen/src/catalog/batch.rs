@@ -21,7 +21,8 @@ fn specs(order: usize) -> Vec<Spec> {
     let spec = |text: &String| text.parse::<Spec>().expect("a kernel of the catalogue");
     let pieces = wanted.iter().flat_map(|text| spec(text).in_pieces());
     // A product of a high order is none of the catalogue's.
-    pieces.chain(whole.iter().filter_map(|text| text.parse().ok())).collect()
+    let is_known = |spec: &Spec| (spec.family.shown)(order).contains(spec);
+    pieces.chain(whole.iter().filter_map(|text| text.parse().ok()).filter(is_known)).collect()
 }
 
 /// The Rust files, one an order.

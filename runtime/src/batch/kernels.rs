@@ -416,11 +416,11 @@ orders! {
     "order7" sh7, 49:
         each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
         all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt], product Product;
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt];
     "order8" sh8, 64:
         each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
         all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt], product Product;
+        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt];
     "order9" sh9, 81:
         each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],
         all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],

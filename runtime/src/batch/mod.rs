@@ -309,7 +309,7 @@ macro_rules! functions {
         }
 
         /// Multiplies each two signals, as the kernel `product:n` does: what the product has beyond the order is cut off. The orders
-        /// 2 to 8.
+        /// 2 to 6.
         ///
         /// # Errors
         ///

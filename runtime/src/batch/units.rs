@@ -89,7 +89,7 @@ pub struct Kernels<T> {
     pub eval: Run<T>,
     /// The value of one in each direction.
     pub eval_all: Run<T>,
-    /// The product of each two, up to order 8.
+    /// The product of each two, up to order 6.
     pub product: Option<Run<T>>,
 }
 
@@ -181,7 +181,7 @@ macro_rules! unit {
         pub fn $name(order: usize) -> Option<Kernels<$number>> {
             unit!(@ orders $register, order,
                 "order2" 2 sh2 product, "order3" 3 sh3 product, "order4" 4 sh4 product, "order5" 5 sh5 product,
-                "order6" 6 sh6 product, "order7" 7 sh7 product, "order8" 8 sh8 product, "order9" 9 sh9 none,
+                "order6" 6 sh6 product, "order7" 7 sh7 none, "order8" 8 sh8 none, "order9" 9 sh9 none,
                 "order10" 10 sh10 none)
         }
     };

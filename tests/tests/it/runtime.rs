@@ -23,6 +23,7 @@ macro_rules! every_order {
 }
 
 mod arithmetic;
+mod batch;
 mod conventions;
 mod dependents;
 mod light;
