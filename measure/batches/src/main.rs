@@ -1,9 +1,14 @@
-//! The command `cargo measure-batches`: times every batch function beside a copy of the same bytes and prints the law's k.
+//! The command `cargo measure-batches`: times every batch function beside a copy of the same bytes, prints each time with the
+//! law's k, and writes `docs/BATCHES.md` and `docs/batches.json` if everything was timed.
 
 use clap::Parser;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use zonal::batch::Unit;
+use zonal_measure_batches::page::{self, Report};
 use zonal_measure_batches::peak;
-use zonal_measure_batches::time::{IN_CACHE, Rounds, Row_, STREAMING, measure};
+use zonal_measure_batches::time::{IN_CACHE, Measured, Rounds, STREAMING, measure};
 
 /// Time every batch function beside a copy of the same bytes.
 #[derive(Parser)]
@@ -12,37 +17,79 @@ struct Arguments {
     /// The orders.
     #[arg(long, value_delimiter = ',', default_value = "2,3,4,5,6,7,8,9,10")]
     orders: Vec<usize>,
-    /// How many rounds.
-    #[arg(long, default_value_t = 15)]
+    /// How many rounds, of which the fastest counts.
+    #[arg(long, default_value_t = 25)]
     rounds: usize,
-    /// A function, a layout or both.
+    /// Time a function, a layout or both alone, and write nothing.
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
-    /// The units.
+    /// Time these units alone, and write nothing.
     #[arg(long, value_delimiter = ',')]
     units: Vec<String>,
-    /// The signals.
+    /// How many signals.
     #[arg(long, value_delimiter = ',', default_values_t = [IN_CACHE, STREAMING])]
     signals: Vec<usize>,
+    /// The folder of the page and its figures.
+    #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs"))]
+    output: PathBuf,
 }
 
-fn main() {
-    let arguments = Arguments::parse();
-    for unit in Unit::ALL.into_iter().rev().filter(|unit| unit.is_there()) {
-        let peak = peak::multiplications(unit);
-        println!("{unit}: {peak:.1} multiplications a nanosecond");
-        if !arguments.units.is_empty() && !arguments.units.contains(&unit.to_string()) {
+/// What the system calls the processor.
+fn machine() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| {
+        let line = text.lines().find(|line| line.starts_with(name))?;
+        Some(line.split(':').nth(1)?.trim().to_owned())
+    };
+    let model = field("model name").unwrap_or_else(|| std::env::consts::ARCH.to_owned());
+    match field("cpu family") {
+        Some(family) => format!("{model}, family {family}"),
+        None => model,
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let mut report = Report { machine: machine(), units: Vec::new(), rows: Vec::new() };
+    for unit in Unit::ALL.into_iter().rev() {
+        let is_asked_for = arguments.units.is_empty() || arguments.units.contains(&unit.to_string());
+        if !is_asked_for {
             continue;
         }
+        if !unit.is_there() {
+            println!("{unit}: this processor has none");
+            continue;
+        }
+        let peak = peak::multiplications(unit);
+        println!("{unit}: {peak:.1} multiplications a nanosecond");
+        report.units.push((unit.to_string(), peak));
         for &signals in &arguments.signals {
             let rounds = Rounds { rounds: arguments.rounds, signals: 20_480 };
-            for row in measure(unit, peak, &arguments.orders, signals, rounds, &arguments.only, || ()) {
-                let Row_ { function, layout, order, nanoseconds, copy, multiplications, .. } = &row;
+            let rows = measure(unit, peak, &arguments.orders, signals, rounds, &arguments.only, || ());
+            for row in &rows {
+                let Measured { function, layout, order, nanoseconds, copy, multiplications, .. } = row;
                 println!(
-                    "{unit} {signals:6} {function:12} {layout:8} {order:2}: {nanoseconds:7.2} ns, copy {copy:6.2}, floor {multiplications:6.2}, {:5.2} copies, k {:4.2}",
-                    row.copies(), row.k()
+                    "{unit} {signals:6} {function:12} {layout:8} {order:2}: {nanoseconds:7.2} ns, copy {copy:6.2}, peak \
+                     {multiplications:6.2}, {:5.2} copies, k {:4.2}",
+                    row.copies(),
+                    row.k()
                 );
             }
+            report.rows.extend(rows);
+        }
+    }
+    if arguments.only.is_empty() && arguments.units.is_empty() && arguments.orders.len() == 9 {
+        std::fs::write(arguments.output.join(page::JSON), page::json(&report)?)?;
+        std::fs::write(arguments.output.join(page::PAGE), page::markdown(&report))?;
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
         }
     }
 }

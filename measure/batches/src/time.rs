@@ -15,7 +15,7 @@ pub const STREAMING: usize = 102_400;
 
 /// What is timed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row_ {
+pub struct Measured {
     /// The vector unit.
     pub unit: String,
     /// The function.
@@ -34,7 +34,7 @@ pub struct Row_ {
     pub multiplications: f64,
 }
 
-impl Row_ {
+impl Measured {
     /// Returns how many times what it cannot be faster than.
     pub fn k(&self) -> f64 {
         self.nanoseconds / self.copy.max(self.multiplications)
@@ -125,7 +125,7 @@ struct Run<'a> {
     rounds: Rounds,
     signals: usize,
     order: usize,
-    rows: &'a mut Vec<Row_>,
+    rows: &'a mut Vec<Measured>,
     /// What is timed, by function and layout, where not everything is.
     only: &'a [String],
 }
@@ -137,7 +137,7 @@ impl Run<'_> {
             return;
         }
         let [copy, nanoseconds] = both(self.rounds, self.signals, copy, work);
-        self.rows.push(Row_ {
+        self.rows.push(Measured {
             unit: self.unit.to_string(),
             function: function.to_owned(),
             layout: layout.to_owned(),
@@ -218,7 +218,7 @@ fn order<const N: usize>(run: &mut Run<'_>) {
 }
 
 /// Times every function at some orders with a unit.
-pub fn measure(unit: Unit, peak: f64, orders: &[usize], signals: usize, rounds: Rounds, only: &[String], mut step: impl FnMut()) -> Vec<Row_> {
+pub fn measure(unit: Unit, peak: f64, orders: &[usize], signals: usize, rounds: Rounds, only: &[String], mut step: impl FnMut()) -> Vec<Measured> {
     unit.at_most();
     let mut rows = Vec::new();
     for &n in orders {

@@ -24,7 +24,7 @@
 //!
 //! A batch does the operations of the kernel that the function of the crate's root names, in `f32` or `f64`, and errs by no more
 //! than that kernel's proven bound, which holds whether a product and a sum are rounded together or not; `f16` is rounded once
-//! more when it is written. Nothing is allocated. `docs/measure/batches.md` has what each function takes beside a copy of the
+//! more when it is written. Nothing is allocated. `docs/BATCHES.md` has what each function takes beside a copy of the
 //! same bytes.
 //!
 //! # Errors
