@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the tests on drivers and in a browser need, where it is missing: software Vulkan, two independent
-# compilers, Chromium, Node and its one package. Where that is not possible it says what is missing and fails.
+# compilers, Chromium, Node and its one package; and what compiles and runs batches for aarch64. Where that is not possible it says what is missing and fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +14,9 @@ need spirv-tools command -v spirv-val
 need chromium compgen -G '/usr/lib/chromium/vk_swiftshader_icd*.json'
 need nodejs command -v node
 need npm command -v npm
+need qemu-user command -v qemu-aarch64
+need gcc-aarch64-linux-gnu command -v aarch64-linux-gnu-gcc
+need libc6-dev-arm64-cross test -e /usr/aarch64-linux-gnu/lib/libc.so.6
 
 if ((${#missing[@]})); then
     install="apt-get install -y --no-install-recommends ${missing[*]}"

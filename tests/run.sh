@@ -45,6 +45,15 @@ quick() {
     part "catalogue" "${tests[@]}" catalog::the_catalogue_is_fresh
 }
 
+# NEON's registers are compiled for aarch64 and run in an emulator.
+another_architecture() {
+    local target=aarch64-unknown-linux-gnu
+    rustup target add "$target" >/dev/null 2>&1
+    CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
+        CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
+        cargo run --quiet --target "$target" -p zonal --no-default-features --features std,batch,order5 --example batches
+}
+
 whole() {
     local component
     for component in rustfmt clippy; do
@@ -57,6 +66,7 @@ whole() {
         --features libm,all-orders,mint,serde,bytemuck
     part "generator without its checkers" cargo check --quiet -p zonal-codegen --no-default-features
     # Twice as many tests at once as there are processors: some wait for a compiler or a browser.
+    part "batches on another architecture" another_architecture
     part "tests" env RUST_TEST_THREADS="${RUST_TEST_THREADS:-$((2 * $(nproc)))}" cargo test --workspace --no-fail-fast
     part "documentation" env RUSTDOCFLAGS="-D warnings" cargo doc --quiet --workspace --no-deps
 }

@@ -57,6 +57,13 @@
 //! of radiance, of which [`h4`], [`h6`], `hl2` and [`irradiance`] are made, and [`project::on_hemisphere`] on hemispherical
 //! harmonics. `h4_at`, `h6_at` and `hl2_at` are what a shader does.
 //!
+//! # Many signals at once
+//!
+//! `batch`, with the feature of its name, rotates, tilts, evaluates and multiplies thousands of signals at the speed of memory, in the
+//! layouts that programs have them in: SSE2, AVX2, AVX-512 and NEON, found when it runs. A plain loop over arrays is
+//! slower by far, and slower still from memory if all is compiled for the processor at hand (`-C target-cpu=native`), since
+//! the compiler then gathers numbers one by one; `docs/measure/timing.md` and `docs/BATCHES.md` have the figures.
+//!
 //! # What it costs, and how exact it is
 //!
 //! [`costs`] lists every kernel's operations and its bound on rounding in `f32`; each generated function repeats its
@@ -110,7 +117,8 @@
 //! * `order2` to `order10`, or `all-orders`: the kernels of an order. `order2` to `order5` are on by default. All of them
 //!   are four megabytes of source; each order takes as long to compile as those below it together.
 //! * `glam034` (default), `glam030` to `glam033`, `mint`: their vectors as coefficients.
-//! * `rayon`: `project::parallel`.
+//! * `batch`: the module `batch`, which takes a minute to compile for all orders. `half`: `f16` in batches.
+//! * `rayon`: `project::parallel` and `batch::parallel`.
 //! * `serde`: the module `serde`, for coefficients of every order in fields. `bytemuck`: coefficients of vectors, and
 //!   [`real::Channels`], as bytes.
 //! * `shaders`: the module `shaders`.

@@ -4,8 +4,8 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::function::WrapperText;
 // Names a language: a module of Rust is laid out as crates are, which no other language has.
-use crate::emit::language::{Arrays, RUST};
 use crate::emit::language::record::{Generic, Numbers, Way};
+use crate::emit::language::{Arrays, RUST};
 use crate::emit::module::{Function, Limit, Module};
 use crate::emit::plain::{self, head, render};
 use crate::emit::support;

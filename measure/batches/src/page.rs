@@ -45,7 +45,10 @@ const LAWS: [Law; 9] = [
         what: "the same at the orders 3 and 4: k",
         most: 1.5,
         holds: |row| {
-            of(row, "rotate_each", "blocks") && row.signals == IN_CACHE && (3..5).contains(&row.order) && row.is_vector()
+            of(row, "rotate_each", "blocks")
+                && row.signals == IN_CACHE
+                && (3..5).contains(&row.order)
+                && row.is_vector()
         },
         value: Measured::k,
     },
@@ -60,7 +63,9 @@ const LAWS: [Law; 9] = [
     Law {
         what: "the same with AVX2: copies",
         most: 1.7,
-        holds: |row| of(row, "rotate_each", "blocks") && row.signals == STREAMING && row.order >= 6 && row.unit == "AVX2",
+        holds: |row| {
+            of(row, "rotate_each", "blocks") && row.signals == STREAMING && row.order >= 6 && row.unit == "AVX2"
+        },
         value: Measured::copies,
     },
     Law {

@@ -36,7 +36,14 @@ macro_rules! chains {
     };
 }
 
-chains!(avx512, "avx512f,avx512dq,avx512vl,avx2,fma", 16, _mm512_set1_ps, |x, a, b| _mm512_fmadd_ps(x, a, b), _mm512_cvtss_f32);
+chains!(
+    avx512,
+    "avx512f,avx512dq,avx512vl,avx2,fma",
+    16,
+    _mm512_set1_ps,
+    |x, a, b| _mm512_fmadd_ps(x, a, b),
+    _mm512_cvtss_f32
+);
 chains!(avx2, "avx2,fma", 8, _mm256_set1_ps, |x, a, b| _mm256_fmadd_ps(x, a, b), _mm256_cvtss_f32);
 chains!(sse2, "sse2", 4, _mm_set1_ps, |x, a, b| _mm_add_ps(_mm_mul_ps(x, a), b), _mm_cvtss_f32);
 

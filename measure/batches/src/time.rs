@@ -175,50 +175,115 @@ fn order<const N: usize>(run: &mut Run<'_>) {
         let (from, mut to) = (blocks::<N>(count), vec![Block::<f32, N>::zero(); count]);
         let mut copied = to.clone();
         let mut values = vec![Block::<f32, 1>::zero(); count];
-        run.add("rotate_each", "blocks", rotate, || copy(&from, &mut copied), || {
-            done(batch::rotate_each(black_box(&quaternions), black_box(&from), black_box(&mut to)));
-        });
-        run.add("rotate_all", "blocks", all, || copy(&from, &mut copied), || {
-            done(batch::rotate_all(black_box(q), black_box(&from), black_box(&mut to)));
-        });
-        run.add("tilt_each", "blocks", tilt, || copy(&from, &mut copied), || {
-            done(batch::tilt_each(black_box(&directions), black_box(&from), black_box(&mut to)));
-        });
-        run.add("eval_each", "blocks", eval, || copy(&from, &mut copied), || {
-            done(batch::eval_each(black_box(&directions), black_box(&from), black_box(&mut values)));
-        });
+        run.add(
+            "rotate_each",
+            "blocks",
+            rotate,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::rotate_each(black_box(&quaternions), black_box(&from), black_box(&mut to)));
+            },
+        );
+        run.add(
+            "rotate_all",
+            "blocks",
+            all,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::rotate_all(black_box(q), black_box(&from), black_box(&mut to)));
+            },
+        );
+        run.add(
+            "tilt_each",
+            "blocks",
+            tilt,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::tilt_each(black_box(&directions), black_box(&from), black_box(&mut to)));
+            },
+        );
+        run.add(
+            "eval_each",
+            "blocks",
+            eval,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::eval_each(black_box(&directions), black_box(&from), black_box(&mut values)));
+            },
+        );
         let fill = |to: &mut Vec<Block<f32, N>>| black_box(to).fill(black_box(Block::zero()));
-        run.add("basis_each", "blocks", basis, || fill(&mut copied), || {
-            done(batch::basis_each(black_box(&directions), black_box(&mut to)));
-        });
+        run.add(
+            "basis_each",
+            "blocks",
+            basis,
+            || fill(&mut copied),
+            || {
+                done(batch::basis_each(black_box(&directions), black_box(&mut to)));
+            },
+        );
     }
     {
-        let from = numbers(run.signals * N).chunks_exact(N).map(|c| c.try_into().expect("N numbers")).collect::<Vec<[f32; N]>>();
+        let from = numbers(run.signals * N)
+            .chunks_exact(N)
+            .map(|c| c.try_into().expect("N numbers"))
+            .collect::<Vec<[f32; N]>>();
         let (mut to, mut copied) = (from.clone(), from.clone());
-        run.add("rotate_each", "arrays", rotate, || copy(&from, &mut copied), || {
-            done(batch::rotate_each(black_box(&quaternions), black_box(&from), black_box(&mut to)));
-        });
-        run.add("rotate_all", "arrays", all, || copy(&from, &mut copied), || {
-            done(batch::rotate_all(black_box(q), black_box(&from), black_box(&mut to)));
-        });
+        run.add(
+            "rotate_each",
+            "arrays",
+            rotate,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::rotate_each(black_box(&quaternions), black_box(&from), black_box(&mut to)));
+            },
+        );
+        run.add(
+            "rotate_all",
+            "arrays",
+            all,
+            || copy(&from, &mut copied),
+            || {
+                done(batch::rotate_all(black_box(q), black_box(&from), black_box(&mut to)));
+            },
+        );
     }
     if n == 4 {
         let from = numbers(run.signals * 48);
         let (mut to, mut copied) = (from.clone(), from.clone());
         let row = Row::splat(16);
-        run.add("rotate_each", "splats", 3 * rotate, || copy(&from, &mut copied), || {
-            let (from, to) = (Signals::rows(&from, 48, row), SignalsMut::rows(&mut to, 48, row));
-            done(batch::rotate_each(black_box(&quaternions), from.expect("fits"), to.expect("fits")));
-        });
-        run.add("rotate_all", "splats", 3 * all, || copy(&from, &mut copied), || {
-            let (from, to) = (Signals::rows(&from, 48, row), SignalsMut::rows(&mut to, 48, row));
-            done(batch::rotate_all(black_box(q), from.expect("fits"), to.expect("fits")));
-        });
+        run.add(
+            "rotate_each",
+            "splats",
+            3 * rotate,
+            || copy(&from, &mut copied),
+            || {
+                let (from, to) = (Signals::rows(&from, 48, row), SignalsMut::rows(&mut to, 48, row));
+                done(batch::rotate_each(black_box(&quaternions), from.expect("fits"), to.expect("fits")));
+            },
+        );
+        run.add(
+            "rotate_all",
+            "splats",
+            3 * all,
+            || copy(&from, &mut copied),
+            || {
+                let (from, to) = (Signals::rows(&from, 48, row), SignalsMut::rows(&mut to, 48, row));
+                done(batch::rotate_all(black_box(q), from.expect("fits"), to.expect("fits")));
+            },
+        );
     }
 }
 
 /// Times every function at some orders with a unit.
-pub fn measure(unit: Unit, peak: f64, orders: &[usize], signals: usize, rounds: Rounds, only: &[String], mut step: impl FnMut()) -> Vec<Measured> {
+pub fn measure(
+    unit: Unit,
+    peak: f64,
+    orders: &[usize],
+    signals: usize,
+    rounds: Rounds,
+    only: &[String],
+    mut step: impl FnMut(),
+) -> Vec<Measured> {
     unit.at_most();
     let mut rows = Vec::new();
     for &n in orders {

@@ -82,6 +82,12 @@ impl<A> Aside<A> {
     }
 }
 
+/// Which of so many set-ups is a round's.
+#[inline(always)]
+fn place(round: usize, of: usize) -> usize {
+    round % of
+}
+
 /// The first number of an array that is not written yet.
 #[inline(always)]
 fn first_of<A, T>(array: &mut MaybeUninit<A>) -> *mut T {
@@ -164,7 +170,7 @@ macro_rules! each {
                 // it is, is an index and not a choice, so that the compiler leaves them in memory.
                 let mut set_ups = [const { [const { MaybeUninit::uninit() }; MOST_PARTS] }; 1 + $ahead];
                 for ahead in 0..pass.blocks + $ahead {
-                    let (next, now) = (ahead % (1 + $ahead), (ahead + $ahead) % (1 + $ahead));
+                    let (next, now) = (place(ahead, 1 + $ahead), place(ahead + $ahead, 1 + $ahead));
                     if ahead < pass.blocks {
                         for part in 0..R::PARTS {
                             let params = pass.params.block(0, ahead).wrapping_add(part * R::LANES);
@@ -243,16 +249,25 @@ macro_rules! directions {
                         let into = into.wrapping_add(part * R::LANES);
                         // SAFETY: the caller's.
                         unsafe {
-                            let params = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            let params = [0, 1, 2].map(
+                                #[inline(always)]
+                                |i| R::load(params.add(i * BLOCK)),
+                            );
                             if pass.streams && R::PARTS == 1 {
                                 zonal_kernels::batch::$module::basis::<R>(
                                     params,
-                                    &mut sink(#[inline(always)] |i, x: R| x.stream(into.add(i * BLOCK))),
+                                    &mut sink(
+                                        #[inline(always)]
+                                        |i, x: R| x.stream(into.add(i * BLOCK)),
+                                    ),
                                 );
                             } else {
                                 zonal_kernels::batch::$module::basis::<R>(
                                     params,
-                                    &mut sink(#[inline(always)] |i, x: R| x.store(into.add(i * BLOCK))),
+                                    &mut sink(
+                                        #[inline(always)]
+                                        |i, x: R| x.store(into.add(i * BLOCK)),
+                                    ),
                                 );
                             }
                         }
@@ -278,7 +293,10 @@ macro_rules! directions {
                         let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
                         // SAFETY: the caller's.
                         unsafe {
-                            let dir = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            let dir = [0, 1, 2].map(
+                                #[inline(always)]
+                                |i| R::load(params.add(i * BLOCK)),
+                            );
                             for channel in 0..pass.channels {
                                 let from = pass.from.block(channel, block).add(part * R::LANES);
                                 let ahead = pass.from.block(channel, block + 2);
@@ -287,7 +305,10 @@ macro_rules! directions {
                                 }
                                 let value = zonal_kernels::batch::$module::eval::<R, R>(
                                     dir,
-                                    &source(#[inline(always)] |i| R::load(from.add(i * BLOCK))),
+                                    &source(
+                                        #[inline(always)]
+                                        |i| R::load(from.add(i * BLOCK)),
+                                    ),
                                 );
                                 value.store(pass.to.block(channel, block).add(part * R::LANES));
                             }
@@ -307,13 +328,19 @@ macro_rules! directions {
                         let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
                         // SAFETY: the caller's; a channel's signal is a number a line.
                         unsafe {
-                            let dir = [0, 1, 2].map(#[inline(always)] |i| R::load(params.add(i * BLOCK)));
+                            let dir = [0, 1, 2].map(
+                                #[inline(always)]
+                                |i| R::load(params.add(i * BLOCK)),
+                            );
                             for channel in 0..pass.channels {
                                 let signal = pass.from.at[channel];
                                 let one = R::lit(1.0);
                                 let value = zonal_kernels::batch::$module::eval::<R, R>(
                                     dir,
-                                    &source(#[inline(always)] |i| one * *signal.add(i)),
+                                    &source(
+                                        #[inline(always)]
+                                        |i| one * *signal.add(i),
+                                    ),
                                 );
                                 value.store(pass.to.block(channel, block).add(part * R::LANES));
                             }
@@ -342,9 +369,18 @@ macro_rules! product {
                             // SAFETY: the caller's.
                             unsafe {
                                 zonal_kernels::batch::$module::product::<R, R>(
-                                    &source(#[inline(always)] |i| R::load(a.add(i * BLOCK))),
-                                    &source(#[inline(always)] |i| R::load(b.add(i * BLOCK))),
-                                    &mut sink(#[inline(always)] |i, x: R| x.store(into.add(i * BLOCK))),
+                                    &source(
+                                        #[inline(always)]
+                                        |i| R::load(a.add(i * BLOCK)),
+                                    ),
+                                    &source(
+                                        #[inline(always)]
+                                        |i| R::load(b.add(i * BLOCK)),
+                                    ),
+                                    &mut sink(
+                                        #[inline(always)]
+                                        |i, x: R| x.store(into.add(i * BLOCK)),
+                                    ),
                                 );
                             }
                         }

@@ -195,21 +195,33 @@ impl Tiles {
                 R::prefetch(ahead.wrapping_add(at));
             }
             for wide in self.wide.get() {
-                let line = source(#[inline(always)] |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK));
+                let line = source(
+                    #[inline(always)]
+                    |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
+                );
                 let first = rows.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
                     if R::IS_WIDE {
                         turn::<R>(
-                            source(#[inline(always)] |i: usize| first.add(i * stride)),
-                            source(#[inline(always)] |i: usize| line(i)),
+                            source(
+                                #[inline(always)]
+                                |i: usize| first.add(i * stride),
+                            ),
+                            source(
+                                #[inline(always)]
+                                |i: usize| line(i),
+                            ),
                         );
                         continue;
                     }
                     for part in 0..R::PARTS {
                         for x in [0, 4, 8, 12] {
                             let first = first.add(part * R::LANES * stride + x);
-                            let row = source(#[inline(always)] |i: usize| R::gather(first.add(i * stride), 4 * stride));
+                            let row = source(
+                                #[inline(always)]
+                                |i: usize| R::gather(first.add(i * stride), 4 * stride),
+                            );
                             let columns = R::transpose([row(0), row(1), row(2), row(3)]);
                             for i in 0..4 {
                                 columns[i].store(line(x + i).add(part * R::LANES));
@@ -224,9 +236,15 @@ impl Tiles {
                     // SAFETY: the caller's.
                     unsafe {
                         let first = rows.add(tile.column as usize);
-                        let row = source(#[inline(always)] |i: usize| R::gather(first.add(i * stride), 4 * stride));
+                        let row = source(
+                            #[inline(always)]
+                            |i: usize| R::gather(first.add(i * stride), 4 * stride),
+                        );
                         let columns = R::transpose([row(0), row(1), row(2), row(3)]);
-                        let line = source(#[inline(always)] |i: usize| lines.add(tile.lines[i] as usize * BLOCK));
+                        let line = source(
+                            #[inline(always)]
+                            |i: usize| lines.add(tile.lines[i] as usize * BLOCK),
+                        );
                         columns[3].store(line(3));
                         columns[2].store(line(2));
                         columns[1].store(line(1));
@@ -248,21 +266,33 @@ impl Tiles {
         for block in 0..blocks {
             let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
             for wide in self.wide.get() {
-                let line = source(#[inline(always)] |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK));
+                let line = source(
+                    #[inline(always)]
+                    |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
+                );
                 let first = rows.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
                     if R::IS_WIDE {
                         turn::<R>(
-                            source(#[inline(always)] |i: usize| line(i)),
-                            source(#[inline(always)] |i: usize| first.add(i * stride)),
+                            source(
+                                #[inline(always)]
+                                |i: usize| line(i),
+                            ),
+                            source(
+                                #[inline(always)]
+                                |i: usize| first.add(i * stride),
+                            ),
                         );
                         continue;
                     }
                     for part in 0..R::PARTS {
                         for x in [0, 4, 8, 12] {
                             let first = first.add(part * R::LANES * stride + x);
-                            let column = source(#[inline(always)] |i: usize| R::load(line(x + i).add(part * R::LANES)));
+                            let column = source(
+                                #[inline(always)]
+                                |i: usize| R::load(line(x + i).add(part * R::LANES)),
+                            );
                             let quads = R::transpose([column(0), column(1), column(2), column(3)]);
                             for i in 0..4 {
                                 quads[i].scatter(first.add(i * stride), 4 * stride);
@@ -276,7 +306,10 @@ impl Tiles {
                 for tile in self.tiles.get() {
                     // SAFETY: the caller's.
                     unsafe {
-                        let line = source(#[inline(always)] |i: usize| R::load(lines.add(tile.lines[i] as usize * BLOCK)));
+                        let line = source(
+                            #[inline(always)]
+                            |i: usize| R::load(lines.add(tile.lines[i] as usize * BLOCK)),
+                        );
                         let [p, q, r, s] = R::transpose([line(0), line(1), line(2), line(3)]);
                         let first = rows.add(tile.column as usize);
                         p.scatter(first, 4 * stride);
@@ -302,9 +335,12 @@ unsafe fn turn<R: Quads>(from: impl Fn(usize) -> *const R::Number, to: impl Fn(u
     unsafe {
         let four = source(
             #[inline(always)]
-            |i: usize| R::transpose([R::load(from(i)), R::load(from(i + 1)), R::load(from(i + 2)), R::load(from(i + 3))]),
+            |i: usize| {
+                R::transpose([R::load(from(i)), R::load(from(i + 1)), R::load(from(i + 2)), R::load(from(i + 3))])
+            },
         );
-        let ([a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]) = (four(0), four(4), four(8), four(12));
+        let ([a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]) =
+            (four(0), four(4), four(8), four(12));
         let mut store = sink(
             #[inline(always)]
             |x: usize, quads: [R; 4]| {

@@ -102,7 +102,8 @@ impl<S: Storage> Moving<S> {
     /// Whether blocks up to one are full, and so is what tiles touch of them.
     fn is_full(&self, blocks: &Range<usize>, touched: usize) -> bool {
         let end = (blocks.end * BLOCK - 1) * self.stride + touched;
-        self.filled(blocks.end - 1) == BLOCK && self.view.lengths[..self.view.plane_count].iter().all(|length| end <= *length)
+        self.filled(blocks.end - 1) == BLOCK
+            && self.view.lengths[..self.view.plane_count].iter().all(|length| end <= *length)
     }
 
     /// Reads blocks, each to lines of `step` numbers.

@@ -413,11 +413,27 @@ fn sizes_that_do_not_fit_touch_nothing() {
         assert!(error.contains(why), "{error}");
         assert_eq!(results, &untouched, "{why}");
     };
-    refused(batch::rotate_each(&quaternions[1..], &signals, &mut results), &results.clone(), "19 signals or parameters, but 20");
-    refused(batch::rotate_each(&quaternions, &signals[..19], &mut results), &results.clone(), "19 signals or parameters");
+    refused(
+        batch::rotate_each(&quaternions[1..], &signals, &mut results),
+        &results.clone(),
+        "19 signals or parameters, but 20",
+    );
+    refused(
+        batch::rotate_each(&quaternions, &signals[..19], &mut results),
+        &results.clone(),
+        "19 signals or parameters",
+    );
     let normals = vec![[0.0_f32, 0.0, 1.0]; 20];
-    refused(batch::rotate_each(&normals, &signals, &mut results), &results.clone(), "3 numbers each, but the kernel takes 4");
-    refused(batch::tilt_each(&quaternions, &signals, &mut results), &results.clone(), "4 numbers each, but the kernel takes 3");
+    refused(
+        batch::rotate_each(&normals, &signals, &mut results),
+        &results.clone(),
+        "3 numbers each, but the kernel takes 4",
+    );
+    refused(
+        batch::tilt_each(&quaternions, &signals, &mut results),
+        &results.clone(),
+        "4 numbers each, but the kernel takes 3",
+    );
     let higher = vec![[0.0_f32; 16]; 20];
     refused(batch::rotate_each(&quaternions, &higher, &mut results), &results.clone(), "9 numbers in 1 channels");
     let odd = vec![[0.0_f32; 7]; 20];
@@ -433,7 +449,10 @@ fn sizes_that_do_not_fit_touch_nothing() {
     assert!(error.to_string().contains("not of one length"), "{error}");
     let numbers = vec![0.0_f32; 100];
     for (result, why) in [
-        (Signals::rows(&numbers, 40, Row::splat(16)).map(|_| ()), "a row of 40 numbers, but its signal reaches over 48"),
+        (
+            Signals::rows(&numbers, 40, Row::splat(16)).map(|_| ()),
+            "a row of 40 numbers, but its signal reaches over 48",
+        ),
         (Signals::rows(&numbers, 48, Row::splat(16)).map(|_| ()), "4 are left over"),
         (Signals::rows(&numbers, 50, Row::interleaved(10, 5)).map(|_| ()), "1 to 100 in 1 to 4"),
     ] {
@@ -462,4 +481,62 @@ fn what_is_done_to_one_signal_is_done_to_many() {
     }
     let values = wide(&converted[0][0]);
     assert_eq!(values.len(), 3);
+}
+
+/// What a function hands over, number by number; each must come once.
+fn gathered<T: Copy + std::fmt::Debug, const N: usize>(work: impl FnOnce(&mut dyn FnMut(usize, T))) -> [T; N] {
+    let mut found = [None; N];
+    work(&mut |i, x| assert!(found[i].replace(x).is_none(), "number {i} comes twice"));
+    found.map(|x| x.expect("every number comes"))
+}
+
+#[test]
+fn kernels_into_a_sink_have_the_bits_of_those_by_value() {
+    macro_rules! sinks {
+        ($($module:ident $count:literal [$($l:literal $band:ident)*]),*) => { $({
+            let mut random = Random::new(12);
+            for _ in 0..20 {
+                let q = random.unit::<4>().map(|x| x as f32);
+                let direction = random.unit::<3>().map(|x| x as f32);
+                let c = narrow(&signal::<$count>(&mut random));
+                let basis: [f32; $count] =
+                    gathered(|sink| zonal_kernels::batch::$module::basis(direction, &mut |i, x| sink(i, x)));
+                assert_eq!(basis, zonal::$module::basis(direction));
+                let value: f32 = zonal_kernels::batch::$module::eval(direction, &|i| c[i]);
+                assert_eq!(value, zonal::$module::eval(direction, &c));
+                let mut set_up = std::array::from_fn(|_| f32::NAN);
+                zonal_kernels::batch::$module::rotate_setup(q, &mut |i, x| set_up[i] = x);
+                let wanted = zonal::$module::rotate(q, &c);
+                $(
+                    let first = $l * $l;
+                    // In one place: what is read is not read again once it is written.
+                    let place = std::cell::RefCell::new(c);
+                    zonal_kernels::batch::$module::$band(
+                        &set_up,
+                        &|i| place.borrow()[first + i],
+                        &mut |i, x: f32| place.borrow_mut()[first + i] = x,
+                    );
+                    let band = first..first + 2 * $l + 1;
+                    assert_eq!(place.borrow()[band.clone()], wanted[band], "band {} of {}", $l, stringify!($module));
+                )*
+            }
+        })* };
+    }
+    sinks!(
+        sh2 4 [1 band_1_rotate],
+        sh3 9 [1 band_1_rotate 2 band_2_rotate],
+        sh5 25 [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate],
+        sh10 100 [1 band_1_rotate 5 band_5_rotate 9 band_9_rotate]
+    );
+}
+
+#[test]
+fn a_loop_is_refused_into_a_sink_and_says_what_to_do() {
+    use zonal_codegen::builder::Builder;
+    use zonal_codegen::emit::language::{Arrays, RUST};
+    let module = |spec: &str| Builder::new("kernels").target(&RUST).arrays(Arrays::Sink).spec(spec).generate();
+    let text = &module("rotate:4").expect("straight lines are printed")[0].text;
+    assert!(text.contains("c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)"), "{text}");
+    let error = module("rotate:4:loop").expect_err("a loop is no sequence").to_string();
+    assert!(error.contains("leave `loop` out"), "{error}");
 }
