@@ -193,6 +193,11 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// The products of a kernel that vanish in the sums that use them.
+pub(crate) fn fused_products(kernel: &Kernel) -> HashSet<Id> {
+    Layout::new(kernel).fuse(&kernel.outputs).into_values().collect()
+}
+
 impl Listing {
     /// Lays a kernel out.
     pub fn new(kernel: &Kernel) -> Self {
@@ -302,6 +307,11 @@ impl Listing {
 
     /// What it needs besides operations.
     pub fn footprint(&self) -> Footprint {
+        Footprint { constants: self.constants.len(), live: self.alive(1) }
+    }
+
+    /// The most numbers that are alive at once for a signal of so many channels, inputs not counted.
+    pub fn alive(&self, channels: usize) -> usize {
         let mut last = vec![0; self.steps.len()];
         for (place, step) in self.steps.iter().enumerate() {
             for operand in step.op.operands() {
@@ -316,13 +326,14 @@ impl Listing {
             }
         }
         let mut ends = vec![0usize; self.steps.len() + 1];
-        let (mut alive, mut live) = (0usize, 0usize);
-        for (place, &end) in last.iter().enumerate() {
+        let (mut alive, mut most) = (0usize, 0usize);
+        for (place, (&end, step)) in last.iter().zip(&self.steps).enumerate() {
+            let numbers = step.kind.numbers(channels);
             alive -= ends[place];
-            alive += 1;
-            ends[end] += 1;
-            live = live.max(alive);
+            alive += numbers;
+            ends[end] += numbers;
+            most = most.max(alive);
         }
-        Footprint { constants: self.constants.len(), live }
+        most
     }
 }

@@ -35,6 +35,8 @@ pub struct Row {
     pub operations: usize,
     /// Its roots and reciprocals.
     pub special: usize,
+    /// Numbers that it is given besides the signal.
+    pub reads: usize,
     /// What was counted.
     pub gpus: [Counted; GPUS.len()],
 }
@@ -127,6 +129,7 @@ pub fn compile(program: &Path, kernels: &[Kernel], step: impl Fn()) -> Result<Re
         called: kernel.called,
         operations: kernel.operations,
         special: kernel.special,
+        reads: kernel.reads,
         gpus: std::array::from_fn(|gpu| columns[gpu][place]),
     };
     Ok(Report { driver, rows: kernels.iter().enumerate().map(row).collect() })

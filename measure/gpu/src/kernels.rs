@@ -30,6 +30,8 @@ pub struct Kernel {
     pub operations: usize,
     /// Its roots and reciprocals.
     pub special: usize,
+    /// Numbers that it is given besides the signal.
+    pub reads: usize,
     /// It, as SPIR-V.
     pub spirv: Vec<u32>,
 }
@@ -42,6 +44,7 @@ fn kernels_of(spec: &Spec, functions: &BTreeMap<Spec, Function>) -> Vec<Kernel> 
         called,
         operations: cost.total,
         special: cost.special,
+        reads: function.built.code.reads(),
         spirv: shader::spirv(&text),
     };
     let mut all = vec![kernel(Called::Whole, shader::whole(function))];

@@ -6,4 +6,6 @@ pub mod compile;
 pub mod device;
 pub mod kernels;
 pub mod page;
+pub mod price;
+pub mod registers;
 pub mod shader;

@@ -171,7 +171,7 @@ fn the_cheapest_rotation_within_the_error_is_chosen() {
                     let plan = rotation(kind, order, max_angle, max_error).unwrap_or_else(|error| panic!("{error}"));
                     let best = &plan.kernels[0];
                     let function = &plan.module.functions[0];
-                    let cost = price(function.built.code.cost(1));
+                    let cost = price(&function.built.code, 1);
                     let angle = f64::to_radians(max_angle);
                     assert!(method_error(&function.spec, angle) + best.row.accuracy.rounding_f32 <= max_error);
                     assert!(function.spec.max_angle().is_none_or(|limit| angle <= limit));
