@@ -20,6 +20,7 @@
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
 // Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP float[16] sh4_basis(ZONAL_HIGHP vec3 dir) {
@@ -63,6 +64,7 @@ ZONAL_HIGHP float[16] sh4_basis(ZONAL_HIGHP vec3 dir) {
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
 // Operations: 42 (27 mul, 0 add, 15 fma); 15 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.5e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
@@ -129,6 +131,7 @@ ZONAL_HIGHP float[16] sh4_basis_loop(ZONAL_HIGHP vec3 dir) {
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 34 (11 mul, 0 add, 23 fma); 14 constants, 6 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
@@ -155,6 +158,7 @@ ZONAL_HIGHP float sh4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 66 (13 mul, 0 add, 53 fma); 14 constants, 6 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
@@ -184,6 +188,7 @@ ZONAL_HIGHP vec3 sh4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
 //     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 15 (0 mul, 0 add, 15 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
@@ -205,6 +210,7 @@ ZONAL_HIGHP float sh4_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] 
 //     z times those of degree d-1.
 // Returns sum c_i y_i(dir).
 // Operations: 45 (0 mul, 0 add, 45 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.1e-7).
@@ -224,6 +230,7 @@ ZONAL_HIGHP vec3 sh4_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 24 (12 mul, 0 add, 12 fma); 14 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP float[16] sh4_to_monomial(ZONAL_HIGHP float[16] c) {
@@ -261,6 +268,7 @@ ZONAL_HIGHP float[16] sh4_to_monomial(ZONAL_HIGHP float[16] c) {
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 72 (36 mul, 0 add, 36 fma); 14 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 4.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP vec3[16] sh4_to_monomial_rgb(ZONAL_HIGHP vec3[16] c) {
