@@ -15,6 +15,7 @@ use crate::plan::mixtures::{self, Budget, candidates, set_up};
 use crate::plan::text::short;
 use crate::promise::built::Built;
 use crate::promise::hemisphere::Trials;
+use crate::promise::registers::MOST;
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::{Hemisphere, Job, Located, Norm, Precision, Rotation};
 use serde::Serialize;
@@ -32,15 +33,24 @@ pub const HALF_SHARE: usize = 2;
 /// rotation, which is given twice as many numbers as it turns, comes before others that take fewer cycles.
 pub const READ_WEIGHT: usize = 1;
 
+/// What a number weighs that a kernel holds beyond the registers that a thread has, [`MOST`]: it is written to memory and
+/// read again, of which each takes the time of two operations.
+pub const SPILL_WEIGHT: usize = 4;
+
 /// What a kernel weighs when methods are compared, for so many channels.
 pub fn price(code: &Code, channels: usize) -> usize {
     let cost = code.cost(channels);
-    weigh(cost.total, cost.special, code.reads())
+    weigh(cost.total, cost.special, code.reads()) + spill(code.held(channels))
 }
 
 /// What operations, special ones and numbers that are read besides the signal weigh together.
 pub fn weigh(total: usize, special: usize, reads: usize) -> usize {
     total + SPECIAL_WEIGHT * special + READ_WEIGHT * reads
+}
+
+/// What the numbers weigh that a kernel holds at once, and that registers do not.
+pub fn spill(held: usize) -> usize {
+    SPILL_WEIGHT * held.saturating_sub(MOST)
 }
 
 /// A method that was weighed for a rotation.
@@ -59,7 +69,10 @@ pub struct Rival {
     pub special: usize,
     /// Numbers that are read besides the signals.
     pub reads: usize,
-    /// total + [`SPECIAL_WEIGHT`] · special + [`READ_WEIGHT`] · reads.
+    /// The numbers that it holds at once.
+    pub held: usize,
+    /// total + [`SPECIAL_WEIGHT`] · special + [`READ_WEIGHT`] · reads, and for each signal [`SPILL_WEIGHT`] for each number
+    /// that is held beyond the registers, unless the scene says how many may be taken: then it is printed in pieces.
     pub price: usize,
     /// The method's error at the largest angle, by its law, in the norm that the scene asks for.
     pub method_error: f64,
@@ -195,7 +208,10 @@ impl<'a> Contest<'a> {
         let all = |of: fn(Cost) -> usize| self.rotation.signals * of(own) + of(once);
         let read_once = set_up.as_ref().map_or(0, |set_up| set_up.built.code.reads());
         let reads = self.rotation.signals * built.code.reads() + read_once;
-        let price = weigh(all(|cost| cost.total), all(|cost| cost.special), reads);
+        let held = built.code.held(spec.channels());
+        // What a scene's registers do not suffice for is in pieces, which hold less.
+        let spilled = if self.registers.is_some() { 0 } else { self.rotation.signals * spill(held) };
+        let price = weigh(all(|cost| cost.total), all(|cost| cost.special), reads) + spilled;
         let method_error = self.method_error(spec);
         let rounding = |built: &Built| built.rounding_within(self.budget.max_angle);
         let rounding_f32 = rounding(built) + set_up.as_ref().map_or(0.0, |set_up| rounding(&set_up.built));
@@ -220,6 +236,7 @@ impl<'a> Contest<'a> {
             total: all(|cost| cost.total),
             special: all(|cost| cost.special),
             reads,
+            held,
             price: if spec.half { price.div_ceil(HALF_SHARE) } else { price },
             method_error,
             rounding_f32,

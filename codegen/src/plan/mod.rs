@@ -13,7 +13,7 @@ pub mod order;
 mod report;
 pub mod text;
 
-pub use crate::plan::contest::{Chosen, HALF_SHARE, READ_WEIGHT, Rival, SPECIAL_WEIGHT, price};
+pub use crate::plan::contest::{Chosen, HALF_SHARE, READ_WEIGHT, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT, price};
 
 use crate::emit::language::Target;
 use crate::emit::names::Use;

@@ -1,8 +1,9 @@
 //! A plan as people read it: what each kernel costs and why it was chosen.
 
 use crate::plan::Plan;
-use crate::plan::contest::{HALF_SHARE, READ_WEIGHT, SPECIAL_WEIGHT};
+use crate::plan::contest::{HALF_SHARE, READ_WEIGHT, SPECIAL_WEIGHT, SPILL_WEIGHT};
 use crate::plan::text::{row, short, table};
+use crate::promise::registers::MOST;
 use crate::scene::Hemisphere;
 use std::fmt;
 
@@ -61,6 +62,7 @@ impl fmt::Display for Plan {
                 "total",
                 "special",
                 "reads",
+                "held",
                 "price",
                 "method error",
                 "f32 rounding",
@@ -76,6 +78,7 @@ impl fmt::Display for Plan {
                     rival.total.to_string(),
                     rival.special.to_string(),
                     rival.reads.to_string(),
+                    rival.held.to_string(),
                     rival.price.to_string(),
                     short(rival.method_error),
                     short(rival.rounding_f32),
@@ -85,7 +88,7 @@ impl fmt::Display for Plan {
             f.write_str(&table(&rows))?;
             writeln!(
                 f,
-                "\nThe price is the total, {SPECIAL_WEIGHT} for each special and {READ_WEIGHT} for each number that is read besides the signal, in f16 by {HALF_SHARE}; errors are {}, at the largest angle.",
+                "\nThe price is the total, {SPECIAL_WEIGHT} for each special, {READ_WEIGHT} for each number that is read besides the signal and {SPILL_WEIGHT} for each that is held at once beyond {MOST}, unless the scene says how many registers may be taken; in f16 by {HALF_SHARE}. Errors are {}, at the largest angle.",
                 chosen.hemisphere.map_or_else(|| chosen.norm.unwrap_or_default().meaning(), Hemisphere::meaning)
             )?;
         }

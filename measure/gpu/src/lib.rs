@@ -5,6 +5,7 @@
 pub mod compile;
 pub mod device;
 pub mod kernels;
+pub mod loops;
 pub mod page;
 pub mod price;
 pub mod registers;

@@ -10,7 +10,7 @@ use std::time::Duration;
 use zonal_codegen::catalog;
 use zonal_measure_gpu::compile::{self, GPUS, Report};
 use zonal_measure_gpu::kernels::shaders;
-use zonal_measure_gpu::{page, registers};
+use zonal_measure_gpu::{loops, page, registers};
 
 /// Compile every kernel of the catalogue for AMD's GPUs, by the driver's own compiler, and write what it counts.
 #[derive(Parser)]
@@ -42,7 +42,9 @@ fn measured() -> Result<Report, Box<dyn Error>> {
     let kernels = shaders(&catalog::standard());
     building.finish();
     let compiling = bar("compiling", GPUS.len());
-    let report = compile::compile(&std::env::current_exe()?, &kernels, || compiling.inc(1))?;
+    let program = std::env::current_exe()?;
+    let mut report = compile::compile(&program, &kernels, || compiling.inc(1))?;
+    report.loops = loops::measured(&program)?;
     compiling.finish();
     Ok(report)
 }

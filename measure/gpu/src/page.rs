@@ -3,7 +3,7 @@
 use crate::compile::{GPUS, Report, Row};
 use crate::device::Counted;
 use crate::kernels::Called;
-use crate::{price, registers};
+use crate::{loops, price, registers};
 use std::collections::BTreeMap;
 use zonal_codegen::families::Spec;
 use zonal_codegen::plan::contest::SPECIAL_WEIGHT;
@@ -25,7 +25,9 @@ const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
 /// None that a report gives rise to.
 pub fn json(report: &Report) -> Result<String, serde_json::Error> {
     let rows: Result<Vec<String>, _> = report.rows.iter().map(serde_json::to_string).collect();
-    Ok(format!("{{\"driver\": {},\n\"rows\": [\n{}\n]}}\n", serde_json::to_string(&report.driver)?, rows?.join(",\n")))
+    let loops: Result<Vec<String>, _> = report.loops.iter().map(serde_json::to_string).collect();
+    let (driver, rows, loops) = (serde_json::to_string(&report.driver)?, rows?.join(",\n"), loops?.join(",\n"));
+    Ok(format!("{{\"driver\": {driver},\n\"rows\": [\n{rows}\n],\n\"loops\": [\n{loops}\n]}}\n"))
 }
 
 /// Rows by their spec and how they are called.
@@ -129,7 +131,7 @@ pub fn markdown(report: &Report) -> String {
         let all = ORDERS.filter_map(|order| compared(&rows, &format!("{name}:{order}{suffix}"), ways));
         table(&heads(ways), all)
     };
-    let loops = report.rows.iter().filter(|row| row.spec.ends_with(":loop") && row.called == Called::Whole);
+    let looping = report.rows.iter().filter(|row| row.spec.ends_with(":loop") && row.called == Called::Whole);
     let mut loop_heads = vec!["loop".to_owned(), "operations".to_owned()];
     for gpu in SHOWN {
         loop_heads.extend(
@@ -189,10 +191,13 @@ pub fn markdown(report: &Report) -> String {
         format!(
             "A loop over a local array indexes registers by chains of moves. It saves text and time to compile: from order 4 on \
              the loops of the catalogue take {least:.1} to {most:.0} times the cycles of their straight lines on {}, where \
-             those spill nothing. Where they do, it is pieces that help.",
+             those spill nothing, if a loop runs eight times, one in it four times and one in that twice, as the driver \
+             takes it, which does not know. That is too little for `taylor15`, whose loop runs once a coefficient, and for the \
+             rotations beyond order 6. Where straight lines spill, it is pieces that help.",
             GPUS[SHOWN[0]].family
         ),
-        table(&loop_heads, loops.filter_map(|row| looped(&rows, row))),
+        table(&loop_heads, looping.filter_map(|row| looped(&rows, row))),
+        loops::section(report).join("\n\n"),
         "## Operations and cycles".to_owned(),
         format!(
             "Cycles by operations (and {SPECIAL_WEIGHT} for a root or a reciprocal), over whole kernels \

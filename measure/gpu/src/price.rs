@@ -5,8 +5,9 @@ use crate::kernels::Called;
 use crate::page::{SHOWN, table};
 use std::ops::RangeInclusive;
 use zonal_codegen::families::{Form, Group, Spec};
-use zonal_codegen::plan::contest::weigh;
-use zonal_codegen::plan::{READ_WEIGHT, SPECIAL_WEIGHT};
+use zonal_codegen::plan::contest::{spill, weigh};
+use zonal_codegen::plan::{READ_WEIGHT, SPECIAL_WEIGHT, SPILL_WEIGHT};
+use zonal_codegen::promise::registers::MOST;
 
 /// A form in which kernels are compared.
 #[derive(Clone, Debug)]
@@ -84,7 +85,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn at_order(order: usize, rows: &[&Row], gpu: usize) -> Agreement {
-    let price = |row: &Row| weigh(row.operations, row.special, row.reads);
+    let price = |row: &Row| weigh(row.operations, row.special, row.reads) + spill(row.held);
     let cycles = |row: &Row| row.gpus[gpu].cycles;
     let (mut right, mut all, mut wrong) = (0, 0, vec![]);
     for (place, first) in rows.iter().enumerate() {
@@ -135,13 +136,14 @@ pub fn section(report: &Report) -> Vec<String> {
         heads.extend(["pairs", "ranks", "worst, times the cycles"].map(|what| format!("{name}: {what}")));
     }
     let mut parts = vec![format!(
-        "The planner's price of a kernel is its operations, {SPECIAL_WEIGHT} for a root or a reciprocal and {READ_WEIGHT} for a \
-         number that it is given besides the signal. *Pairs*: of all pairs of an order's rotations, small ones among them, and \
-         tilts, the share in which the one that the planner holds for cheaper takes no more cycles. *Ranks*: the correlation of \
-         the ranks by price and by cycles (Spearman's). What disagrees is listed below each table. Without the numbers that are \
-         given the lifted rotation would be held for the cheapest of all. What is left are steps: registers are given out \
-         in so few sizes, and waves by them, that of two kernels the one with fewer operations may be the one whose \
-         registers let fewer waves run, and then cycles are time that memory takes."
+        "The planner's price of a kernel is its operations, {SPECIAL_WEIGHT} for a root or a reciprocal, {READ_WEIGHT} for a \
+         number that it is given besides the signal and {SPILL_WEIGHT} for a number that it holds at once beyond {MOST}. *Pairs*: \
+         of all pairs of an order's rotations, small ones among them, and tilts, the share in which the one that the planner \
+         holds for cheaper takes no more cycles. *Ranks*: the correlation of the ranks by price and by cycles (Spearman's). \
+         What disagrees is listed below each table. By operations alone the lifted rotation would be the cheapest of all from \
+         order 6 on. What is left are steps: registers are given out in few sizes, and waves by them, so that of two kernels \
+         the one with fewer operations may be the one that lets fewer waves run, and then cycles are time that memory \
+         takes; that is why whole kernels of order 8 agree least on RDNA 2. A branch takes the cycles of both sides."
     )];
     for compared in &COMPARED {
         let by_gpu = SHOWN.map(|gpu| agreement(report, gpu, compared));

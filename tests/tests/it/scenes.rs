@@ -132,9 +132,11 @@ fn what_turns_alike_is_prepared_once() {
         plan(&format!("{head}\nmax_error = 1e-4\n{more}")).unwrap_or_else(|error| panic!("{error}"))
     };
     assert_eq!(specs(&plan(5, 30.0, "")), ["rotate:5"]);
-    assert_eq!(specs(&plan(5, 30.0, "rgb = true\n")), ["rotate:5:lifted:rgb", "lifted:5"]);
+    assert_eq!(specs(&plan(5, 30.0, "rgb = true\n")), ["rotate:5:rgb"]);
+    assert_eq!(specs(&plan(5, 30.0, "rgb = true\nsignals = 2\n")), ["rotate:5:lifted:rgb", "lifted:5"]);
     assert_eq!(specs(&plan(8, 15.0, "rgb = true\n")), ["rotate:8:rgb"]);
-    assert_eq!(specs(&plan(8, 15.0, "rgb = true\nsignals = 2\n")), ["rotate:8:lifted:rgb", "lifted:8"]);
+    // Lifted it would do fewer operations, with more numbers at once than there are registers.
+    assert_eq!(specs(&plan(8, 15.0, "rgb = true\nsignals = 2\n")), ["rotate:8:rgb"]);
     assert_eq!(specs(&plan(5, 30.1, "signals = 9\n")), ["rotate:5:angles", "angles:5"]);
     assert_eq!(specs(&plan(2, 30.0, "signals = 9\n")).len(), 2);
     let plan = plan(5, 30.0, "rgb = true\nsignals = 16\n");
@@ -143,7 +145,7 @@ fn what_turns_alike_is_prepared_once() {
     let lifted = rival("rotate:5:lifted:rgb");
     assert_eq!(lifted.total, 16 * chosen.row.cost.total + set_up.row.cost.total);
     assert_eq!((lifted.takes.as_slice(), lifted.set_up.as_deref()), (&["q"][..], Some("lifted:5")));
-    assert!(10 * lifted.price < 9 * rival("rotate:5:angles:rgb").price);
+    assert!(100 * lifted.price < 92 * rival("rotate:5:angles:rgb").price);
     assert_eq!(plan.module.functions.len(), 2);
 }
 

@@ -6,9 +6,10 @@ use std::path::Path;
 use std::sync::OnceLock;
 use zonal_codegen::families::Spec;
 use zonal_measure_gpu::compile::{GPUS, Report, Row, compile};
-use zonal_measure_gpu::kernels::{Called, shaders};
+use zonal_measure_gpu::kernels::{Called, Kernel, shaders};
 use zonal_measure_gpu::price::{COMPARED, agreement};
-use zonal_measure_gpu::{page, registers};
+use zonal_measure_gpu::shader::spirv;
+use zonal_measure_gpu::{loops, page, registers};
 
 /// What is compiled here.
 const SPECS: [&str; 12] = [
@@ -69,6 +70,54 @@ fn loops_over_local_arrays_do_not_pay() {
             assert!(a.cycles > 3 * b.cycles, "{} takes {}, {} {}", looped.spec, a.cycles, straight.spec, b.cycles);
         }
     }
+}
+
+/// The page multiplies what a loop's body takes by how often it runs; the driver by eight, by four in a loop's loop, and by
+/// two in that one's.
+#[test]
+fn the_driver_takes_a_loop_to_run_eight_times() {
+    let nested = |depth: usize| {
+        let bounds = ["u32(parameters[0])", "u32(parameters[1])", "u32(parameters[2])"];
+        let opened: String =
+            (0..depth).map(|at| format!("for (var i{at} = 0u; i{at} < {}; i{at} += 1u) {{\n", bounds[at])).collect();
+        let text = format!(
+            "@group(0) @binding(0) var<storage, read> parameters: array<f32>;\n\
+             @group(0) @binding(2) var<storage, read_write> results: array<f32>;\n\
+             @compute @workgroup_size(64)\nfn main(@builtin(global_invocation_id) thread: vec3<u32>) {{\n\
+             var x = parameters[thread.x];\n{opened}{}{}results[thread.x] = x;\n}}\n",
+            "x = x * x + 0.5;\n".repeat(500),
+            "}\n".repeat(depth)
+        );
+        Kernel {
+            spec: String::new(),
+            called: Called::Whole,
+            operations: 0,
+            special: 0,
+            reads: 0,
+            held: 0,
+            spirv: spirv(&text),
+        }
+    };
+    let program = Path::new(env!("CARGO_BIN_EXE_zonal-measure-gpu"));
+    let kernels: Vec<Kernel> = (0..4).map(nested).collect();
+    let report = compile(program, &kernels, || ()).unwrap_or_else(|error| panic!("{error}"));
+    for gpu in [1, 2] {
+        let cycles: Vec<f64> = report.rows.iter().map(|row| row.gpus[gpu].cycles as f64).collect();
+        println!("{}: {cycles:?}", GPUS[gpu].family);
+        for (place, times) in [8.0, 4.0, 2.0].into_iter().enumerate() {
+            // What is outside of the loop, and its own counter, are less than a twentieth.
+            let found = cycles[place + 1] / cycles[place];
+            assert!((0.95..1.05).contains(&(found / times)), "{place}: {found}, not {times}");
+        }
+    }
+}
+
+#[test]
+fn no_loop_pays() {
+    let report = checked_in();
+    let [least, most] = loops::pays(&report);
+    println!("loops over memory take {least:.2} to {most:.2} times the cycles of pieces");
+    assert!(least > 1.0, "{least}");
 }
 
 /// Each instruction of a wave of 64 takes two cycles or more, and each operation is one at least.
