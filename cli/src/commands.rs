@@ -70,6 +70,7 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
         "special",
         "constants",
         "live",
+        "registers",
         "f32 rounding",
         "method error at 15 degrees",
     ];
@@ -80,6 +81,7 @@ pub fn list(family: Option<&str>, order: Option<u64>, json: bool) -> Result<(), 
         let method = row.accuracy.method.iter().find(|(degrees, _)| *degrees == 15.0);
         let mut line = vec![row.spec.clone()];
         line.extend(numbers.map(|number| number.to_string()));
+        line.push(row.registers.to_string());
         line.push(format!("{:e}", row.accuracy.rounding_f32));
         line.push(method.map_or_else(String::new, |(_, error)| format!("{error:e}")));
         lines.push(line);

@@ -6,6 +6,7 @@ use crate::emit::{Function, Limit, Module};
 use crate::families::family::Spec;
 use crate::files::File;
 use crate::promise::built::Built;
+use crate::promise::registers::Registers;
 use crate::threads;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -66,6 +67,9 @@ pub struct Row {
     /// Constants and live values.
     #[serde(flatten)]
     pub footprint: crate::ir::listing::Footprint,
+    /// Vector registers on RDNA 2, called by one function.
+    #[serde(rename = "rdna2")]
+    pub registers: Registers,
     /// The errors.
     #[serde(flatten)]
     pub accuracy: crate::promise::accuracy::Accuracy,
@@ -85,6 +89,7 @@ impl Row {
             channels: spec.channels(),
             cost: function.built.code.cost(spec.channels()),
             footprint: function.built.code.footprint(),
+            registers: Registers::of(spec, &function.built.code),
             accuracy: function.built.accuracy.clone(),
             nonzeros: spec.family.nonzeros.map(|count| count(spec.order)),
         }

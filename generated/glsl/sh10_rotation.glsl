@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 1166 (329 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     149 live values.
+// Vector registers on RDNA 2: 256 and memory for 18 more; in pieces 128.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP float[100] sh10_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
@@ -647,6 +648,7 @@ ZONAL_HIGHP float[100] sh10_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c)
 // Returns the rotated coefficients.
 // Operations: 3268 (869 mul, 8 add, 2391 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     149 live values.
+// Vector registers on RDNA 2: 256 and memory for 599 more; in pieces 256.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP vec3[100] sh10_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
@@ -1272,6 +1274,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] 
 // Returns the rotated coefficients.
 // Operations: 1334 (527 mul, 7 add, 800 fma) and 1 inverse square root or reciprocal; 339 constants,
 //     179 live values.
+// Vector registers on RDNA 2: 256 and memory for 22 more.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1404,6 +1407,7 @@ ZONAL_HIGHP float[100] sh10_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[10
 // Returns the rotated coefficients.
 // Operations: 3770 (1463 mul, 7 add, 2300 fma) and 1 inverse square root or reciprocal; 339 constants,
 //     179 live values.
+// Vector registers on RDNA 2: 256 and memory for 1141 more.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1534,6 +1538,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
+// Vector registers on RDNA 2: 256 and memory for 18 more; in pieces 128.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 ZONAL_HIGHP float[100] sh10_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[100] c) {
@@ -2141,6 +2146,7 @@ ZONAL_HIGHP float[100] sh10_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3250 (860 mul, 5 add, 2385 fma); 204 constants, 145 live values.
+// Vector registers on RDNA 2: 256 and memory for 596 more; in pieces 256.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[100] c) {
@@ -2750,6 +2756,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP 
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 115 (59 mul, 5 add, 51 fma) and 1 inverse square root or reciprocal; 2 constants, 56
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-6).
 ZONAL_HIGHP vec2[28] sh10_angles(ZONAL_HIGHP vec4 q) {
@@ -2857,6 +2864,7 @@ ZONAL_HIGHP vec2[28] sh10_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
+// Vector registers on RDNA 2: 256 and memory for 21 more; in pieces 128.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
 ZONAL_HIGHP float[100] sh10_rotate_angles(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP float[100] c) {
@@ -3414,6 +3422,7 @@ ZONAL_HIGHP float[100] sh10_rotate_angles(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3153 (810 mul, 3 add, 2340 fma); 203 constants, 113 live values.
+// Vector registers on RDNA 2: 256 and memory for 627 more; in pieces 256.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_angles_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP vec3[100] c) {
@@ -3972,6 +3981,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_angles_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGH
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 1275 (387 mul, 6 add, 882 fma) and 9 inverse square roots or reciprocals; 604 constants,
 //     372 live values.
+// Vector registers on RDNA 2: 256 and memory for 120 more.
 // Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP vec2[183] sh10_lifted(ZONAL_HIGHP vec4 q) {
@@ -4299,6 +4309,7 @@ ZONAL_HIGHP vec2[183] sh10_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 311 more; in pieces 256 and memory for 213 more.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP float[100] sh10_rotate_lifted(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP float[100] c) {
@@ -4623,6 +4634,7 @@ ZONAL_HIGHP float[100] sh10_rotate_lifted(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 970 more; in pieces 256 and memory for 419 more.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_lifted_rgb(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP vec3[100] c) {
@@ -4946,6 +4958,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_lifted_rgb(ZONAL_HIGHP vec2[183] cs, ZONAL_HIG
 // Returns the rotated coefficients.
 // Operations: 1314 (511 mul, 6 add, 797 fma) and 1 inverse square root or reciprocal; 150 constants,
 //     150 live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP float[100] sh10_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[100] c) {
@@ -5488,6 +5501,7 @@ ZONAL_HIGHP float[100] sh10_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[1
 // Returns the rotated coefficients.
 // Operations: 3714 (1419 mul, 6 add, 2289 fma) and 1 inverse square root or reciprocal; 150 constants,
 //     150 live values.
+// Vector registers on RDNA 2: 256 and memory for 625 more; in pieces 256.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP vec3[100] sh10_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[100] c) {
@@ -6029,6 +6043,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3
 // Returns the rotated coefficients.
 // Operations: 942 (218 mul, 3 add, 721 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     144 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
 ZONAL_HIGHP float[100] sh10_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[100] c) {
@@ -6566,6 +6581,7 @@ ZONAL_HIGHP float[100] sh10_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[1
 // Returns the rotated coefficients.
 // Operations: 2684 (578 mul, 5 add, 2101 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     144 live values.
+// Vector registers on RDNA 2: 256 and memory for 564 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[100] c) {
@@ -7102,6 +7118,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP float[100] sh10_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[10] c) {
@@ -7298,6 +7315,7 @@ ZONAL_HIGHP float[100] sh10_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 493 (424 mul, 0 add, 69 fma); 111 constants, 114 live values.
+// Vector registers on RDNA 2: 256 and memory for 78 more.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[10] c) {

@@ -21,6 +21,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
+// Vector registers on RDNA 2: 232; in pieces 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
@@ -170,6 +171,7 @@ ZONAL_HIGHP float[100] sh10_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 516 (30 mul, 0 add, 486 fma); 30 constants, 98 live values.
+// Vector registers on RDNA 2: 256 and memory for 418 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
@@ -319,6 +321,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 336 (129 mul, 1 add, 206 fma); 73 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 11 more; in pieces 64.
 // Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -502,6 +505,7 @@ ZONAL_HIGHP float[100] sh10_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 856 (325 mul, 1 add, 530 fma); 73 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 456 more; in pieces 256.
 // Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -685,6 +689,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP ve
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 378 (54 mul, 0 add, 324 fma); 54 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 53 more; in pieces 80.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -922,6 +927,7 @@ ZONAL_HIGHP float[100] sh10_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1026 (54 mul, 0 add, 972 fma); 54 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 665 more; in pieces 256.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -1159,6 +1165,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
+// Vector registers on RDNA 2: 256; in pieces 64.
 // Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -1472,6 +1479,7 @@ ZONAL_HIGHP float[100] sh10_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100]
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 852 (105 mul, 0 add, 747 fma); 46 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 476 more; in pieces 256.
 // Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -1785,6 +1793,7 @@ ZONAL_HIGHP vec3[100] sh10_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[10
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 589 (157 mul, 0 add, 432 fma); 60 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more; in pieces 80.
 // Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -2248,6 +2257,7 @@ ZONAL_HIGHP float[100] sh10_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[100]
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1399 (157 mul, 0 add, 1242 fma); 60 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 485 more; in pieces 256.
 // Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -2711,6 +2721,7 @@ ZONAL_HIGHP vec3[100] sh10_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[10
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 496 (200 mul, 0 add, 296 fma); 200 constants, 100 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
@@ -2760,6 +2771,7 @@ ZONAL_HIGHP float[100] sh10_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1286 (596 mul, 0 add, 690 fma); 200 constants, 100 live values.
+// Vector registers on RDNA 2: 256 and memory for 508 more.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
@@ -2810,6 +2822,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIG
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 616 (242 mul, 2 add, 372 fma); 30 constants, 126 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
@@ -3173,6 +3186,7 @@ ZONAL_HIGHP float[100] sh10_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1660 (602 mul, 2 add, 1056 fma); 30 constants, 126 live values.
+// Vector registers on RDNA 2: 256 and memory for 545 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
@@ -3536,6 +3550,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 760 (341 mul, 3 add, 416 fma); 73 constants, 129 live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more; in pieces 128.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -3934,6 +3949,7 @@ ZONAL_HIGHP float[100] sh10_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2000 (897 mul, 3 add, 1100 fma); 73 constants, 129 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more; in pieces 256.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -4331,6 +4347,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 802 (266 mul, 2 add, 534 fma); 54 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 9 more; in pieces 128.
 // Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -4782,6 +4799,7 @@ ZONAL_HIGHP float[100] sh10_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2170 (626 mul, 2 add, 1542 fma); 54 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more; in pieces 256.
 // Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -5233,6 +5251,7 @@ ZONAL_HIGHP vec3[100] sh10_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 790 (317 mul, 2 add, 471 fma); 46 constants, 127 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -5671,6 +5690,7 @@ ZONAL_HIGHP float[100] sh10_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float be
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1996 (677 mul, 2 add, 1317 fma); 46 constants, 127 live values.
+// Vector registers on RDNA 2: 256 and memory for 521 more; in pieces 256.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -6109,6 +6129,7 @@ ZONAL_HIGHP vec3[100] sh10_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1013 (369 mul, 2 add, 642 fma); 60 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 5 more; in pieces 128.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -6697,6 +6718,7 @@ ZONAL_HIGHP float[100] sh10_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float be
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2543 (729 mul, 2 add, 1812 fma); 60 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 528 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -7286,6 +7308,7 @@ ZONAL_HIGHP vec3[100] sh10_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float
 // Returns the rotated coefficients.
 // Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants, 131
 //     live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
@@ -7740,6 +7763,7 @@ ZONAL_HIGHP float[100] sh10_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[1
 // Returns the rotated coefficients.
 // Operations: 2020 (702 mul, 8 add, 1310 fma) and 1 inverse square root or reciprocal; 45 constants,
 //     131 live values.
+// Vector registers on RDNA 2: 256 and memory for 533 more; in pieces 256.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
@@ -8194,6 +8218,7 @@ ZONAL_HIGHP vec3[100] sh10_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3
 // Returns the rotated coefficients.
 // Operations: 1018 (379 mul, 6 add, 633 fma) and 1 inverse square root or reciprocal; 57 constants,
 //     136 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more; in pieces 128.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -8788,6 +8813,7 @@ ZONAL_HIGHP float[100] sh10_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP flo
 // Returns the rotated coefficients.
 // Operations: 2538 (751 mul, 8 add, 1779 fma) and 1 inverse square root or reciprocal; 57 constants,
 //     136 live values.
+// Vector registers on RDNA 2: 256 and memory for 540 more; in pieces 256.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -9385,6 +9411,7 @@ ZONAL_HIGHP vec3[100] sh10_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 1169 (331 mul, 6 add, 832 fma) and 1 inverse square root or reciprocal above the limit,
 //     811 below it; 246 constants, 149 live values.
+// Vector registers on RDNA 2: 256 and memory for 17 more.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
@@ -10453,6 +10480,7 @@ ZONAL_HIGHP float[100] sh10_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP floa
 // Returns the rotated coefficients.
 // Operations: 3271 (871 mul, 8 add, 2392 fma) and 1 inverse square root or reciprocal above the limit,
 //     2023 below it; 246 constants, 149 live values.
+// Vector registers on RDNA 2: 256 and memory for 792 more.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at

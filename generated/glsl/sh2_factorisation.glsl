@@ -21,6 +21,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 21 (15 mul, 0 add, 6 fma); 2 constants, 7 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[4] sh2_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] c) {
@@ -45,6 +46,7 @@ ZONAL_HIGHP float[4] sh2_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 45 (27 mul, 0 add, 18 fma); 2 constants, 7 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[4] sh2_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4] c) {
@@ -68,6 +70,7 @@ ZONAL_HIGHP vec3[4] sh2_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP float[4] sh2_zhf_weights(ZONAL_HIGHP float[4] c) {
@@ -88,6 +91,7 @@ ZONAL_HIGHP float[4] sh2_zhf_weights(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the lobe weights, 2l + 1 for band l, in the order of the band's lobes.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP vec3[4] sh2_zhf_weights_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -108,6 +112,7 @@ ZONAL_HIGHP vec3[4] sh2_zhf_weights_rgb(ZONAL_HIGHP vec3[4] c) {
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP float[4] sh2_zhf_tailored(ZONAL_HIGHP float[4] f) {
@@ -128,6 +133,7 @@ ZONAL_HIGHP float[4] sh2_zhf_tailored(ZONAL_HIGHP float[4] f) {
 // f: the samples of each band's function at its lobes turned back, 2l + 1 for band l.
 // Returns the rotated coefficients.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP vec3[4] sh2_zhf_tailored_rgb(ZONAL_HIGHP vec3[4] f) {

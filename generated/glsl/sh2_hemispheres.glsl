@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 7 (4 mul, 1 add, 1 fma, 1 min, max or select) and 1 inverse square root or reciprocal; 4
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.6e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 8.4e-8; not proven).
 ZONAL_HIGHP float[4] sh2_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -48,6 +49,7 @@ ZONAL_HIGHP float[4] sh2_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 11 (5 mul, 1 add, 4 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     4 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP float sh2_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -69,6 +71,7 @@ ZONAL_HIGHP float sh2_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 19 (7 mul, 1 add, 10 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3 sh2_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -92,6 +95,7 @@ ZONAL_HIGHP vec3 sh2_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 8 (3 mul, 0 add, 4 fma, 1 min, max or select) and 1 inverse square root or reciprocal; 1
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP float sh2_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -114,6 +118,7 @@ ZONAL_HIGHP float sh2_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 14 (3 mul, 0 add, 10 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP vec3 sh2_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -132,6 +137,7 @@ ZONAL_HIGHP vec3 sh2_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP float[4] sh2_hsh_to_monomial(ZONAL_HIGHP float[4] c) {
@@ -153,6 +159,7 @@ ZONAL_HIGHP float[4] sh2_hsh_to_monomial(ZONAL_HIGHP float[4] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 15 (12 mul, 0 add, 3 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP vec3[4] sh2_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -173,6 +180,7 @@ ZONAL_HIGHP vec3[4] sh2_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-8).
 ZONAL_HIGHP float[4] sh2_sh_to_hsh(ZONAL_HIGHP float[4] c) {
@@ -193,6 +201,7 @@ ZONAL_HIGHP float[4] sh2_sh_to_hsh(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 15 (12 mul, 0 add, 3 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-8).
 ZONAL_HIGHP vec3[4] sh2_sh_to_hsh_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -213,6 +222,7 @@ ZONAL_HIGHP vec3[4] sh2_sh_to_hsh_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 12 (4 mul, 0 add, 8 fma); 9 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP float[4] sh2_of_order_4_sh_to_hsh(ZONAL_HIGHP float[16] c) {
@@ -233,6 +243,7 @@ ZONAL_HIGHP float[4] sh2_of_order_4_sh_to_hsh(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 36 (12 mul, 0 add, 24 fma); 9 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP vec3[4] sh2_of_order_4_sh_to_hsh_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -253,6 +264,7 @@ ZONAL_HIGHP vec3[4] sh2_of_order_4_sh_to_hsh_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.6e-8).
 ZONAL_HIGHP float[4] sh2_hsh_to_sh(ZONAL_HIGHP float[4] c) {
@@ -274,6 +286,7 @@ ZONAL_HIGHP float[4] sh2_hsh_to_sh(ZONAL_HIGHP float[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 15 (12 mul, 0 add, 3 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.6e-8).
 ZONAL_HIGHP vec3[4] sh2_hsh_to_sh_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -295,6 +308,7 @@ ZONAL_HIGHP vec3[4] sh2_hsh_to_sh_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 6 (4 mul, 0 add, 2 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 ZONAL_HIGHP float[4] sh2_hsh_extend(ZONAL_HIGHP float[4] c) {
@@ -316,6 +330,7 @@ ZONAL_HIGHP float[4] sh2_hsh_extend(ZONAL_HIGHP float[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 18 (12 mul, 0 add, 6 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 ZONAL_HIGHP vec3[4] sh2_hsh_extend_rgb(ZONAL_HIGHP vec3[4] c) {

@@ -22,6 +22,7 @@
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8; in pieces 8.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP float[4] sh2_to_irradiance(ZONAL_HIGHP float[4] c) {
@@ -44,6 +45,7 @@ ZONAL_HIGHP float[4] sh2_to_irradiance(ZONAL_HIGHP float[4] c) {
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP vec3[4] sh2_to_irradiance_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -67,6 +69,7 @@ ZONAL_HIGHP vec3[4] sh2_to_irradiance_rgb(ZONAL_HIGHP vec3[4] c) {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float sh2_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -85,6 +88,7 @@ ZONAL_HIGHP float sh2_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3 sh2_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -102,6 +106,7 @@ ZONAL_HIGHP vec3 sh2_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 3 (2 mul, 0 add, 1 fma); 3 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.4e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[4] h4_basis(ZONAL_HIGHP vec3 dir) {
@@ -125,6 +130,7 @@ ZONAL_HIGHP float[4] h4_basis(ZONAL_HIGHP vec3 dir) {
 // Returns H_i(dir).
 // Operations: 9 (5 mul, 0 add, 4 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 2.6e-7; not proven).
 ZONAL_HIGHP float[4] h4_basis_normalised(ZONAL_HIGHP vec3 dir) {
@@ -148,6 +154,7 @@ ZONAL_HIGHP float[4] h4_basis_normalised(ZONAL_HIGHP vec3 dir) {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 6 (2 mul, 0 add, 4 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 8.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP float h4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -167,6 +174,7 @@ ZONAL_HIGHP float h4_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 12 (5 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
 ZONAL_HIGHP float h4_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -186,6 +194,7 @@ ZONAL_HIGHP float h4_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] 
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 15 (5 mul, 0 add, 10 fma); 3 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 ZONAL_HIGHP vec3 h4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -205,6 +214,7 @@ ZONAL_HIGHP vec3 h4_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 21 (8 mul, 0 add, 13 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 h4_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -222,6 +232,7 @@ ZONAL_HIGHP vec3 h4_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP float[4] h4_to_monomial(ZONAL_HIGHP float[4] c) {
@@ -242,6 +253,7 @@ ZONAL_HIGHP float[4] h4_to_monomial(ZONAL_HIGHP float[4] c) {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 15 (12 mul, 0 add, 3 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP vec3[4] h4_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -265,6 +277,7 @@ ZONAL_HIGHP vec3[4] h4_to_monomial_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float h4_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -283,6 +296,7 @@ ZONAL_HIGHP float h4_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c)
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3 h4_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -301,6 +315,7 @@ ZONAL_HIGHP vec3 h4_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] 
 // Returns sum c_i H_i(dir).
 // Operations: 9 (3 mul, 0 add, 6 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP float h4_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -320,6 +335,7 @@ ZONAL_HIGHP float h4_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns sum c_i H_i(dir).
 // Operations: 15 (3 mul, 0 add, 12 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3 h4_eval_monomial_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {
@@ -339,6 +355,7 @@ ZONAL_HIGHP vec3 h4_eval_monomial_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns the values of the basis.
 // Operations: 5 (1 mul, 0 add, 4 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.4e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 ZONAL_HIGHP float[3] hl2_basis(ZONAL_HIGHP vec3 dir) {
@@ -364,6 +381,7 @@ ZONAL_HIGHP float[3] hl2_basis(ZONAL_HIGHP vec3 dir) {
 // Returns the values of the basis.
 // Operations: 11 (4 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float[3] hl2_basis_normalised(ZONAL_HIGHP vec3 dir) {
@@ -390,6 +408,7 @@ ZONAL_HIGHP float[3] hl2_basis_normalised(ZONAL_HIGHP vec3 dir) {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
 // Operations: 8 (2 mul, 0 add, 6 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float hl2_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
@@ -410,6 +429,7 @@ ZONAL_HIGHP float hl2_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
 // Operations: 14 (4 mul, 0 add, 10 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3 hl2_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
@@ -431,6 +451,7 @@ ZONAL_HIGHP vec3 hl2_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
 // Returns sum c_i b_i(dir).
 // Operations: 14 (5 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP float hl2_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
@@ -455,6 +476,7 @@ ZONAL_HIGHP float hl2_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3]
 // Returns sum c_i b_i(dir).
 // Operations: 20 (7 mul, 0 add, 13 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3 hl2_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
@@ -476,6 +498,7 @@ ZONAL_HIGHP vec3 hl2_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 3 add, 1 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP float[4] hl2_to_h4_coefficients(ZONAL_HIGHP float[3] c) {
@@ -498,6 +521,7 @@ ZONAL_HIGHP float[4] hl2_to_h4_coefficients(ZONAL_HIGHP float[3] c) {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 9 add, 3 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP vec3[4] hl2_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[3] c) {
@@ -520,6 +544,7 @@ ZONAL_HIGHP vec3[4] hl2_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[3] c) {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the vector whose scalar product with a normal is the irradiance.
 // Operations: 7 (3 mul, 3 add, 1 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.4e-8).
 ZONAL_HIGHP float[3] hl2_to_vector(ZONAL_HIGHP float[3] c) {
@@ -540,6 +565,7 @@ ZONAL_HIGHP float[3] hl2_to_vector(ZONAL_HIGHP float[3] c) {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the vector whose scalar product with a normal is the irradiance.
 // Operations: 21 (9 mul, 9 add, 3 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.4e-8).
 ZONAL_HIGHP vec3[3] hl2_to_vector_rgb(ZONAL_HIGHP vec3[3] c) {
@@ -562,6 +588,7 @@ ZONAL_HIGHP vec3[3] hl2_to_vector_rgb(ZONAL_HIGHP vec3[3] c) {
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
 // Operations: 3 (1 mul, 0 add, 2 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP float hl2_eval_vector(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
@@ -579,6 +606,7 @@ ZONAL_HIGHP float hl2_eval_vector(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) 
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
 // Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP vec3 hl2_eval_vector_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
@@ -597,6 +625,7 @@ ZONAL_HIGHP vec3 hl2_eval_vector_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c
 // Returns sum c_i b_i(dir).
 // Operations: 9 (4 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP float hl2_eval_vector_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
@@ -616,6 +645,7 @@ ZONAL_HIGHP float hl2_eval_vector_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP f
 // Returns sum c_i b_i(dir).
 // Operations: 15 (6 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 hl2_eval_vector_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {
@@ -633,6 +663,7 @@ ZONAL_HIGHP vec3 hl2_eval_vector_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGH
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 4 (4 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 7.1e-8; not proven).
 ZONAL_HIGHP float[4] sh2_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[4] c) {
@@ -655,6 +686,7 @@ ZONAL_HIGHP float[4] sh2_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 10 (10 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 3 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 7.1e-8; not proven).
 ZONAL_HIGHP vec3[4] sh2_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[4] c) {
@@ -680,6 +712,7 @@ ZONAL_HIGHP vec3[4] sh2_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[4] c) 
 // Returns the irradiance.
 // Operations: 22 (9 mul, 1 add, 9 fma, 3 min, max or select) and 5 special (reciprocal, inverse square
 //     root, logarithm, power of two); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.6e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 2.6e-7; not proven).
 ZONAL_HIGHP float eval_geomerics(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -702,6 +735,7 @@ ZONAL_HIGHP float eval_geomerics(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 // Returns the irradiance.
 // Operations: 17 (6 mul, 0 add, 9 fma, 2 min, max or select) and 2 inverse square roots or
 //     reciprocals; 6 constants, 5 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.4e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float eval_zh3_hallucinated(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -725,6 +759,7 @@ ZONAL_HIGHP float eval_zh3_hallucinated(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns the irradiance.
 // Operations: 12 (4 mul, 0 add, 8 fma) and 1 inverse square root or reciprocal; 4 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.2e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 1.8e-7; not proven).
 ZONAL_HIGHP float eval_zh3_stored(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] c) {

@@ -23,6 +23,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 5 (2 mul, 1 add, 1 fma, 1 min, max or select) and 2 special (square root, reciprocal); 3
 //     constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 ZONAL_HIGHP float[2] sh2_cap(ZONAL_HIGHP float s) {
@@ -45,6 +46,7 @@ ZONAL_HIGHP float[2] sh2_cap(ZONAL_HIGHP float s) {
 // Returns the zonal coefficients, one a band.
 // Operations: 57 (29 mul, 3 add, 21 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 ZONAL_HIGHP float[2] sh2_gaussian(ZONAL_HIGHP float kappa) {
@@ -90,6 +92,7 @@ ZONAL_HIGHP float[2] sh2_gaussian(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 45 (23 mul, 1 add, 17 fma, 4 min, max or select) and 2 inverse square roots or
 //     reciprocals; 22 constants, 7 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[2] sh2_gaussian_narrow(ZONAL_HIGHP float kappa) {
@@ -129,6 +132,7 @@ ZONAL_HIGHP float[2] sh2_gaussian_narrow(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 4 (2 mul, 2 add, 0 fma) and 2 inverse square roots or reciprocals; 4 constants, 2 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 ZONAL_HIGHP float[2] sh2_phong(ZONAL_HIGHP float s) {
@@ -147,6 +151,7 @@ ZONAL_HIGHP float[2] sh2_phong(ZONAL_HIGHP float s) {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 1 (1 mul, 0 add, 0 fma); 2 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-8 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     2.1e-8; not proven).
 ZONAL_HIGHP float[2] sh2_henyey_greenstein(ZONAL_HIGHP float g) {
@@ -166,6 +171,7 @@ ZONAL_HIGHP float[2] sh2_henyey_greenstein(ZONAL_HIGHP float g) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 6 (6 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP float[4] sh2_convolve(ZONAL_HIGHP float[2] g, ZONAL_HIGHP float[4] c) {
@@ -188,6 +194,7 @@ ZONAL_HIGHP float[4] sh2_convolve(ZONAL_HIGHP float[2] g, ZONAL_HIGHP float[4] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 14 (14 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP vec3[4] sh2_convolve_rgb(ZONAL_HIGHP float[2] g, ZONAL_HIGHP vec3[4] c) {
@@ -210,6 +217,7 @@ ZONAL_HIGHP vec3[4] sh2_convolve_rgb(ZONAL_HIGHP float[2] g, ZONAL_HIGHP vec3[4]
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[4] sh2_convolve_cosine(ZONAL_HIGHP float[4] c) {
@@ -231,6 +239,7 @@ ZONAL_HIGHP float[4] sh2_convolve_cosine(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[4] sh2_convolve_cosine_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -253,6 +262,7 @@ ZONAL_HIGHP vec3[4] sh2_convolve_cosine_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
@@ -271,6 +281,7 @@ ZONAL_HIGHP float sh2_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 15 (6 mul, 0 add, 9 fma); 2 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.2e-7).
@@ -290,6 +301,7 @@ ZONAL_HIGHP vec3 sh2_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (3 mul, 0 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
@@ -313,6 +325,7 @@ ZONAL_HIGHP float[4] sh2_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 15 (3 mul, 0 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
@@ -338,6 +351,7 @@ ZONAL_HIGHP vec3[4] sh2_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients with the light added.
 // Operations: 10 (3 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     3 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
@@ -367,6 +381,7 @@ ZONAL_HIGHP float[4] sh2_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s,
 // Returns the coefficients with the light added.
 // Operations: 20 (5 mul, 1 add, 13 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     3 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
@@ -394,6 +409,7 @@ ZONAL_HIGHP vec3[4] sh2_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 10 (4 mul, 2 add, 4 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
@@ -420,6 +436,7 @@ ZONAL_HIGHP float[4] sh2_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos,
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 20 (6 mul, 2 add, 12 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
@@ -447,6 +464,7 @@ ZONAL_HIGHP vec3[4] sh2_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -473,6 +491,7 @@ ZONAL_HIGHP float[4] sh2_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -499,6 +518,7 @@ ZONAL_HIGHP vec3[4] sh2_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // Returns the coefficients with the light added.
 // Operations: 62 (30 mul, 3 add, 25 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
@@ -551,6 +571,7 @@ ZONAL_HIGHP float[4] sh2_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float 
 // Returns the coefficients with the light added.
 // Operations: 72 (32 mul, 3 add, 33 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
@@ -601,6 +622,7 @@ ZONAL_HIGHP vec3[4] sh2_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 sh2_dominant(ZONAL_HIGHP float[4] c) {
@@ -624,6 +646,7 @@ ZONAL_HIGHP vec3 sh2_dominant(ZONAL_HIGHP float[4] c) {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 18 (10 mul, 0 add, 5 fma, 3 min, max or select) and 1 inverse square root or reciprocal;
 //     7 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.9e-7; not proven).
 ZONAL_HIGHP float[5] sh2_light_fit(ZONAL_HIGHP float[4] c) {
@@ -653,6 +676,7 @@ ZONAL_HIGHP float[5] sh2_light_fit(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 9 (6 mul, 0 add, 3 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
@@ -675,6 +699,7 @@ ZONAL_HIGHP float[2] sh2_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (12 mul, 0 add, 9 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).

@@ -20,6 +20,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 ZONAL_HIGHP float[4] sh2_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
@@ -40,6 +41,7 @@ ZONAL_HIGHP float[4] sh2_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 32; in pieces 24.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 ZONAL_HIGHP vec3[4] sh2_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c) {
@@ -60,6 +62,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4 (2 mul, 0 add, 2 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16; in pieces 8.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
 ZONAL_HIGHP float[4] sh2_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
@@ -80,6 +83,7 @@ ZONAL_HIGHP float[4] sh2_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 32; in pieces 24.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
 ZONAL_HIGHP vec3[4] sh2_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c) {
@@ -99,6 +103,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[4] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 8; in pieces 8.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP float[4] sh2_swap_yz(ZONAL_HIGHP float[4] c) {
@@ -118,6 +123,7 @@ ZONAL_HIGHP float[4] sh2_swap_yz(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP vec3[4] sh2_swap_yz_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -137,6 +143,7 @@ ZONAL_HIGHP vec3[4] sh2_swap_yz_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8; in pieces 8.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP float[4] sh2_rotate_x_plus_90deg(ZONAL_HIGHP float[4] c) {
@@ -156,6 +163,7 @@ ZONAL_HIGHP float[4] sh2_rotate_x_plus_90deg(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP vec3[4] sh2_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -175,6 +183,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8; in pieces 8.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP float[4] sh2_rotate_x_minus_90deg(ZONAL_HIGHP float[4] c) {
@@ -194,6 +203,7 @@ ZONAL_HIGHP float[4] sh2_rotate_x_minus_90deg(ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 0e0 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 0e0).
 ZONAL_HIGHP vec3[4] sh2_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[4] c) {

@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP float[4] sh2_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
@@ -63,6 +64,7 @@ ZONAL_HIGHP float[4] sh2_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) 
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_zyz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
@@ -104,6 +106,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_zyz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c
 // Returns the rotated coefficients.
 // Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -195,6 +198,7 @@ ZONAL_HIGHP float[4] sh2_rotate_zyz_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4
 // Returns the rotated coefficients.
 // Operations: 74 (47 mul, 7 add, 20 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -284,6 +288,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_zyz_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[4] sh2_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
@@ -311,6 +316,7 @@ ZONAL_HIGHP float[4] sh2_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (12 mul, 0 add, 36 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
@@ -338,6 +344,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
 ZONAL_HIGHP float[4] sh2_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] c) {
@@ -359,6 +366,7 @@ ZONAL_HIGHP float[4] sh2_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[4] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 27 (9 mul, 0 add, 18 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
 ZONAL_HIGHP vec3[4] sh2_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4] c) {
@@ -379,6 +387,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[4
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[4] sh2_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[4] c) {
@@ -402,6 +411,7 @@ ZONAL_HIGHP float[4] sh2_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[4] c) {
@@ -427,6 +437,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP vec2[4] sh2_angles(ZONAL_HIGHP vec4 q) {
@@ -460,6 +471,7 @@ ZONAL_HIGHP vec2[4] sh2_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[4] sh2_rotate_angles(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP float[4] c) {
@@ -484,6 +496,7 @@ ZONAL_HIGHP float[4] sh2_rotate_angles(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_angles_rgb(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP vec3[4] c) {
@@ -509,6 +522,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_angles_rgb(ZONAL_HIGHP vec2[4] cs, ZONAL_HIGHP ve
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP float[4] sh2_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c) {
@@ -550,6 +564,7 @@ ZONAL_HIGHP float[4] sh2_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[4] c
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4] c) {
@@ -590,6 +605,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4]
 // Returns the rotated coefficients.
 // Operations: 14 (8 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[4] sh2_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[4] c) {
@@ -619,6 +635,7 @@ ZONAL_HIGHP float[4] sh2_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[4] c
 // Returns the rotated coefficients.
 // Operations: 30 (16 mul, 1 add, 13 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP vec3[4] sh2_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[4] c) {
@@ -647,6 +664,7 @@ ZONAL_HIGHP vec3[4] sh2_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[4]
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 ZONAL_HIGHP float[4] sh2_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[2] c) {
@@ -668,6 +686,7 @@ ZONAL_HIGHP float[4] sh2_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[2]
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 9 (9 mul, 0 add, 0 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 ZONAL_HIGHP vec3[4] sh2_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[2] c) {

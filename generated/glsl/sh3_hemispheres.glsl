@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 17 (12 mul, 1 add, 3 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     8 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 7.4e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 2.5e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -57,6 +58,7 @@ ZONAL_HIGHP float[9] sh3_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 23 (9 mul, 1 add, 12 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     9 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 3.5e-7; not proven).
 ZONAL_HIGHP float sh3_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
@@ -86,6 +88,7 @@ ZONAL_HIGHP float sh3_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 41 (11 mul, 1 add, 28 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 9 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 3.5e-7; not proven).
 ZONAL_HIGHP vec3 sh3_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
@@ -117,6 +120,7 @@ ZONAL_HIGHP vec3 sh3_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 13 (3 mul, 0 add, 9 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP float sh3_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
@@ -142,6 +146,7 @@ ZONAL_HIGHP float sh3_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 29 (3 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP vec3 sh3_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
@@ -163,6 +168,7 @@ ZONAL_HIGHP vec3 sh3_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 14 (8 mul, 0 add, 6 fma); 7 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-7).
 ZONAL_HIGHP float[9] sh3_hsh_to_monomial(ZONAL_HIGHP float[9] c) {
@@ -190,6 +196,7 @@ ZONAL_HIGHP float[9] sh3_hsh_to_monomial(ZONAL_HIGHP float[9] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 42 (24 mul, 0 add, 18 fma); 7 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -216,6 +223,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 15 (9 mul, 0 add, 6 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP float[9] sh3_sh_to_hsh(ZONAL_HIGHP float[9] c) {
@@ -241,6 +249,7 @@ ZONAL_HIGHP float[9] sh3_sh_to_hsh(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 45 (27 mul, 0 add, 18 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP vec3[9] sh3_sh_to_hsh_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -266,6 +275,7 @@ ZONAL_HIGHP vec3[9] sh3_sh_to_hsh_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 32 (9 mul, 0 add, 23 fma); 21 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[9] sh3_of_order_5_sh_to_hsh(ZONAL_HIGHP float[25] c) {
@@ -291,6 +301,7 @@ ZONAL_HIGHP float[9] sh3_of_order_5_sh_to_hsh(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 96 (27 mul, 0 add, 69 fma); 21 constants, 9 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[9] sh3_of_order_5_sh_to_hsh_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -316,6 +327,7 @@ ZONAL_HIGHP vec3[9] sh3_of_order_5_sh_to_hsh_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 15 (9 mul, 0 add, 6 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 ZONAL_HIGHP float[9] sh3_hsh_to_sh(ZONAL_HIGHP float[9] c) {
@@ -342,6 +354,7 @@ ZONAL_HIGHP float[9] sh3_hsh_to_sh(ZONAL_HIGHP float[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 45 (27 mul, 0 add, 18 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 ZONAL_HIGHP vec3[9] sh3_hsh_to_sh_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -368,6 +381,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_to_sh_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 19 (9 mul, 0 add, 10 fma); 14 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[9] sh3_hsh_extend(ZONAL_HIGHP float[9] c) {
@@ -394,6 +408,7 @@ ZONAL_HIGHP float[9] sh3_hsh_extend(ZONAL_HIGHP float[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 57 (27 mul, 0 add, 30 fma); 14 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_extend_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -421,6 +436,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_extend_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 42 (12 mul, 0 add, 30 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP float[9] sh3_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
@@ -461,6 +477,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9]
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 126 (36 mul, 0 add, 90 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
@@ -501,6 +518,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 152 (59 mul, 1 add, 92 fma); 38 constants, 42 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP float[9] sh3_hsh_y_lobe_sh(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
@@ -587,6 +605,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_lobe_sh(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9]
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 430 (161 mul, 3 add, 266 fma); 38 constants, 42 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
@@ -675,6 +694,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[
 // Returns the rotated hemispherical coefficients.
 // Operations: 25 (12 mul, 2 add, 10 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_y_lobe_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
@@ -712,6 +732,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_lobe_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP f
 // Returns the rotated hemispherical coefficients.
 // Operations: 55 (24 mul, 4 add, 26 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
@@ -748,6 +769,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_lobe_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGH
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 42 (12 mul, 0 add, 30 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[9] sh3_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float[9] c) {
@@ -789,6 +811,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 126 (36 mul, 0 add, 90 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[9] c) {
@@ -829,6 +852,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 158 (60 mul, 1 add, 97 fma); 66 constants, 42 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.4e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[9] sh3_hsh_y_record_sh(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
@@ -916,6 +940,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_record_sh(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 448 (164 mul, 3 add, 281 fma); 66 constants, 42 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.4e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_record_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
@@ -1005,6 +1030,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_record_sh_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 25 (12 mul, 2 add, 10 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_y_record_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[9] c) {
@@ -1042,6 +1068,7 @@ ZONAL_HIGHP float[9] sh3_hsh_y_record_eq13_form(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP
 // Returns the rotated hemispherical coefficients.
 // Operations: 55 (24 mul, 4 add, 26 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_y_record_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[9] c) {
@@ -1077,6 +1104,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_y_record_eq13_form_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HI
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 65 (15 mul, 0 add, 50 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.6e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1128,6 +1156,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 185 (39 mul, 0 add, 146 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7.6e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1181,6 +1210,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9
 // Returns the rotated hemispherical coefficients.
 // Operations: 186 (77 mul, 3 add, 106 fma) and 1 inverse square root or reciprocal; 38 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 2.9e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_sh(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1288,6 +1318,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_sh(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[
 // Returns the rotated hemispherical coefficients.
 // Operations: 512 (203 mul, 5 add, 304 fma) and 1 inverse square root or reciprocal; 38 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 2.9e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1395,6 +1426,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 44 (13 mul, 3 add, 27 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1442,6 +1474,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_lobe_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIGHP
 // Returns the rotated hemispherical coefficients.
 // Operations: 114 (29 mul, 5 add, 79 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1489,6 +1522,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_lobe_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_HI
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 65 (15 mul, 0 add, 50 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1542,6 +1576,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 185 (39 mul, 0 add, 146 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7.2e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1594,6 +1629,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (78 mul, 3 add, 111 fma) and 1 inverse square root or reciprocal; 66 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 3.5e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_record_sh(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1701,6 +1737,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_record_sh(ZONAL_HIGHP vec3 n, ZONAL_HIGHP floa
 // Returns the rotated hemispherical coefficients.
 // Operations: 530 (206 mul, 5 add, 319 fma) and 1 inverse square root or reciprocal; 66 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 3.5e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1809,6 +1846,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_sh_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP v
 // Returns the rotated hemispherical coefficients.
 // Operations: 44 (13 mul, 3 add, 27 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_tilt_record_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1856,6 +1894,7 @@ ZONAL_HIGHP float[9] sh3_hsh_tilt_record_eq13_form(ZONAL_HIGHP vec3 n, ZONAL_HIG
 // Returns the rotated hemispherical coefficients.
 // Operations: 114 (29 mul, 5 add, 79 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1902,6 +1941,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_tilt_record_eq13_form_rgb(ZONAL_HIGHP vec3 n, ZONAL_
 // Returns the rotated hemispherical coefficients.
 // Operations: 94 (39 mul, 4 add, 51 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -1969,6 +2009,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9
 // Returns the rotated hemispherical coefficients.
 // Operations: 226 (87 mul, 4 add, 135 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2036,6 +2077,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3
 // Returns the rotated hemispherical coefficients.
 // Operations: 202 (84 mul, 6 add, 112 fma) and 1 inverse square root or reciprocal; 38 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 2.8e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_sh(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -2155,6 +2197,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_sh(ZONAL_HIGHP vec4 q, ZONAL_HIGHP floa
 // Returns the rotated hemispherical coefficients.
 // Operations: 528 (210 mul, 8 add, 310 fma) and 1 inverse square root or reciprocal; 38 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 2.8e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2275,6 +2318,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 // Returns the rotated hemispherical coefficients.
 // Operations: 75 (37 mul, 7 add, 30 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -2343,6 +2387,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_lobe_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_HIG
 // Returns the rotated hemispherical coefficients.
 // Operations: 153 (73 mul, 9 add, 70 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2411,6 +2456,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_lobe_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONAL_
 // Returns the rotated hemispherical coefficients.
 // Operations: 94 (39 mul, 4 add, 51 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -2479,6 +2525,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float
 // Returns the rotated hemispherical coefficients.
 // Operations: 226 (87 mul, 4 add, 135 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2546,6 +2593,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP ve
 // Returns the rotated hemispherical coefficients.
 // Operations: 208 (85 mul, 6 add, 117 fma) and 1 inverse square root or reciprocal; 66 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_record_sh(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -2666,6 +2714,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_record_sh(ZONAL_HIGHP vec4 q, ZONAL_HIGHP fl
 // Returns the rotated hemispherical coefficients.
 // Operations: 546 (213 mul, 8 add, 325 fma) and 1 inverse square root or reciprocal; 66 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 3.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2787,6 +2836,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_sh_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP
 // Returns the rotated hemispherical coefficients.
 // Operations: 75 (37 mul, 7 add, 30 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_record_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -2855,6 +2905,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_record_eq13_form(ZONAL_HIGHP vec4 q, ZONAL_H
 // Returns the rotated hemispherical coefficients.
 // Operations: 153 (73 mul, 9 add, 70 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -2923,6 +2974,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_record_eq13_form_rgb(ZONAL_HIGHP vec4 q, ZONA
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 77 (25 mul, 2 add, 50 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 ZONAL_HIGHP float[9] sh3_hsh_rotate_table(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float[45] m, ZONAL_HIGHP float[9] c) {
@@ -2970,6 +3022,7 @@ ZONAL_HIGHP float[9] sh3_hsh_rotate_table(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP fl
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 215 (67 mul, 2 add, 146 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float[45] m, ZONAL_HIGHP vec3[9] c) {
@@ -3021,6 +3074,7 @@ ZONAL_HIGHP vec3[9] sh3_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 79 (48 mul, 7 add, 22 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 11 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.4e-6 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 1.8e-6; not proven).
@@ -3081,6 +3135,7 @@ ZONAL_HIGHP float[9] sh3_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e, 
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 97 (66 mul, 7 add, 22 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 11 constants, 16 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.4e-6 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 1.8e-6; not proven).

@@ -22,6 +22,7 @@
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 11 (8 mul, 0 add, 3 fma); 6 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.5e-8).
 ZONAL_HIGHP float[9] sh3_to_irradiance(ZONAL_HIGHP float[9] c) {
@@ -50,6 +51,7 @@ ZONAL_HIGHP float[9] sh3_to_irradiance(ZONAL_HIGHP float[9] c) {
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 33 (24 mul, 0 add, 9 fma); 6 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.5e-8).
 ZONAL_HIGHP vec3[9] sh3_to_irradiance_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -79,6 +81,7 @@ ZONAL_HIGHP vec3[9] sh3_to_irradiance_rgb(ZONAL_HIGHP vec3[9] c) {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 8 (0 mul, 0 add, 8 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float sh3_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
@@ -98,6 +101,7 @@ ZONAL_HIGHP float sh3_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 24 (0 mul, 0 add, 24 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3 sh3_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {
@@ -116,6 +120,7 @@ ZONAL_HIGHP vec3 sh3_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 8 (6 mul, 0 add, 2 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.6e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[6] h6_basis(ZONAL_HIGHP vec3 dir) {
@@ -141,6 +146,7 @@ ZONAL_HIGHP float[6] h6_basis(ZONAL_HIGHP vec3 dir) {
 // Returns H_i(dir).
 // Operations: 14 (9 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 5 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 2.6e-7; not proven).
 ZONAL_HIGHP float[6] h6_basis_normalised(ZONAL_HIGHP vec3 dir) {
@@ -168,6 +174,7 @@ ZONAL_HIGHP float[6] h6_basis_normalised(ZONAL_HIGHP vec3 dir) {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 11 (4 mul, 0 add, 7 fma); 6 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float h6_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
@@ -188,6 +195,7 @@ ZONAL_HIGHP float h6_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 17 (7 mul, 0 add, 10 fma) and 1 inverse square root or reciprocal; 6 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.5e-7; not proven).
 ZONAL_HIGHP float h6_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
@@ -210,6 +218,7 @@ ZONAL_HIGHP float h6_eval_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] 
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 26 (9 mul, 0 add, 17 fma); 5 constants, 2 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.9e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3 h6_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
@@ -230,6 +239,7 @@ ZONAL_HIGHP vec3 h6_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 32 (12 mul, 0 add, 20 fma) and 1 inverse square root or reciprocal; 5 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 6.5e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
 ZONAL_HIGHP vec3 h6_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
@@ -249,6 +259,7 @@ ZONAL_HIGHP vec3 h6_eval_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 7 (6 mul, 0 add, 1 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[6] h6_to_monomial(ZONAL_HIGHP float[6] c) {
@@ -271,6 +282,7 @@ ZONAL_HIGHP float[6] h6_to_monomial(ZONAL_HIGHP float[6] c) {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 21 (18 mul, 0 add, 3 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[6] h6_to_monomial_rgb(ZONAL_HIGHP vec3[6] c) {
@@ -296,6 +308,7 @@ ZONAL_HIGHP vec3[6] h6_to_monomial_rgb(ZONAL_HIGHP vec3[6] c) {
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
 // Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float h6_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
@@ -315,6 +328,7 @@ ZONAL_HIGHP float h6_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c)
 // Returns sum c_i H_i(dir).
 // Operations: 12 (3 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
 ZONAL_HIGHP float h6_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
@@ -337,6 +351,7 @@ ZONAL_HIGHP float h6_eval_monomial_normalised(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
 // Operations: 17 (1 mul, 0 add, 16 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.3e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3 h6_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
@@ -356,6 +371,7 @@ ZONAL_HIGHP vec3 h6_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] 
 // Returns sum c_i H_i(dir).
 // Operations: 23 (4 mul, 0 add, 19 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
 ZONAL_HIGHP vec3 h6_eval_monomial_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {
@@ -376,6 +392,7 @@ ZONAL_HIGHP vec3 h6_eval_monomial_normalised_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 0 add, 4 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[4] sh3_to_h4_coefficients(ZONAL_HIGHP float[9] c) {
@@ -397,6 +414,7 @@ ZONAL_HIGHP float[4] sh3_to_h4_coefficients(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 0 add, 12 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -418,6 +436,7 @@ ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP float[4] sh3_to_h4_coefficients_monomial(ZONAL_HIGHP float[9] c) {
@@ -439,6 +458,7 @@ ZONAL_HIGHP float[4] sh3_to_h4_coefficients_monomial(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -459,6 +479,7 @@ ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP float[4] sh3_to_h4_coefficients_irradiance(ZONAL_HIGHP float[9] c) {
@@ -479,6 +500,7 @@ ZONAL_HIGHP float[4] sh3_to_h4_coefficients_irradiance(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -499,6 +521,7 @@ ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.5e-8).
 ZONAL_HIGHP float[4] sh3_to_h4_coefficients_irradiance_monomial(ZONAL_HIGHP float[9] c) {
@@ -520,6 +543,7 @@ ZONAL_HIGHP float[4] sh3_to_h4_coefficients_irradiance_monomial(ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.5e-8).
 ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -541,6 +565,7 @@ ZONAL_HIGHP vec3[4] sh3_to_h4_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[6] sh3_to_h6_coefficients(ZONAL_HIGHP float[9] c) {
@@ -564,6 +589,7 @@ ZONAL_HIGHP float[6] sh3_to_h6_coefficients(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -587,6 +613,7 @@ ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.9e-8).
 ZONAL_HIGHP float[6] sh3_to_h6_coefficients_monomial(ZONAL_HIGHP float[9] c) {
@@ -610,6 +637,7 @@ ZONAL_HIGHP float[6] sh3_to_h6_coefficients_monomial(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.9e-8).
 ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -632,6 +660,7 @@ ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 10 (6 mul, 0 add, 4 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP float[6] sh3_to_h6_coefficients_irradiance(ZONAL_HIGHP float[9] c) {
@@ -654,6 +683,7 @@ ZONAL_HIGHP float[6] sh3_to_h6_coefficients_irradiance(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 30 (18 mul, 0 add, 12 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -676,6 +706,7 @@ ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-8).
 ZONAL_HIGHP float[6] sh3_to_h6_coefficients_irradiance_monomial(ZONAL_HIGHP float[9] c) {
@@ -699,6 +730,7 @@ ZONAL_HIGHP float[6] sh3_to_h6_coefficients_irradiance_monomial(ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-8).
 ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -722,6 +754,7 @@ ZONAL_HIGHP vec3[6] sh3_to_h6_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 ZONAL_HIGHP float[3] sh3_to_hl2_coefficients(ZONAL_HIGHP float[9] c) {
@@ -746,6 +779,7 @@ ZONAL_HIGHP float[3] sh3_to_hl2_coefficients(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 ZONAL_HIGHP vec3[3] sh3_to_hl2_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -770,6 +804,7 @@ ZONAL_HIGHP vec3[3] sh3_to_hl2_coefficients_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP float[3] sh3_to_hl2_coefficients_irradiance(ZONAL_HIGHP float[9] c) {
@@ -794,6 +829,7 @@ ZONAL_HIGHP float[3] sh3_to_hl2_coefficients_irradiance(ZONAL_HIGHP float[9] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP vec3[3] sh3_to_hl2_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -819,6 +855,7 @@ ZONAL_HIGHP vec3[3] sh3_to_hl2_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[9] c
 // Returns the least value, the direction x, y, z of unit length in which it is, the bound.
 // Operations: 500 (213 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
 //     reciprocal, inverse square root); 12 constants, 45 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.4e-6; not proven).
 ZONAL_HIGHP float[5] sh3_minimum(ZONAL_HIGHP float[9] c) {
@@ -1133,6 +1170,7 @@ ZONAL_HIGHP float[5] sh3_minimum(ZONAL_HIGHP float[9] c) {
 // Returns the coefficients of the faded function.
 // Operations: 438 (192 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
 //     reciprocal, inverse square root); 11 constants, 33 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 6.3e-7; not proven).
 ZONAL_HIGHP float[9] sh3_lerp_to_dc(ZONAL_HIGHP float[9] c) {
@@ -1412,6 +1450,7 @@ ZONAL_HIGHP float[9] sh3_lerp_to_dc(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 11 (11 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[9] c) {
@@ -1440,6 +1479,7 @@ ZONAL_HIGHP float[9] sh3_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 27 (27 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[9] c) {
@@ -1469,6 +1509,7 @@ ZONAL_HIGHP vec3[9] sh3_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[9] c) 
 // Returns the five coefficients.
 // Operations: 18 (8 mul, 2 add, 8 fma) and 1 inverse square root or reciprocal; 2 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.5e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.9e-7; not proven).
 ZONAL_HIGHP float[5] to_zonal_quadratic(ZONAL_HIGHP float[9] c) {

@@ -23,6 +23,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 7 (4 mul, 1 add, 1 fma, 1 min, max or select) and 2 special (square root, reciprocal); 4
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 ZONAL_HIGHP float[3] sh3_cap(ZONAL_HIGHP float s) {
@@ -47,6 +48,7 @@ ZONAL_HIGHP float[3] sh3_cap(ZONAL_HIGHP float s) {
 // Returns the zonal coefficients, one a band.
 // Operations: 64 (34 mul, 3 add, 22 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 30 constants, 9 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 ZONAL_HIGHP float[3] sh3_gaussian(ZONAL_HIGHP float kappa) {
@@ -95,6 +97,7 @@ ZONAL_HIGHP float[3] sh3_gaussian(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 52 (28 mul, 1 add, 18 fma, 5 min, max or select) and 2 inverse square roots or
 //     reciprocals; 25 constants, 8 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[3] sh3_gaussian_narrow(ZONAL_HIGHP float kappa) {
@@ -137,6 +140,7 @@ ZONAL_HIGHP float[3] sh3_gaussian_narrow(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 8 (5 mul, 3 add, 0 fma) and 3 inverse square roots or reciprocals; 6 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 ZONAL_HIGHP float[3] sh3_phong(ZONAL_HIGHP float s) {
@@ -157,6 +161,7 @@ ZONAL_HIGHP float[3] sh3_phong(ZONAL_HIGHP float s) {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 3 (3 mul, 0 add, 0 fma); 3 constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.3e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     4.2e-8; not proven).
 ZONAL_HIGHP float[3] sh3_henyey_greenstein(ZONAL_HIGHP float g) {
@@ -177,6 +182,7 @@ ZONAL_HIGHP float[3] sh3_henyey_greenstein(ZONAL_HIGHP float g) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 12 (12 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP float[9] sh3_convolve(ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] c) {
@@ -205,6 +211,7 @@ ZONAL_HIGHP float[9] sh3_convolve(ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP vec3[9] sh3_convolve_rgb(ZONAL_HIGHP float[3] g, ZONAL_HIGHP vec3[9] c) {
@@ -233,6 +240,7 @@ ZONAL_HIGHP vec3[9] sh3_convolve_rgb(ZONAL_HIGHP float[3] g, ZONAL_HIGHP vec3[9]
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 9 (9 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[9] sh3_convolve_cosine(ZONAL_HIGHP float[9] c) {
@@ -259,6 +267,7 @@ ZONAL_HIGHP float[9] sh3_convolve_cosine(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 27 (27 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[9] sh3_convolve_cosine_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -286,6 +295,7 @@ ZONAL_HIGHP vec3[9] sh3_convolve_cosine_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.5e-7).
@@ -307,6 +317,7 @@ ZONAL_HIGHP float sh3_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 37 (10 mul, 0 add, 27 fma); 7 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
@@ -330,6 +341,7 @@ ZONAL_HIGHP vec3 sh3_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 22 (11 mul, 0 add, 11 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -361,6 +373,7 @@ ZONAL_HIGHP float[9] sh3_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 40 (11 mul, 0 add, 29 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -394,6 +407,7 @@ ZONAL_HIGHP vec3[9] sh3_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients with the light added.
 // Operations: 28 (14 mul, 1 add, 12 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 7 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
@@ -431,6 +445,7 @@ ZONAL_HIGHP float[9] sh3_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s,
 // Returns the coefficients with the light added.
 // Operations: 50 (18 mul, 1 add, 30 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 7 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
@@ -466,6 +481,7 @@ ZONAL_HIGHP vec3[9] sh3_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 28 (15 mul, 2 add, 11 fma); 8 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
@@ -500,6 +516,7 @@ ZONAL_HIGHP float[9] sh3_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos,
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 50 (19 mul, 2 add, 29 fma); 8 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
@@ -535,6 +552,7 @@ ZONAL_HIGHP vec3[9] sh3_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
@@ -566,6 +584,7 @@ ZONAL_HIGHP float[9] sh3_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
@@ -597,6 +616,7 @@ ZONAL_HIGHP vec3[9] sh3_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // Returns the coefficients with the light added.
 // Operations: 85 (44 mul, 3 add, 33 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 34 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
@@ -658,6 +678,7 @@ ZONAL_HIGHP float[9] sh3_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float 
 // Returns the coefficients with the light added.
 // Operations: 107 (48 mul, 3 add, 51 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 34 constants, 10 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
@@ -717,6 +738,7 @@ ZONAL_HIGHP vec3[9] sh3_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.7e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 sh3_dominant(ZONAL_HIGHP float[9] c) {
@@ -740,6 +762,7 @@ ZONAL_HIGHP vec3 sh3_dominant(ZONAL_HIGHP float[9] c) {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 12 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.7e-7; not proven).
 ZONAL_HIGHP float[5] sh3_light_fit(ZONAL_HIGHP float[9] c) {
@@ -773,6 +796,7 @@ ZONAL_HIGHP float[5] sh3_light_fit(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (10 mul, 0 add, 11 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
@@ -800,6 +824,7 @@ ZONAL_HIGHP float[2] sh3_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 43 (16 mul, 0 add, 27 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).

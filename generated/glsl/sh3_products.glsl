@@ -20,6 +20,7 @@
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 90 (25 mul, 4 add, 61 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 ZONAL_HIGHP float[9] sh3_product(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[9] b) {
@@ -75,6 +76,7 @@ ZONAL_HIGHP float[9] sh3_product(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[9] b)
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 270 (75 mul, 12 add, 183 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_rgb(ZONAL_HIGHP vec3[9] a, ZONAL_HIGHP vec3[9] b) {
@@ -130,6 +132,7 @@ ZONAL_HIGHP vec3[9] sh3_product_rgb(ZONAL_HIGHP vec3[9] a, ZONAL_HIGHP vec3[9] b
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 44 (18 mul, 1 add, 25 fma); 4 constants, 11 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 ZONAL_HIGHP float[9] sh3_of_sh2_and_sh3_product(ZONAL_HIGHP float[4] a, ZONAL_HIGHP float[9] b) {
@@ -165,6 +168,7 @@ ZONAL_HIGHP float[9] sh3_of_sh2_and_sh3_product(ZONAL_HIGHP float[4] a, ZONAL_HI
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 132 (54 mul, 3 add, 75 fma); 4 constants, 11 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_of_sh2_and_sh3_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL_HIGHP vec3[9] b) {
@@ -199,6 +203,7 @@ ZONAL_HIGHP vec3[9] sh3_of_sh2_and_sh3_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL_
 // a: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 58 (21 mul, 4 add, 33 fma); 12 constants, 12 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.8e-8; not proven).
 ZONAL_HIGHP float[9] sh3_square(ZONAL_HIGHP float[9] a) {
@@ -239,6 +244,7 @@ ZONAL_HIGHP float[9] sh3_square(ZONAL_HIGHP float[9] a) {
 // a: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 174 (63 mul, 12 add, 99 fma); 12 constants, 12 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.8e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_square_rgb(ZONAL_HIGHP vec3[9] a) {
@@ -280,6 +286,7 @@ ZONAL_HIGHP vec3[9] sh3_square_rgb(ZONAL_HIGHP vec3[9] a) {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 9 (1 mul, 0 add, 8 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.6e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float sh3_dot(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[9] b) {
@@ -297,6 +304,7 @@ ZONAL_HIGHP float sh3_dot(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[9] b) {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 27 (3 mul, 0 add, 24 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.6e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP vec3 sh3_dot_rgb(ZONAL_HIGHP vec3[9] a, ZONAL_HIGHP vec3[9] b) {
@@ -314,6 +322,7 @@ ZONAL_HIGHP vec3 sh3_dot_rgb(ZONAL_HIGHP vec3[9] a, ZONAL_HIGHP vec3[9] b) {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 34 (25 mul, 0 add, 9 fma); 7 constants, 34 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
 ZONAL_HIGHP float[40] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
@@ -380,6 +389,7 @@ ZONAL_HIGHP float[40] sh3_product_matrix(ZONAL_HIGHP float[9] a) {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 102 (75 mul, 0 add, 27 fma); 7 constants, 34 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
 ZONAL_HIGHP vec3[40] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
@@ -446,6 +456,7 @@ ZONAL_HIGHP vec3[40] sh3_product_matrix_rgb(ZONAL_HIGHP vec3[9] a) {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (9 mul, 0 add, 62 fma); 0 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 ZONAL_HIGHP float[9] sh3_product_by_matrix(ZONAL_HIGHP float[40] m, ZONAL_HIGHP float[9] b) {
@@ -481,6 +492,7 @@ ZONAL_HIGHP float[9] sh3_product_by_matrix(ZONAL_HIGHP float[40] m, ZONAL_HIGHP 
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (27 mul, 0 add, 186 fma); 0 constants, 9 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_by_matrix_rgb(ZONAL_HIGHP float[40] m, ZONAL_HIGHP vec3[9] b) {
@@ -516,6 +528,7 @@ ZONAL_HIGHP vec3[9] sh3_product_by_matrix_rgb(ZONAL_HIGHP float[40] m, ZONAL_HIG
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 90 (25 mul, 4 add, 61 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 ZONAL_HIGHP float[9] sh3_product_grey(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[9] b) {
@@ -571,6 +584,7 @@ ZONAL_HIGHP float[9] sh3_product_grey(ZONAL_HIGHP float[9] a, ZONAL_HIGHP float[
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 246 (67 mul, 12 add, 167 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_grey_rgb(ZONAL_HIGHP float[9] a, ZONAL_HIGHP vec3[9] b) {
@@ -626,6 +640,7 @@ ZONAL_HIGHP vec3[9] sh3_product_grey_rgb(ZONAL_HIGHP float[9] a, ZONAL_HIGHP vec
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 29 (14 mul, 0 add, 15 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.7e-8; not proven).
 ZONAL_HIGHP float[9] sh3_product_zonal(ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] b) {
@@ -659,6 +674,7 @@ ZONAL_HIGHP float[9] sh3_product_zonal(ZONAL_HIGHP float[3] g, ZONAL_HIGHP float
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 87 (42 mul, 0 add, 45 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.7e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_zonal_rgb(ZONAL_HIGHP vec3[3] g, ZONAL_HIGHP vec3[9] b) {
@@ -694,6 +710,7 @@ ZONAL_HIGHP vec3[9] sh3_product_zonal_rgb(ZONAL_HIGHP vec3[3] g, ZONAL_HIGHP vec
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 96 (47 mul, 3 add, 46 fma) and 1 inverse square root or reciprocal; 10 constants, 23
 //     live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.5e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.9e-7; not proven).
 ZONAL_HIGHP float[9] sh3_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] b) {
@@ -770,6 +787,7 @@ ZONAL_HIGHP float[9] sh3_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP f
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 262 (123 mul, 7 add, 132 fma) and 1 inverse square root or reciprocal; 10 constants, 23
 //     live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.5e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.9e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] g, ZONAL_HIGHP vec3[9] b) {
@@ -846,6 +864,7 @@ ZONAL_HIGHP vec3[9] sh3_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGH
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 83 (38 mul, 2 add, 43 fma); 7 constants, 15 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 6.3e-8; not proven).
 ZONAL_HIGHP float[9] sh3_product_zonal_about_angles(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] b) {
@@ -909,6 +928,7 @@ ZONAL_HIGHP float[9] sh3_product_zonal_about_angles(ZONAL_HIGHP vec2[5] cs, ZONA
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 249 (114 mul, 6 add, 129 fma); 7 constants, 15 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 6.3e-8; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP vec3[3] g, ZONAL_HIGHP vec3[9] b) {
@@ -969,6 +989,7 @@ ZONAL_HIGHP vec3[9] sh3_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[5] cs, Z
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 19 (9 mul, 0 add, 10 fma); 9 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-8).
 ZONAL_HIGHP float[9] sh3_product_cosine(ZONAL_HIGHP float[9] b) {
@@ -994,6 +1015,7 @@ ZONAL_HIGHP float[9] sh3_product_cosine(ZONAL_HIGHP float[9] b) {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 57 (27 mul, 0 add, 30 fma); 9 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-8).
 ZONAL_HIGHP vec3[9] sh3_product_cosine_rgb(ZONAL_HIGHP vec3[9] b) {
@@ -1021,6 +1043,7 @@ ZONAL_HIGHP vec3[9] sh3_product_cosine_rgb(ZONAL_HIGHP vec3[9] b) {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 86 (42 mul, 3 add, 41 fma) and 1 inverse square root or reciprocal; 13 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 3.6e-7; not proven).
 ZONAL_HIGHP float[9] sh3_product_cosine_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] b) {
@@ -1089,6 +1112,7 @@ ZONAL_HIGHP float[9] sh3_product_cosine_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 232 (108 mul, 7 add, 117 fma) and 1 inverse square root or reciprocal; 13 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 3.6e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_cosine_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] b) {
@@ -1157,6 +1181,7 @@ ZONAL_HIGHP vec3[9] sh3_product_cosine_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 73 (33 mul, 2 add, 38 fma); 10 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.5e-7; not proven).
 ZONAL_HIGHP float[9] sh3_product_cosine_about_angles(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP float[9] b) {
@@ -1212,6 +1237,7 @@ ZONAL_HIGHP float[9] sh3_product_cosine_about_angles(ZONAL_HIGHP vec2[5] cs, ZON
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 219 (99 mul, 6 add, 114 fma); 10 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_cosine_about_angles_rgb(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP vec3[9] b) {
@@ -1265,6 +1291,7 @@ ZONAL_HIGHP vec3[9] sh3_product_cosine_about_angles_rgb(ZONAL_HIGHP vec2[5] cs, 
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 17 (9 mul, 0 add, 8 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP float[9] sh3_product_hemisphere(ZONAL_HIGHP float[9] b) {
@@ -1290,6 +1317,7 @@ ZONAL_HIGHP float[9] sh3_product_hemisphere(ZONAL_HIGHP float[9] b) {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 51 (27 mul, 0 add, 24 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP vec3[9] sh3_product_hemisphere_rgb(ZONAL_HIGHP vec3[9] b) {
@@ -1317,6 +1345,7 @@ ZONAL_HIGHP vec3[9] sh3_product_hemisphere_rgb(ZONAL_HIGHP vec3[9] b) {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 84 (42 mul, 3 add, 39 fma) and 1 inverse square root or reciprocal; 7 constants, 24 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 5.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_product_hemisphere_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] b) {
@@ -1385,6 +1414,7 @@ ZONAL_HIGHP float[9] sh3_product_hemisphere_about(ZONAL_HIGHP vec3 dir, ZONAL_HI
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 226 (108 mul, 7 add, 111 fma) and 1 inverse square root or reciprocal; 7 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 5.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_hemisphere_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] b) {
@@ -1454,6 +1484,7 @@ ZONAL_HIGHP vec3[9] sh3_product_hemisphere_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (33 mul, 2 add, 36 fma); 5 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_product_hemisphere_about_angles(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP float[9] b) {
@@ -1510,6 +1541,7 @@ ZONAL_HIGHP float[9] sh3_product_hemisphere_about_angles(ZONAL_HIGHP vec2[5] cs,
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (99 mul, 6 add, 108 fma); 5 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_product_hemisphere_about_angles_rgb(ZONAL_HIGHP vec2[5] cs, ZONAL_HIGHP vec3[9] b) {
@@ -1565,6 +1597,7 @@ ZONAL_HIGHP vec3[9] sh3_product_hemisphere_about_angles_rgb(ZONAL_HIGHP vec2[5] 
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 15 (10 mul, 2 add, 3 fma) and 1 inverse square root or reciprocal; 2 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP vec2[5] sh3_axis_angles(ZONAL_HIGHP vec3 dir) {

@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 69 (34 mul, 6 add, 29 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 ZONAL_HIGHP float[9] sh3_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -86,6 +87,7 @@ ZONAL_HIGHP float[9] sh3_rotate_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) 
 // Returns the rotated coefficients.
 // Operations: 147 (70 mul, 8 add, 69 fma) and 1 inverse square root or reciprocal; 3 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -150,6 +152,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
 // Returns the rotated coefficients.
 // Operations: 88 (51 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -241,6 +244,7 @@ ZONAL_HIGHP float[9] sh3_rotate_zyz_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9
 // Returns the rotated coefficients.
 // Operations: 200 (119 mul, 7 add, 74 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -330,6 +334,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 64 (22 mul, 2 add, 40 fma); 5 constants, 20 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 ZONAL_HIGHP float[9] sh3_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -382,6 +387,7 @@ ZONAL_HIGHP float[9] sh3_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 158 (54 mul, 6 add, 98 fma); 5 constants, 20 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_tensor_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -434,6 +440,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_tensor_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 47 (16 mul, 2 add, 29 fma); 4 constants, 12 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP float[9] sh3_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[9] c) {
@@ -470,6 +477,7 @@ ZONAL_HIGHP float[9] sh3_rotate_matrix(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[9] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 141 (48 mul, 6 add, 87 fma); 4 constants, 12 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[9] c) {
@@ -505,6 +513,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_matrix_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[9
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (25 mul, 3 add, 23 fma); 2 constants, 15 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[9] sh3_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[9] c) {
@@ -551,6 +560,7 @@ ZONAL_HIGHP float[9] sh3_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 129 (61 mul, 5 add, 63 fma); 2 constants, 15 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[9] c) {
@@ -599,6 +609,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 31 (17 mul, 5 add, 9 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.9e-7).
 ZONAL_HIGHP vec2[7] sh3_angles(ZONAL_HIGHP vec4 q) {
@@ -643,6 +654,7 @@ ZONAL_HIGHP vec2[7] sh3_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 39 (18 mul, 1 add, 20 fma); 1 constants, 11 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[9] sh3_rotate_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float[9] c) {
@@ -682,6 +694,7 @@ ZONAL_HIGHP float[9] sh3_rotate_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 117 (54 mul, 3 add, 60 fma); 1 constants, 11 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP vec3[9] c) {
@@ -723,6 +736,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP ve
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 34 (20 mul, 6 add, 8 fma) and 2 inverse square roots or reciprocals; 3 constants, 16
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 ZONAL_HIGHP vec2[8] sh3_lifted(ZONAL_HIGHP vec4 q) {
@@ -772,6 +786,7 @@ ZONAL_HIGHP vec2[8] sh3_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[9] sh3_rotate_lifted(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP float[9] c) {
@@ -813,6 +828,7 @@ ZONAL_HIGHP float[9] sh3_rotate_lifted(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (36 mul, 0 add, 72 fma); 0 constants, 10 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_lifted_rgb(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP vec3[9] c) {
@@ -853,6 +869,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_lifted_rgb(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP ve
 // Returns the rotated coefficients.
 // Operations: 74 (37 mul, 6 add, 31 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
 ZONAL_HIGHP float[9] sh3_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c) {
@@ -919,6 +936,7 @@ ZONAL_HIGHP float[9] sh3_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] c
 // Returns the rotated coefficients.
 // Operations: 162 (81 mul, 6 add, 75 fma) and 1 inverse square root or reciprocal; 3 constants, 20
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] c) {
@@ -984,6 +1002,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9]
 // Returns the rotated coefficients.
 // Operations: 41 (21 mul, 3 add, 17 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 ZONAL_HIGHP float[9] sh3_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c) {
@@ -1029,6 +1048,7 @@ ZONAL_HIGHP float[9] sh3_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[9] c
 // Returns the rotated coefficients.
 // Operations: 95 (45 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9] c) {
@@ -1073,6 +1093,7 @@ ZONAL_HIGHP vec3[9] sh3_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[9]
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 18 (16 mul, 0 add, 2 fma); 4 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[9] sh3_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] c) {
@@ -1100,6 +1121,7 @@ ZONAL_HIGHP float[9] sh3_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3]
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 34 (32 mul, 0 add, 2 fma); 4 constants, 8 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[9] sh3_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[3] c) {

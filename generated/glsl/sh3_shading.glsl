@@ -21,6 +21,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 34 (8 mul, 0 add, 26 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP float[9] sh3_isd_matrix(ZONAL_HIGHP float[9] lambda) {
@@ -52,6 +53,7 @@ ZONAL_HIGHP float[9] sh3_isd_matrix(ZONAL_HIGHP float[9] lambda) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 102 (24 mul, 0 add, 78 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP vec3[9] sh3_isd_matrix_rgb(ZONAL_HIGHP vec3[9] lambda) {
@@ -82,6 +84,7 @@ ZONAL_HIGHP vec3[9] sh3_isd_matrix_rgb(ZONAL_HIGHP vec3[9] lambda) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 34 (8 mul, 0 add, 26 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[9] sh3_isd_weights(ZONAL_HIGHP float[9] c) {
@@ -112,6 +115,7 @@ ZONAL_HIGHP float[9] sh3_isd_weights(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 102 (24 mul, 0 add, 78 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[9] sh3_isd_weights_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -145,6 +149,7 @@ ZONAL_HIGHP vec3[9] sh3_isd_weights_rgb(ZONAL_HIGHP vec3[9] c) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 155 (70 mul, 0 add, 85 fma); 21 constants, 22 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP float sh3_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] lambda) {
@@ -208,6 +213,7 @@ ZONAL_HIGHP float sh3_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONA
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 241 (88 mul, 0 add, 153 fma); 21 constants, 22 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP vec3 sh3_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZONAL_HIGHP vec3[9] lambda) {
@@ -273,6 +279,7 @@ ZONAL_HIGHP vec3 sh3_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZO
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 50 (15 mul, 0 add, 35 fma); 18 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.9e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP float sh3_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] lambda) {
@@ -309,6 +316,7 @@ ZONAL_HIGHP float sh3_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, 
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 72 (21 mul, 0 add, 51 fma); 18 constants, 7 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.9e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP vec3 sh3_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] g, ZONAL_HIGHP vec3[9] lambda) {
@@ -340,6 +348,7 @@ ZONAL_HIGHP vec3 sh3_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 di
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 73 (9 mul, 0 add, 64 fma); 67 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for every input (3 times the
 //     worst of 256 measured, 6.8e-7; not proven).
 ZONAL_HIGHP float[9] sh3_mother_matrix(ZONAL_HIGHP float[9] lambda) {
@@ -383,6 +392,7 @@ ZONAL_HIGHP float[9] sh3_mother_matrix(ZONAL_HIGHP float[9] lambda) {
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 219 (27 mul, 0 add, 192 fma); 67 constants, 9 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for every input (3 times the
 //     worst of 256 measured, 6.8e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_mother_matrix_rgb(ZONAL_HIGHP vec3[9] lambda) {
@@ -426,6 +436,7 @@ ZONAL_HIGHP vec3[9] sh3_mother_matrix_rgb(ZONAL_HIGHP vec3[9] lambda) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Operations: 73 (9 mul, 0 add, 64 fma); 73 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, for every input (3 times the worst
 //     of 256 measured, 2.4e-7; not proven).
 ZONAL_HIGHP float[9] sh3_mother_weights(ZONAL_HIGHP float[9] c) {
@@ -460,6 +471,7 @@ ZONAL_HIGHP float[9] sh3_mother_weights(ZONAL_HIGHP float[9] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Operations: 219 (27 mul, 0 add, 192 fma); 73 constants, 9 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, for every input (3 times the worst
 //     of 256 measured, 2.4e-7; not proven).
 ZONAL_HIGHP vec3[9] sh3_mother_weights_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -497,6 +509,7 @@ ZONAL_HIGHP vec3[9] sh3_mother_weights_rgb(ZONAL_HIGHP vec3[9] c) {
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 285 (138 mul, 0 add, 147 fma); 38 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-6 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 3.7e-7; not proven).
 ZONAL_HIGHP float sh3_mother_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] lambda) {
@@ -591,6 +604,7 @@ ZONAL_HIGHP float sh3_mother_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, Z
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 469 (178 mul, 0 add, 291 fma); 38 constants, 18 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.1e-6 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 3.7e-7; not proven).
 ZONAL_HIGHP vec3 sh3_mother_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZONAL_HIGHP vec3[9] lambda) {
@@ -684,6 +698,7 @@ ZONAL_HIGHP vec3 sh3_mother_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e,
 // Returns the integral of the light times the reflectance.
 // Operations: 78 (35 mul, 8 add, 35 fma) and 1 inverse square root or reciprocal; 3 constants, 21 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP float sh3_shade_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] c) {
@@ -740,6 +755,7 @@ ZONAL_HIGHP float sh3_shade_zyz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONA
 // Returns the integral of the light times the reflectance.
 // Operations: 174 (73 mul, 14 add, 87 fma) and 1 inverse square root or reciprocal; 3 constants, 21
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3 sh3_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZONAL_HIGHP vec3[9] c) {
@@ -796,6 +812,7 @@ ZONAL_HIGHP vec3 sh3_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZONAL_
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 73 (23 mul, 2 add, 48 fma); 5 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float sh3_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[9] c) {
@@ -844,6 +861,7 @@ ZONAL_HIGHP float sh3_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HI
 // Returns the integral of the light times the reflectance.
 // Operations: 70 (33 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP float sh3_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e, ZONAL_HIGHP float[6] c) {
@@ -894,6 +912,7 @@ ZONAL_HIGHP float sh3_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[9] e
 // Returns the integral of the light times the reflectance.
 // Operations: 150 (67 mul, 11 add, 72 fma) and 1 inverse square root or reciprocal; 3 constants, 20
 //     live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP vec3 sh3_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9] e, ZONAL_HIGHP vec3[6] c) {
@@ -944,6 +963,7 @@ ZONAL_HIGHP vec3 sh3_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[9]
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 42 (19 mul, 0 add, 23 fma); 5 constants, 8 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP float sh3_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] g, ZONAL_HIGHP float[9] c) {
@@ -977,6 +997,7 @@ ZONAL_HIGHP float sh3_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONA
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 74 (35 mul, 0 add, 39 fma); 5 constants, 8 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3 sh3_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[3] g, ZONAL_HIGHP vec3[9] c) {

@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 31 (22 mul, 0 add, 8 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     19 constants, 17 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.9e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 3e-7; not proven).
 ZONAL_HIGHP float[16] sh4_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -72,6 +73,7 @@ ZONAL_HIGHP float[16] sh4_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 39 (13 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 18 constants, 8 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 5.5e-7; not proven).
 ZONAL_HIGHP float sh4_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
@@ -105,6 +107,7 @@ ZONAL_HIGHP float sh4_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 71 (15 mul, 0 add, 55 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 18 constants, 8 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 5.5e-7; not proven).
 ZONAL_HIGHP vec3 sh4_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
@@ -140,6 +143,7 @@ ZONAL_HIGHP vec3 sh4_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) 
 // Returns sum c_i H_i(dir).
 // Operations: 20 (3 mul, 0 add, 16 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP float sh4_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) {
@@ -165,6 +169,7 @@ ZONAL_HIGHP float sh4_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 50 (3 mul, 0 add, 46 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3 sh4_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c) {
@@ -186,6 +191,7 @@ ZONAL_HIGHP vec3 sh4_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 33 (12 mul, 0 add, 21 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3e-6).
 ZONAL_HIGHP float[16] sh4_hsh_to_monomial(ZONAL_HIGHP float[16] c) {
@@ -223,6 +229,7 @@ ZONAL_HIGHP float[16] sh4_hsh_to_monomial(ZONAL_HIGHP float[16] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 99 (36 mul, 0 add, 63 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 6.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3e-6).
 ZONAL_HIGHP vec3[16] sh4_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -259,6 +266,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 37 (16 mul, 0 add, 21 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP float[16] sh4_sh_to_hsh(ZONAL_HIGHP float[16] c) {
@@ -291,6 +299,7 @@ ZONAL_HIGHP float[16] sh4_sh_to_hsh(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 111 (48 mul, 0 add, 63 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP vec3[16] sh4_sh_to_hsh_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -323,6 +332,7 @@ ZONAL_HIGHP vec3[16] sh4_sh_to_hsh_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 68 (16 mul, 0 add, 52 fma); 40 constants, 16 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[16] sh4_of_order_6_sh_to_hsh(ZONAL_HIGHP float[36] c) {
@@ -362,6 +372,7 @@ ZONAL_HIGHP float[16] sh4_of_order_6_sh_to_hsh(ZONAL_HIGHP float[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 204 (48 mul, 0 add, 156 fma); 40 constants, 16 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[16] sh4_of_order_6_sh_to_hsh_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -401,6 +412,7 @@ ZONAL_HIGHP vec3[16] sh4_of_order_6_sh_to_hsh_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 37 (16 mul, 0 add, 21 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP float[16] sh4_hsh_to_sh(ZONAL_HIGHP float[16] c) {
@@ -434,6 +446,7 @@ ZONAL_HIGHP float[16] sh4_hsh_to_sh(ZONAL_HIGHP float[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 111 (48 mul, 0 add, 63 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP vec3[16] sh4_hsh_to_sh_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -466,6 +479,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_to_sh_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 12 (10 mul, 0 add, 2 fma); 10 constants, 10 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP float[16] sh4_of_order_2_hsh_to_sh(ZONAL_HIGHP float[4] c) {
@@ -499,6 +513,7 @@ ZONAL_HIGHP float[16] sh4_of_order_2_hsh_to_sh(ZONAL_HIGHP float[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 36 (30 mul, 0 add, 6 fma); 10 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 ZONAL_HIGHP vec3[16] sh4_of_order_2_hsh_to_sh_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -532,6 +547,7 @@ ZONAL_HIGHP vec3[16] sh4_of_order_2_hsh_to_sh_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 44 (16 mul, 0 add, 28 fma); 30 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP float[16] sh4_hsh_extend(ZONAL_HIGHP float[16] c) {
@@ -565,6 +581,7 @@ ZONAL_HIGHP float[16] sh4_hsh_extend(ZONAL_HIGHP float[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 132 (48 mul, 0 add, 84 fma); 30 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP vec3[16] sh4_hsh_extend_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -598,6 +615,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_extend_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 14 (10 mul, 0 add, 4 fma); 12 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[16] sh4_of_order_2_hsh_extend(ZONAL_HIGHP float[4] c) {
@@ -631,6 +649,7 @@ ZONAL_HIGHP float[16] sh4_of_order_2_hsh_extend(ZONAL_HIGHP float[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 42 (30 mul, 0 add, 12 fma); 12 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[16] sh4_of_order_2_hsh_extend_rgb(ZONAL_HIGHP vec3[4] c) {
@@ -665,6 +684,7 @@ ZONAL_HIGHP vec3[16] sh4_of_order_2_hsh_extend_rgb(ZONAL_HIGHP vec3[4] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 108 (24 mul, 0 add, 84 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP float[16] sh4_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
@@ -718,6 +738,7 @@ ZONAL_HIGHP float[16] sh4_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[1
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 324 (72 mul, 0 add, 252 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 6.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 ZONAL_HIGHP vec3[16] sh4_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
@@ -772,6 +793,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 108 (24 mul, 0 add, 84 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP float[16] sh4_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float[16] c) {
@@ -826,6 +848,7 @@ ZONAL_HIGHP float[16] sh4_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 324 (72 mul, 0 add, 252 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP vec3[16] sh4_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[16] c) {
@@ -879,6 +902,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP ve
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 149 (27 mul, 0 add, 122 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[16] sh4_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
@@ -968,6 +992,7 @@ ZONAL_HIGHP float[16] sh4_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 437 (75 mul, 0 add, 362 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[16] sh4_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
@@ -1059,6 +1084,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 149 (27 mul, 0 add, 122 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[16] sh4_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
@@ -1150,6 +1176,7 @@ ZONAL_HIGHP float[16] sh4_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 437 (75 mul, 0 add, 362 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[16] sh4_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
@@ -1240,6 +1267,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (67 mul, 4 add, 121 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.4e-7; not proven).
 ZONAL_HIGHP float[16] sh4_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
@@ -1330,6 +1358,7 @@ ZONAL_HIGHP float[16] sh4_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[
 // Returns the rotated hemispherical coefficients.
 // Operations: 504 (163 mul, 4 add, 337 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.4e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
@@ -1421,6 +1450,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (67 mul, 4 add, 121 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.8e-7; not proven).
 ZONAL_HIGHP float[16] sh4_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
@@ -1512,6 +1542,7 @@ ZONAL_HIGHP float[16] sh4_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP floa
 // Returns the rotated hemispherical coefficients.
 // Operations: 504 (163 mul, 4 add, 337 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.8e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
@@ -1603,6 +1634,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 200 (48 mul, 2 add, 150 fma); 0 constants, 31 live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.2e-8; not proven).
 ZONAL_HIGHP float[16] sh4_hsh_rotate_table(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float[136] m, ZONAL_HIGHP float[16] c) {
@@ -1683,6 +1715,7 @@ ZONAL_HIGHP float[16] sh4_hsh_rotate_table(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP f
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 568 (128 mul, 2 add, 438 fma); 0 constants, 31 live values.
+// Vector registers on RDNA 2: 248.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.2e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float[136] m, ZONAL_HIGHP vec3[16] c) {
@@ -1767,6 +1800,7 @@ ZONAL_HIGHP vec3[16] sh4_hsh_rotate_table_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGH
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 132 (79 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 3.5e-6; not proven).
@@ -1852,6 +1886,7 @@ ZONAL_HIGHP float[16] sh4_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 164 (111 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 3.5e-6; not proven).

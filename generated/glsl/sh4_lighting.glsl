@@ -23,6 +23,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 9 (5 mul, 1 add, 2 fma, 1 min, max or select) and 2 special (square root, reciprocal); 6
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 ZONAL_HIGHP float[4] sh4_cap(ZONAL_HIGHP float s) {
@@ -48,6 +49,7 @@ ZONAL_HIGHP float[4] sh4_cap(ZONAL_HIGHP float s) {
 // Returns the zonal coefficients, one a band.
 // Operations: 71 (39 mul, 3 add, 23 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 33 constants, 10 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 ZONAL_HIGHP float[4] sh4_gaussian(ZONAL_HIGHP float kappa) {
@@ -99,6 +101,7 @@ ZONAL_HIGHP float[4] sh4_gaussian(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 59 (33 mul, 1 add, 19 fma, 6 min, max or select) and 2 inverse square roots or
 //     reciprocals; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[4] sh4_gaussian_narrow(ZONAL_HIGHP float kappa) {
@@ -144,6 +147,7 @@ ZONAL_HIGHP float[4] sh4_gaussian_narrow(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 13 (8 mul, 5 add, 0 fma) and 4 inverse square roots or reciprocals; 8 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 ZONAL_HIGHP float[4] sh4_phong(ZONAL_HIGHP float s) {
@@ -166,6 +170,7 @@ ZONAL_HIGHP float[4] sh4_phong(ZONAL_HIGHP float s) {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 5 (5 mul, 0 add, 0 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.8e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     5.9e-8; not proven).
 ZONAL_HIGHP float[4] sh4_henyey_greenstein(ZONAL_HIGHP float g) {
@@ -188,6 +193,7 @@ ZONAL_HIGHP float[4] sh4_henyey_greenstein(ZONAL_HIGHP float g) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 20 (20 mul, 0 add, 0 fma); 4 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP float[16] sh4_convolve(ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] c) {
@@ -224,6 +230,7 @@ ZONAL_HIGHP float[16] sh4_convolve(ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16]
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 52 (52 mul, 0 add, 0 fma); 4 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP vec3[16] sh4_convolve_rgb(ZONAL_HIGHP float[4] g, ZONAL_HIGHP vec3[16] c) {
@@ -260,6 +267,7 @@ ZONAL_HIGHP vec3[16] sh4_convolve_rgb(ZONAL_HIGHP float[4] g, ZONAL_HIGHP vec3[1
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 9 (9 mul, 0 add, 0 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[16] sh4_convolve_cosine(ZONAL_HIGHP float[16] c) {
@@ -293,6 +301,7 @@ ZONAL_HIGHP float[16] sh4_convolve_cosine(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 27 (27 mul, 0 add, 0 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[16] sh4_convolve_cosine_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -327,6 +336,7 @@ ZONAL_HIGHP vec3[16] sh4_convolve_cosine_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
@@ -348,6 +358,7 @@ ZONAL_HIGHP float sh4_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 37 (10 mul, 0 add, 27 fma); 7 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.7e-7).
@@ -371,6 +382,7 @@ ZONAL_HIGHP vec3 sh4_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 43 (21 mul, 0 add, 22 fma); 12 constants, 21 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -417,6 +429,7 @@ ZONAL_HIGHP float[16] sh4_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 75 (21 mul, 0 add, 54 fma); 12 constants, 21 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -465,6 +478,7 @@ ZONAL_HIGHP vec3[16] sh4_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP
 // Returns the coefficients with the light added.
 // Operations: 52 (26 mul, 1 add, 24 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 14 constants, 20 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -517,6 +531,7 @@ ZONAL_HIGHP float[16] sh4_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s
 // Returns the coefficients with the light added.
 // Operations: 90 (32 mul, 1 add, 56 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 14 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -567,6 +582,7 @@ ZONAL_HIGHP vec3[16] sh4_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 52 (27 mul, 2 add, 23 fma); 15 constants, 20 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
@@ -617,6 +633,7 @@ ZONAL_HIGHP float[16] sh4_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 90 (33 mul, 2 add, 55 fma); 15 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
@@ -668,6 +685,7 @@ ZONAL_HIGHP vec3[16] sh4_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -706,6 +724,7 @@ ZONAL_HIGHP float[16] sh4_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -744,6 +763,7 @@ ZONAL_HIGHP vec3[16] sh4_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients with the light added.
 // Operations: 114 (60 mul, 3 add, 45 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 42 constants, 20 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
@@ -822,6 +842,7 @@ ZONAL_HIGHP float[16] sh4_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // Returns the coefficients with the light added.
 // Operations: 152 (66 mul, 3 add, 77 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 42 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
@@ -898,6 +919,7 @@ ZONAL_HIGHP vec3[16] sh4_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP vec3 sh4_dominant(ZONAL_HIGHP float[16] c) {
@@ -921,6 +943,7 @@ ZONAL_HIGHP vec3 sh4_dominant(ZONAL_HIGHP float[16] c) {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 12 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.1e-7; not proven).
 ZONAL_HIGHP float[5] sh4_light_fit(ZONAL_HIGHP float[16] c) {
@@ -954,6 +977,7 @@ ZONAL_HIGHP float[5] sh4_light_fit(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (10 mul, 0 add, 11 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).
@@ -981,6 +1005,7 @@ ZONAL_HIGHP float[2] sh4_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 43 (16 mul, 0 add, 27 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).

@@ -20,6 +20,7 @@
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 307 (66 mul, 10 add, 231 fma); 22 constants, 22 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP float[16] sh4_product(ZONAL_HIGHP float[16] a, ZONAL_HIGHP float[16] b) {
@@ -144,6 +145,7 @@ ZONAL_HIGHP float[16] sh4_product(ZONAL_HIGHP float[16] a, ZONAL_HIGHP float[16]
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 921 (198 mul, 30 add, 693 fma); 22 constants, 22 live values.
+// Vector registers on RDNA 2: 256 and memory for 23 more.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_rgb(ZONAL_HIGHP vec3[16] a, ZONAL_HIGHP vec3[16] b) {
@@ -268,6 +270,7 @@ ZONAL_HIGHP vec3[16] sh4_product_rgb(ZONAL_HIGHP vec3[16] a, ZONAL_HIGHP vec3[16
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 102 (36 mul, 1 add, 65 fma); 11 constants, 19 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 ZONAL_HIGHP float[16] sh4_of_sh2_and_sh4_product(ZONAL_HIGHP float[4] a, ZONAL_HIGHP float[16] b) {
@@ -324,6 +327,7 @@ ZONAL_HIGHP float[16] sh4_of_sh2_and_sh4_product(ZONAL_HIGHP float[4] a, ZONAL_H
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 306 (108 mul, 3 add, 195 fma); 11 constants, 19 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_of_sh2_and_sh4_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL_HIGHP vec3[16] b) {
@@ -379,6 +383,7 @@ ZONAL_HIGHP vec3[16] sh4_of_sh2_and_sh4_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL
 // a: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 183 (50 mul, 6 add, 127 fma); 28 constants, 21 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 ZONAL_HIGHP float[16] sh4_square(ZONAL_HIGHP float[16] a) {
@@ -468,6 +473,7 @@ ZONAL_HIGHP float[16] sh4_square(ZONAL_HIGHP float[16] a) {
 // a: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 549 (150 mul, 18 add, 381 fma); 28 constants, 21 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_square_rgb(ZONAL_HIGHP vec3[16] a) {
@@ -558,6 +564,7 @@ ZONAL_HIGHP vec3[16] sh4_square_rgb(ZONAL_HIGHP vec3[16] a) {
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 16 (1 mul, 0 add, 15 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float sh4_dot(ZONAL_HIGHP float[16] a, ZONAL_HIGHP float[16] b) {
@@ -576,6 +583,7 @@ ZONAL_HIGHP float sh4_dot(ZONAL_HIGHP float[16] a, ZONAL_HIGHP float[16] b) {
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 48 (3 mul, 0 add, 45 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 3.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP vec3 sh4_dot_rgb(ZONAL_HIGHP vec3[16] a, ZONAL_HIGHP vec3[16] b) {
@@ -594,6 +602,7 @@ ZONAL_HIGHP vec3 sh4_dot_rgb(ZONAL_HIGHP vec3[16] a, ZONAL_HIGHP vec3[16] b) {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 131 (78 mul, 2 add, 51 fma); 22 constants, 108 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
 ZONAL_HIGHP float[125] sh4_product_matrix(ZONAL_HIGHP float[16] a) {
@@ -774,6 +783,7 @@ ZONAL_HIGHP float[125] sh4_product_matrix(ZONAL_HIGHP float[16] a) {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 393 (234 mul, 6 add, 153 fma); 22 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 116 more.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.2e-8).
 ZONAL_HIGHP vec3[125] sh4_product_matrix_rgb(ZONAL_HIGHP vec3[16] a) {
@@ -954,6 +964,7 @@ ZONAL_HIGHP vec3[125] sh4_product_matrix_rgb(ZONAL_HIGHP vec3[16] a) {
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 234 (16 mul, 0 add, 218 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 6.4e-8; not proven).
 ZONAL_HIGHP float[16] sh4_product_by_matrix(ZONAL_HIGHP float[125] m, ZONAL_HIGHP float[16] b) {
@@ -1019,6 +1030,7 @@ ZONAL_HIGHP float[16] sh4_product_by_matrix(ZONAL_HIGHP float[125] m, ZONAL_HIGH
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 702 (48 mul, 0 add, 654 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 6.4e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_by_matrix_rgb(ZONAL_HIGHP float[125] m, ZONAL_HIGHP vec3[16] b) {
@@ -1084,6 +1096,7 @@ ZONAL_HIGHP vec3[16] sh4_product_by_matrix_rgb(ZONAL_HIGHP float[125] m, ZONAL_H
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 365 (94 mul, 2 add, 269 fma); 22 constants, 67 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP float[16] sh4_product_grey(ZONAL_HIGHP float[16] a, ZONAL_HIGHP float[16] b) {
@@ -1250,6 +1263,7 @@ ZONAL_HIGHP float[16] sh4_product_grey(ZONAL_HIGHP float[16] a, ZONAL_HIGHP floa
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 833 (126 mul, 2 add, 705 fma); 22 constants, 67 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_grey_rgb(ZONAL_HIGHP float[16] a, ZONAL_HIGHP vec3[16] b) {
@@ -1416,6 +1430,7 @@ ZONAL_HIGHP vec3[16] sh4_product_grey_rgb(ZONAL_HIGHP float[16] a, ZONAL_HIGHP v
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 67 (26 mul, 0 add, 41 fma); 15 constants, 17 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.8e-8; not proven).
 ZONAL_HIGHP float[16] sh4_product_zonal(ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] b) {
@@ -1463,6 +1478,7 @@ ZONAL_HIGHP float[16] sh4_product_zonal(ZONAL_HIGHP float[4] g, ZONAL_HIGHP floa
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 201 (78 mul, 0 add, 123 fma); 15 constants, 17 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.8e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_zonal_rgb(ZONAL_HIGHP vec3[4] g, ZONAL_HIGHP vec3[16] b) {
@@ -1512,6 +1528,7 @@ ZONAL_HIGHP vec3[16] sh4_product_zonal_rgb(ZONAL_HIGHP vec3[4] g, ZONAL_HIGHP ve
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 223 (88 mul, 3 add, 132 fma) and 1 inverse square root or reciprocal; 24 constants, 38
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP float[16] sh4_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] b) {
@@ -1655,6 +1672,7 @@ ZONAL_HIGHP float[16] sh4_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 625 (236 mul, 7 add, 382 fma) and 1 inverse square root or reciprocal; 24 constants, 38
 //     live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 4.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] g, ZONAL_HIGHP vec3[16] b) {
@@ -1798,6 +1816,7 @@ ZONAL_HIGHP vec3[16] sh4_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 201 (74 mul, 2 add, 125 fma); 21 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP float[16] sh4_product_zonal_about_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] b) {
@@ -1923,6 +1942,7 @@ ZONAL_HIGHP float[16] sh4_product_zonal_about_angles(ZONAL_HIGHP vec2[7] cs, ZON
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 603 (222 mul, 6 add, 375 fma); 21 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5e-8; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP vec3[4] g, ZONAL_HIGHP vec3[16] b) {
@@ -2045,6 +2065,7 @@ ZONAL_HIGHP vec3[16] sh4_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[7] cs, 
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 42 (16 mul, 0 add, 26 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP float[16] sh4_product_cosine(ZONAL_HIGHP float[16] b) {
@@ -2077,6 +2098,7 @@ ZONAL_HIGHP float[16] sh4_product_cosine(ZONAL_HIGHP float[16] b) {
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 126 (48 mul, 0 add, 78 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP vec3[16] sh4_product_cosine_rgb(ZONAL_HIGHP vec3[16] b) {
@@ -2111,6 +2133,7 @@ ZONAL_HIGHP vec3[16] sh4_product_cosine_rgb(ZONAL_HIGHP vec3[16] b) {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 198 (78 mul, 3 add, 117 fma) and 1 inverse square root or reciprocal; 28 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 4e-7; not proven).
 ZONAL_HIGHP float[16] sh4_product_cosine_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] b) {
@@ -2239,6 +2262,7 @@ ZONAL_HIGHP float[16] sh4_product_cosine_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 550 (206 mul, 7 add, 337 fma) and 1 inverse square root or reciprocal; 28 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 4e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_cosine_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] b) {
@@ -2367,6 +2391,7 @@ ZONAL_HIGHP vec3[16] sh4_product_cosine_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HI
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 176 (64 mul, 2 add, 110 fma); 25 constants, 29 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 2.2e-7; not proven).
 ZONAL_HIGHP float[16] sh4_product_cosine_about_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float[16] b) {
@@ -2477,6 +2502,7 @@ ZONAL_HIGHP float[16] sh4_product_cosine_about_angles(ZONAL_HIGHP vec2[7] cs, ZO
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 528 (192 mul, 6 add, 330 fma); 25 constants, 29 live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 2.2e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_cosine_about_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP vec3[16] b) {
@@ -2585,6 +2611,7 @@ ZONAL_HIGHP vec3[16] sh4_product_cosine_about_angles_rgb(ZONAL_HIGHP vec2[7] cs,
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 36 (16 mul, 0 add, 20 fma); 8 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
 ZONAL_HIGHP float[16] sh4_product_hemisphere(ZONAL_HIGHP float[16] b) {
@@ -2617,6 +2644,7 @@ ZONAL_HIGHP float[16] sh4_product_hemisphere(ZONAL_HIGHP float[16] b) {
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 108 (48 mul, 0 add, 60 fma); 8 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-8).
 ZONAL_HIGHP vec3[16] sh4_product_hemisphere_rgb(ZONAL_HIGHP vec3[16] b) {
@@ -2651,6 +2679,7 @@ ZONAL_HIGHP vec3[16] sh4_product_hemisphere_rgb(ZONAL_HIGHP vec3[16] b) {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 192 (78 mul, 3 add, 111 fma) and 1 inverse square root or reciprocal; 18 constants, 38
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 6.7e-7; not proven).
 ZONAL_HIGHP float[16] sh4_product_hemisphere_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[16] b) {
@@ -2779,6 +2808,7 @@ ZONAL_HIGHP float[16] sh4_product_hemisphere_about(ZONAL_HIGHP vec3 dir, ZONAL_H
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 532 (206 mul, 7 add, 319 fma) and 1 inverse square root or reciprocal; 18 constants, 38
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 6.7e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_hemisphere_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[16] b) {
@@ -2908,6 +2938,7 @@ ZONAL_HIGHP vec3[16] sh4_product_hemisphere_about_rgb(ZONAL_HIGHP vec3 dir, ZONA
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 170 (64 mul, 2 add, 104 fma); 16 constants, 26 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.6e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.6e-7; not proven).
 ZONAL_HIGHP float[16] sh4_product_hemisphere_about_angles(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP float[16] b) {
@@ -3019,6 +3050,7 @@ ZONAL_HIGHP float[16] sh4_product_hemisphere_about_angles(ZONAL_HIGHP vec2[7] cs
 // b: the coefficients of a function of order 4, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 510 (192 mul, 6 add, 312 fma); 16 constants, 26 live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 4.6e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.6e-7; not proven).
 ZONAL_HIGHP vec3[16] sh4_product_hemisphere_about_angles_rgb(ZONAL_HIGHP vec2[7] cs, ZONAL_HIGHP vec3[16] b) {
@@ -3129,6 +3161,7 @@ ZONAL_HIGHP vec3[16] sh4_product_hemisphere_about_angles_rgb(ZONAL_HIGHP vec2[7]
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 23 (14 mul, 2 add, 7 fma) and 1 inverse square root or reciprocal; 2 constants, 13 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 ZONAL_HIGHP vec2[7] sh4_axis_angles(ZONAL_HIGHP vec3 dir) {

@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 ZONAL_HIGHP float[16] sh4_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
@@ -125,6 +126,7 @@ ZONAL_HIGHP float[16] sh4_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
 // Returns the rotated coefficients.
 // Operations: 316 (131 mul, 8 add, 177 fma) and 1 inverse square root or reciprocal; 8 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
@@ -228,6 +230,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) 
 // Returns the rotated coefficients.
 // Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -321,6 +324,7 @@ ZONAL_HIGHP float[16] sh4_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] 
 // Returns the rotated coefficients.
 // Operations: 398 (221 mul, 7 add, 170 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 200.
 // Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -412,6 +416,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 116 (50 mul, 3 add, 63 fma); 8 constants, 28 live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP float[16] sh4_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[16] c) {
@@ -497,6 +502,7 @@ ZONAL_HIGHP float[16] sh4_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 298 (122 mul, 5 add, 171 fma); 8 constants, 28 live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[16] c) {
@@ -584,6 +590,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 43 (23 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 ZONAL_HIGHP vec2[10] sh4_angles(ZONAL_HIGHP vec4 q) {
@@ -637,6 +644,7 @@ ZONAL_HIGHP vec2[10] sh4_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 91 (36 mul, 1 add, 54 fma); 6 constants, 20 live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 ZONAL_HIGHP float[16] sh4_rotate_angles(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP float[16] c) {
@@ -707,6 +715,7 @@ ZONAL_HIGHP float[16] sh4_rotate_angles(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 273 (108 mul, 3 add, 162 fma); 6 constants, 20 live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_angles_rgb(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP vec3[16] c) {
@@ -779,6 +788,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_angles_rgb(ZONAL_HIGHP vec2[10] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 ZONAL_HIGHP vec2[16] sh4_lifted(ZONAL_HIGHP vec4 q) {
@@ -843,6 +853,7 @@ ZONAL_HIGHP vec2[16] sh4_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[16] sh4_rotate_lifted(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP float[16] c) {
@@ -904,6 +915,7 @@ ZONAL_HIGHP float[16] sh4_rotate_lifted(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 234 (72 mul, 0 add, 162 fma); 0 constants, 18 live values.
+// Vector registers on RDNA 2: 128; in pieces 80.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_lifted_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP vec3[16] c) {
@@ -964,6 +976,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_lifted_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 146 (73 mul, 6 add, 67 fma) and 1 inverse square root or reciprocal; 7 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 ZONAL_HIGHP float[16] sh4_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] c) {
@@ -1066,6 +1079,7 @@ ZONAL_HIGHP float[16] sh4_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16]
 // Returns the rotated coefficients.
 // Operations: 354 (177 mul, 6 add, 171 fma) and 1 inverse square root or reciprocal; 7 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] c) {
@@ -1167,6 +1181,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[1
 // Returns the rotated coefficients.
 // Operations: 90 (38 mul, 3 add, 49 fma) and 1 inverse square root or reciprocal; 8 constants, 29 live
 //     values.
+// Vector registers on RDNA 2: 48; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 ZONAL_HIGHP float[16] sh4_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
@@ -1244,6 +1259,7 @@ ZONAL_HIGHP float[16] sh4_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16]
 // Returns the rotated coefficients.
 // Operations: 224 (86 mul, 5 add, 133 fma) and 1 inverse square root or reciprocal; 8 constants, 29
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 80.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
@@ -1320,6 +1336,7 @@ ZONAL_HIGHP vec3[16] sh4_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[1
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 39 (33 mul, 0 add, 6 fma); 9 constants, 18 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[16] sh4_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] c) {
@@ -1361,6 +1378,7 @@ ZONAL_HIGHP float[16] sh4_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 69 (63 mul, 0 add, 6 fma); 9 constants, 18 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[16] sh4_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[4] c) {

@@ -21,6 +21,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 83 (15 mul, 0 add, 68 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[16] sh4_isd_matrix(ZONAL_HIGHP float[16] lambda) {
@@ -66,6 +67,7 @@ ZONAL_HIGHP float[16] sh4_isd_matrix(ZONAL_HIGHP float[16] lambda) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 249 (45 mul, 0 add, 204 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 7.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[16] sh4_isd_matrix_rgb(ZONAL_HIGHP vec3[16] lambda) {
@@ -110,6 +112,7 @@ ZONAL_HIGHP vec3[16] sh4_isd_matrix_rgb(ZONAL_HIGHP vec3[16] lambda) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 83 (15 mul, 0 add, 68 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 ZONAL_HIGHP float[16] sh4_isd_weights(ZONAL_HIGHP float[16] c) {
@@ -154,6 +157,7 @@ ZONAL_HIGHP float[16] sh4_isd_weights(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 249 (45 mul, 0 add, 204 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 ZONAL_HIGHP vec3[16] sh4_isd_weights_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -201,6 +205,7 @@ ZONAL_HIGHP vec3[16] sh4_isd_weights_rgb(ZONAL_HIGHP vec3[16] c) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 339 (163 mul, 0 add, 176 fma); 32 constants, 45 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP float sh4_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] e, ZONAL_HIGHP float[16] lambda) {
@@ -331,6 +336,7 @@ ZONAL_HIGHP float sh4_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] e, ZON
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 537 (195 mul, 0 add, 342 fma); 32 constants, 45 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3 sh4_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] e, ZONAL_HIGHP vec3[16] lambda) {
@@ -463,6 +469,7 @@ ZONAL_HIGHP vec3 sh4_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] e, Z
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 81 (26 mul, 0 add, 55 fma); 26 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.1e-7; not proven).
 ZONAL_HIGHP float sh4_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] lambda) {
@@ -508,6 +515,7 @@ ZONAL_HIGHP float sh4_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, 
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 119 (34 mul, 0 add, 85 fma); 26 constants, 16 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 6.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.1e-7; not proven).
 ZONAL_HIGHP vec3 sh4_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] g, ZONAL_HIGHP vec3[16] lambda) {
@@ -551,6 +559,7 @@ ZONAL_HIGHP vec3 sh4_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 di
 // Returns the integral of the light times the reflectance.
 // Operations: 147 (57 mul, 9 add, 81 fma) and 1 inverse square root or reciprocal; 8 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.8e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP float sh4_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] e, ZONAL_HIGHP float[16] c) {
@@ -640,6 +649,7 @@ ZONAL_HIGHP float sh4_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] e, ZONAL_H
 // Returns the integral of the light times the reflectance.
 // Operations: 355 (125 mul, 17 add, 213 fma) and 1 inverse square root or reciprocal; 8 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 5.8e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 2e-7; not proven).
 ZONAL_HIGHP vec3 sh4_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] e, ZONAL_HIGHP vec3[16] c) {
@@ -730,6 +740,7 @@ ZONAL_HIGHP vec3 sh4_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] e, ZONAL
 // Returns the integral of the light times the reflectance.
 // Operations: 133 (55 mul, 8 add, 70 fma) and 1 inverse square root or reciprocal; 8 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP float sh4_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] e, ZONAL_HIGHP float[10] c) {
@@ -810,6 +821,7 @@ ZONAL_HIGHP float sh4_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[16] 
 // Returns the integral of the light times the reflectance.
 // Operations: 313 (119 mul, 14 add, 180 fma) and 1 inverse square root or reciprocal; 8 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3 sh4_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16] e, ZONAL_HIGHP vec3[10] c) {
@@ -890,6 +902,7 @@ ZONAL_HIGHP vec3 sh4_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[16
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 63 (28 mul, 0 add, 35 fma); 11 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.5e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.2e-7; not proven).
 ZONAL_HIGHP float sh4_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] g, ZONAL_HIGHP float[16] c) {
@@ -929,6 +942,7 @@ ZONAL_HIGHP float sh4_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONA
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 117 (52 mul, 0 add, 65 fma); 11 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 6.5e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.2e-7; not proven).
 ZONAL_HIGHP vec3 sh4_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[4] g, ZONAL_HIGHP vec3[16] c) {

@@ -23,6 +23,7 @@
 // Returns the tilted coefficients.
 // Operations: 79 (18 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 10 constants, 22
 //     live values.
+// Vector registers on RDNA 2: 48; in pieces 32.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
@@ -90,6 +91,7 @@ ZONAL_HIGHP float[16] sh4_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) {
 // Returns the tilted coefficients.
 // Operations: 209 (34 mul, 4 add, 171 fma) and 1 inverse square root or reciprocal; 10 constants, 22
 //     live values.
+// Vector registers on RDNA 2: 128; in pieces 64.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
@@ -157,6 +159,7 @@ ZONAL_HIGHP vec3[16] sh4_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c) {
 // Returns the tilted coefficients.
 // Operations: 104 (22 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 13 constants, 29
 //     live values.
+// Vector registers on RDNA 2: 56; in pieces 40.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
@@ -236,6 +239,7 @@ ZONAL_HIGHP float[16] sh4_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[16] c) 
 // Returns the tilted coefficients.
 // Operations: 274 (38 mul, 4 add, 232 fma) and 1 inverse square root or reciprocal; 13 constants, 29
 //     live values.
+// Vector registers on RDNA 2: 128; in pieces 64.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
@@ -315,6 +319,7 @@ ZONAL_HIGHP vec3[16] sh4_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[16] c
 // Returns the tilted coefficients, scaled alike.
 // Operations: 77 (16 mul, 2 add, 59 fma) and 1 inverse square root or reciprocal; 8 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
@@ -380,6 +385,7 @@ ZONAL_HIGHP float[16] sh4_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[1
 // Returns the tilted coefficients, scaled alike.
 // Operations: 207 (32 mul, 4 add, 171 fma) and 1 inverse square root or reciprocal; 8 constants, 20
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15, 8.4e-2 at 25 degrees; it
@@ -445,6 +451,7 @@ ZONAL_HIGHP vec3[16] sh4_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3
 // Returns the tilted coefficients, scaled alike.
 // Operations: 100 (18 mul, 2 add, 80 fma) and 1 inverse square root or reciprocal; 12 constants, 25
 //     live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
@@ -520,6 +527,7 @@ ZONAL_HIGHP float[16] sh4_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP flo
 // Returns the tilted coefficients, scaled alike.
 // Operations: 270 (34 mul, 4 add, 232 fma) and 1 inverse square root or reciprocal; 12 constants, 25
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 5e-5 at 5, 4.3e-4 at 10, 1.6e-3 at 15, 9.1e-3 at 25 degrees; it
@@ -592,6 +600,7 @@ ZONAL_HIGHP vec3[16] sh4_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP float[16] sh4_tilt_scale(ZONAL_HIGHP float[16] c) {
@@ -624,6 +633,7 @@ ZONAL_HIGHP float[16] sh4_tilt_scale(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 18 (18 mul, 0 add, 0 fma); 3 constants, 6 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 ZONAL_HIGHP vec3[16] sh4_tilt_scale_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -656,6 +666,7 @@ ZONAL_HIGHP vec3[16] sh4_tilt_scale_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 6 (6 mul, 0 add, 0 fma); 3 constants, 6 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 ZONAL_HIGHP float[16] sh4_tilt_unscale(ZONAL_HIGHP float[16] c) {
@@ -688,6 +699,7 @@ ZONAL_HIGHP float[16] sh4_tilt_unscale(ZONAL_HIGHP float[16] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 18 (18 mul, 0 add, 0 fma); 3 constants, 6 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 ZONAL_HIGHP vec3[16] sh4_tilt_unscale_rgb(ZONAL_HIGHP vec3[16] c) {

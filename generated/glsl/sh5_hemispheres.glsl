@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 47 (33 mul, 0 add, 13 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 29 constants, 25 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.9e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 6.2e-7; not proven).
 ZONAL_HIGHP float[25] sh5_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -89,6 +90,7 @@ ZONAL_HIGHP float[25] sh5_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 58 (18 mul, 0 add, 39 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 4.6e-7; not proven).
 ZONAL_HIGHP float sh5_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
@@ -128,6 +130,7 @@ ZONAL_HIGHP float sh5_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 108 (20 mul, 0 add, 87 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 4.6e-7; not proven).
 ZONAL_HIGHP vec3 sh5_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) {
@@ -169,6 +172,7 @@ ZONAL_HIGHP vec3 sh5_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) 
 // Returns sum c_i H_i(dir).
 // Operations: 29 (3 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP float sh5_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) {
@@ -195,6 +199,7 @@ ZONAL_HIGHP float sh5_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 77 (3 mul, 0 add, 73 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 7 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP vec3 sh5_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c) {
@@ -217,6 +222,7 @@ ZONAL_HIGHP vec3 sh5_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 67 (17 mul, 0 add, 50 fma); 36 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-5).
 ZONAL_HIGHP float[25] sh5_hsh_to_monomial(ZONAL_HIGHP float[25] c) {
@@ -270,6 +276,7 @@ ZONAL_HIGHP float[25] sh5_hsh_to_monomial(ZONAL_HIGHP float[25] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 201 (51 mul, 0 add, 150 fma); 36 constants, 25 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 3.7e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-5).
 ZONAL_HIGHP vec3[25] sh5_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -322,6 +329,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 71 (25 mul, 0 add, 46 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[25] sh5_sh_to_hsh(ZONAL_HIGHP float[25] c) {
@@ -363,6 +371,7 @@ ZONAL_HIGHP float[25] sh5_sh_to_hsh(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 213 (75 mul, 0 add, 138 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[25] sh5_sh_to_hsh_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -404,6 +413,7 @@ ZONAL_HIGHP vec3[25] sh5_sh_to_hsh_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 120 (25 mul, 0 add, 95 fma); 67 constants, 25 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 ZONAL_HIGHP float[25] sh5_of_order_7_sh_to_hsh(ZONAL_HIGHP float[49] c) {
@@ -459,6 +469,7 @@ ZONAL_HIGHP float[25] sh5_of_order_7_sh_to_hsh(ZONAL_HIGHP float[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 360 (75 mul, 0 add, 285 fma); 67 constants, 25 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 ZONAL_HIGHP vec3[25] sh5_of_order_7_sh_to_hsh_rgb(ZONAL_HIGHP vec3[49] c) {
@@ -514,6 +525,7 @@ ZONAL_HIGHP vec3[25] sh5_of_order_7_sh_to_hsh_rgb(ZONAL_HIGHP vec3[49] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 71 (25 mul, 0 add, 46 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.4e-8).
 ZONAL_HIGHP float[25] sh5_hsh_to_sh(ZONAL_HIGHP float[25] c) {
@@ -556,6 +568,7 @@ ZONAL_HIGHP float[25] sh5_hsh_to_sh(ZONAL_HIGHP float[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 213 (75 mul, 0 add, 138 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.4e-8).
 ZONAL_HIGHP vec3[25] sh5_hsh_to_sh_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -597,6 +610,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_to_sh_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 32 (19 mul, 0 add, 13 fma); 22 constants, 19 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 ZONAL_HIGHP float[25] sh5_of_order_3_hsh_to_sh(ZONAL_HIGHP float[9] c) {
@@ -639,6 +653,7 @@ ZONAL_HIGHP float[25] sh5_of_order_3_hsh_to_sh(ZONAL_HIGHP float[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 96 (57 mul, 0 add, 39 fma); 22 constants, 19 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 ZONAL_HIGHP vec3[25] sh5_of_order_3_hsh_to_sh_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -681,6 +696,7 @@ ZONAL_HIGHP vec3[25] sh5_of_order_3_hsh_to_sh_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 85 (25 mul, 0 add, 60 fma); 55 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP float[25] sh5_hsh_extend(ZONAL_HIGHP float[25] c) {
@@ -728,6 +744,7 @@ ZONAL_HIGHP float[25] sh5_hsh_extend(ZONAL_HIGHP float[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 255 (75 mul, 0 add, 180 fma); 55 constants, 25 live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP vec3[25] sh5_hsh_extend_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -775,6 +792,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_extend_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 37 (19 mul, 0 add, 18 fma); 27 constants, 19 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[25] sh5_of_order_3_hsh_extend(ZONAL_HIGHP float[9] c) {
@@ -817,6 +835,7 @@ ZONAL_HIGHP float[25] sh5_of_order_3_hsh_extend(ZONAL_HIGHP float[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 111 (57 mul, 0 add, 54 fma); 27 constants, 19 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 3.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[25] sh5_of_order_3_hsh_extend_rgb(ZONAL_HIGHP vec3[9] c) {
@@ -860,6 +879,7 @@ ZONAL_HIGHP vec3[25] sh5_of_order_3_hsh_extend_rgb(ZONAL_HIGHP vec3[9] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 216 (36 mul, 0 add, 180 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[25] sh5_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
@@ -968,6 +988,7 @@ ZONAL_HIGHP float[25] sh5_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[2
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 648 (108 mul, 0 add, 540 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[25] sh5_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
@@ -1077,6 +1098,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 216 (36 mul, 0 add, 180 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[25] sh5_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c) {
@@ -1186,6 +1208,7 @@ ZONAL_HIGHP float[25] sh5_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 648 (108 mul, 0 add, 540 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[25] sh5_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] c) {
@@ -1294,6 +1317,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP ve
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 289 (39 mul, 0 add, 250 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP float[25] sh5_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
@@ -1437,6 +1461,7 @@ ZONAL_HIGHP float[25] sh5_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 857 (111 mul, 0 add, 746 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 ZONAL_HIGHP vec3[25] sh5_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
@@ -1582,6 +1607,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 289 (39 mul, 0 add, 250 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP float[25] sh5_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
@@ -1727,6 +1753,7 @@ ZONAL_HIGHP float[25] sh5_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 857 (111 mul, 0 add, 746 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP vec3[25] sh5_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
@@ -1871,6 +1898,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 340 (99 mul, 4 add, 237 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.9e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.3e-7; not proven).
 ZONAL_HIGHP float[25] sh5_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
@@ -2028,6 +2056,7 @@ ZONAL_HIGHP float[25] sh5_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[
 // Returns the rotated hemispherical coefficients.
 // Operations: 932 (251 mul, 4 add, 677 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.9e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.3e-7; not proven).
 ZONAL_HIGHP vec3[25] sh5_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
@@ -2186,6 +2215,7 @@ ZONAL_HIGHP vec3[25] sh5_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 340 (99 mul, 4 add, 237 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP float[25] sh5_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
@@ -2344,6 +2374,7 @@ ZONAL_HIGHP float[25] sh5_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP floa
 // Returns the rotated hemispherical coefficients.
 // Operations: 932 (251 mul, 4 add, 677 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP vec3[25] sh5_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {

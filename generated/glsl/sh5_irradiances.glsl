@@ -22,6 +22,7 @@
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 35 (13 mul, 0 add, 22 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP float[18] sh5_to_irradiance(ZONAL_HIGHP float[25] c) {
@@ -63,6 +64,7 @@ ZONAL_HIGHP float[18] sh5_to_irradiance(ZONAL_HIGHP float[25] c) {
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 105 (39 mul, 0 add, 66 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP vec3[18] sh5_to_irradiance_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -105,6 +107,7 @@ ZONAL_HIGHP vec3[18] sh5_to_irradiance_rgb(ZONAL_HIGHP vec3[25] c) {
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 20 (3 mul, 0 add, 17 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP float sh5_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[18] c) {
@@ -126,6 +129,7 @@ ZONAL_HIGHP float sh5_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 58 (7 mul, 0 add, 51 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP vec3 sh5_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[18] c) {
@@ -145,6 +149,7 @@ ZONAL_HIGHP vec3 sh5_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 11 (4 mul, 0 add, 7 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[4] sh5_to_h4_coefficients(ZONAL_HIGHP float[25] c) {
@@ -166,6 +171,7 @@ ZONAL_HIGHP float[4] sh5_to_h4_coefficients(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 33 (12 mul, 0 add, 21 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -188,6 +194,7 @@ ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP float[4] sh5_to_h4_coefficients_monomial(ZONAL_HIGHP float[25] c) {
@@ -210,6 +217,7 @@ ZONAL_HIGHP float[4] sh5_to_h4_coefficients_monomial(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -231,6 +239,7 @@ ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_monomial_rgb(ZONAL_HIGHP vec3[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 11 (4 mul, 0 add, 7 fma); 7 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP float[4] sh5_to_h4_coefficients_irradiance(ZONAL_HIGHP float[25] c) {
@@ -252,6 +261,7 @@ ZONAL_HIGHP float[4] sh5_to_h4_coefficients_irradiance(ZONAL_HIGHP float[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 33 (12 mul, 0 add, 21 fma); 7 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -273,6 +283,7 @@ ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[25] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.2e-8).
 ZONAL_HIGHP float[4] sh5_to_h4_coefficients_irradiance_monomial(ZONAL_HIGHP float[25] c) {
@@ -294,6 +305,7 @@ ZONAL_HIGHP float[4] sh5_to_h4_coefficients_irradiance_monomial(ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.2e-8).
 ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -315,6 +327,7 @@ ZONAL_HIGHP vec3[4] sh5_to_h4_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 13 (6 mul, 0 add, 7 fma); 9 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[6] sh5_to_h6_coefficients(ZONAL_HIGHP float[25] c) {
@@ -338,6 +351,7 @@ ZONAL_HIGHP float[6] sh5_to_h6_coefficients(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 39 (18 mul, 0 add, 21 fma); 9 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -362,6 +376,7 @@ ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP float[6] sh5_to_h6_coefficients_monomial(ZONAL_HIGHP float[25] c) {
@@ -386,6 +401,7 @@ ZONAL_HIGHP float[6] sh5_to_h6_coefficients_monomial(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 42 (18 mul, 0 add, 24 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -409,6 +425,7 @@ ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_monomial_rgb(ZONAL_HIGHP vec3[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 13 (6 mul, 0 add, 7 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP float[6] sh5_to_h6_coefficients_irradiance(ZONAL_HIGHP float[25] c) {
@@ -432,6 +449,7 @@ ZONAL_HIGHP float[6] sh5_to_h6_coefficients_irradiance(ZONAL_HIGHP float[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 39 (18 mul, 0 add, 21 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -455,6 +473,7 @@ ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_irradiance_rgb(ZONAL_HIGHP vec3[25] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 ZONAL_HIGHP float[6] sh5_to_h6_coefficients_irradiance_monomial(ZONAL_HIGHP float[25] c) {
@@ -478,6 +497,7 @@ ZONAL_HIGHP float[6] sh5_to_h6_coefficients_irradiance_monomial(ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 42 (18 mul, 0 add, 24 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -501,6 +521,7 @@ ZONAL_HIGHP vec3[6] sh5_to_h6_coefficients_irradiance_monomial_rgb(ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 9.6e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 3.2e-7; not proven).
 ZONAL_HIGHP float[25] sh5_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[25] c) {
@@ -547,6 +568,7 @@ ZONAL_HIGHP float[25] sh5_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 78 (78 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 24 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 9.6e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 3.2e-7; not proven).
 ZONAL_HIGHP vec3[25] sh5_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[25] c) {

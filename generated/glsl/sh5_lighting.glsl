@@ -23,6 +23,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 11 (6 mul, 1 add, 3 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 ZONAL_HIGHP float[5] sh5_cap(ZONAL_HIGHP float s) {
@@ -50,6 +51,7 @@ ZONAL_HIGHP float[5] sh5_cap(ZONAL_HIGHP float s) {
 // Returns the zonal coefficients, one a band.
 // Operations: 78 (44 mul, 3 add, 24 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 36 constants, 11 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 ZONAL_HIGHP float[5] sh5_gaussian(ZONAL_HIGHP float kappa) {
@@ -104,6 +106,7 @@ ZONAL_HIGHP float[5] sh5_gaussian(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 66 (38 mul, 1 add, 20 fma, 7 min, max or select) and 2 inverse square roots or
 //     reciprocals; 31 constants, 11 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[5] sh5_gaussian_narrow(ZONAL_HIGHP float kappa) {
@@ -152,6 +155,7 @@ ZONAL_HIGHP float[5] sh5_gaussian_narrow(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 18 (11 mul, 7 add, 0 fma) and 5 inverse square roots or reciprocals; 10 constants, 6
 //     live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 ZONAL_HIGHP float[5] sh5_phong(ZONAL_HIGHP float s) {
@@ -176,6 +180,7 @@ ZONAL_HIGHP float[5] sh5_phong(ZONAL_HIGHP float s) {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 7 (7 mul, 0 add, 0 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.8e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     5.9e-8; not proven).
 ZONAL_HIGHP float[5] sh5_henyey_greenstein(ZONAL_HIGHP float g) {
@@ -200,6 +205,7 @@ ZONAL_HIGHP float[5] sh5_henyey_greenstein(ZONAL_HIGHP float g) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma); 5 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP float[25] sh5_convolve(ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] c) {
@@ -246,6 +252,7 @@ ZONAL_HIGHP float[25] sh5_convolve(ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25]
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 80 (80 mul, 0 add, 0 fma); 5 constants, 25 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP vec3[25] sh5_convolve_rgb(ZONAL_HIGHP float[5] g, ZONAL_HIGHP vec3[25] c) {
@@ -292,6 +299,7 @@ ZONAL_HIGHP vec3[25] sh5_convolve_rgb(ZONAL_HIGHP float[5] g, ZONAL_HIGHP vec3[2
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[25] sh5_convolve_cosine(ZONAL_HIGHP float[25] c) {
@@ -334,6 +342,7 @@ ZONAL_HIGHP float[25] sh5_convolve_cosine(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 54 (54 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[25] sh5_convolve_cosine_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -377,6 +386,7 @@ ZONAL_HIGHP vec3[25] sh5_convolve_cosine_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3e-7).
@@ -409,6 +419,7 @@ ZONAL_HIGHP float sh5_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[25] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 85 (23 mul, 0 add, 62 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3e-7).
@@ -441,6 +452,7 @@ ZONAL_HIGHP vec3 sh5_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[25] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 68 (32 mul, 0 add, 36 fma); 22 constants, 29 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.7e-7).
@@ -505,6 +517,7 @@ ZONAL_HIGHP float[25] sh5_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 118 (32 mul, 0 add, 86 fma); 22 constants, 29 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.7e-7).
@@ -571,6 +584,7 @@ ZONAL_HIGHP vec3[25] sh5_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP
 // Returns the coefficients with the light added.
 // Operations: 80 (39 mul, 1 add, 39 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 26 constants, 30 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -643,6 +657,7 @@ ZONAL_HIGHP float[25] sh5_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s
 // Returns the coefficients with the light added.
 // Operations: 138 (47 mul, 1 add, 89 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 26 constants, 30 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -713,6 +728,7 @@ ZONAL_HIGHP vec3[25] sh5_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 80 (40 mul, 2 add, 38 fma); 27 constants, 30 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.3e-7;
 //     not proven).
@@ -783,6 +799,7 @@ ZONAL_HIGHP float[25] sh5_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 138 (48 mul, 2 add, 88 fma); 27 constants, 30 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.3e-7;
 //     not proven).
@@ -854,6 +871,7 @@ ZONAL_HIGHP vec3[25] sh5_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -901,6 +919,7 @@ ZONAL_HIGHP float[25] sh5_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -948,6 +967,7 @@ ZONAL_HIGHP vec3[25] sh5_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients with the light added.
 // Operations: 147 (77 mul, 3 add, 60 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 55 constants, 32 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     4.5e-7; not proven).
@@ -1047,6 +1067,7 @@ ZONAL_HIGHP float[25] sh5_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // Returns the coefficients with the light added.
 // Operations: 205 (85 mul, 3 add, 110 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 55 constants, 32 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     4.5e-7; not proven).
@@ -1144,6 +1165,7 @@ ZONAL_HIGHP vec3[25] sh5_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP vec3 sh5_dominant(ZONAL_HIGHP float[25] c) {
@@ -1167,6 +1189,7 @@ ZONAL_HIGHP vec3 sh5_dominant(ZONAL_HIGHP float[25] c) {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 56 (23 mul, 0 add, 30 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 24 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 4.9e-7; not proven).
 ZONAL_HIGHP float[5] sh5_light_fit(ZONAL_HIGHP float[25] c) {
@@ -1210,6 +1233,7 @@ ZONAL_HIGHP float[5] sh5_light_fit(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.4e-7).
@@ -1246,6 +1270,7 @@ ZONAL_HIGHP float[2] sh5_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 91 (29 mul, 0 add, 62 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.4e-7).

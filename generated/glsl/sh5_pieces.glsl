@@ -20,6 +20,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 52 (26 mul, 1 add, 25 fma); 0 constants, 23 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP float[25] sh5_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c) {
@@ -68,6 +69,7 @@ ZONAL_HIGHP float[25] sh5_rotate_z(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 132 (66 mul, 1 add, 65 fma); 0 constants, 23 live values.
+// Vector registers on RDNA 2: 160; in pieces 80.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] c) {
@@ -116,6 +118,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_z_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 102 (28 mul, 1 add, 73 fma); 15 constants, 29 live values.
+// Vector registers on RDNA 2: 64; in pieces 40.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP float[25] sh5_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c) {
@@ -203,6 +206,7 @@ ZONAL_HIGHP float[25] sh5_rotate_y(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP float[25] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 280 (68 mul, 3 add, 209 fma); 15 constants, 29 live values.
+// Vector registers on RDNA 2: 168; in pieces 80.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.2e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] c) {
@@ -289,6 +293,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_y_rgb(ZONAL_HIGHP vec2 cs, ZONAL_HIGHP vec3[25] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 56; in pieces 32.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[25] sh5_swap_yz(ZONAL_HIGHP float[25] c) {
@@ -329,6 +334,7 @@ ZONAL_HIGHP float[25] sh5_swap_yz(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 160; in pieces 64.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[25] sh5_swap_yz_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -369,6 +375,7 @@ ZONAL_HIGHP vec3[25] sh5_swap_yz_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 56; in pieces 32.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[25] sh5_rotate_x_plus_90deg(ZONAL_HIGHP float[25] c) {
@@ -409,6 +416,7 @@ ZONAL_HIGHP float[25] sh5_rotate_x_plus_90deg(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 160; in pieces 64.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[25] sh5_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -449,6 +457,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_x_plus_90deg_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 37 (17 mul, 0 add, 20 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 56; in pieces 32.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[25] sh5_rotate_x_minus_90deg(ZONAL_HIGHP float[25] c) {
@@ -489,6 +498,7 @@ ZONAL_HIGHP float[25] sh5_rotate_x_minus_90deg(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 111 (51 mul, 0 add, 60 fma); 14 constants, 21 live values.
+// Vector registers on RDNA 2: 160; in pieces 64.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[25] sh5_rotate_x_minus_90deg_rgb(ZONAL_HIGHP vec3[25] c) {

@@ -20,6 +20,7 @@
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 751 (131 mul, 7 add, 613 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 ZONAL_HIGHP float[25] sh5_product(ZONAL_HIGHP float[25] a, ZONAL_HIGHP float[25] b) {
@@ -293,6 +294,7 @@ ZONAL_HIGHP float[25] sh5_product(ZONAL_HIGHP float[25] a, ZONAL_HIGHP float[25]
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2253 (393 mul, 21 add, 1839 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 256 and memory for 205 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_product_rgb(ZONAL_HIGHP vec3[25] a, ZONAL_HIGHP vec3[25] b) {
@@ -566,6 +568,7 @@ ZONAL_HIGHP vec3[25] sh5_product_rgb(ZONAL_HIGHP vec3[25] a, ZONAL_HIGHP vec3[25
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 174 (60 mul, 3 add, 111 fma); 22 constants, 28 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.5e-8; not proven).
 ZONAL_HIGHP float[25] sh5_of_sh2_and_sh5_product(ZONAL_HIGHP float[4] a, ZONAL_HIGHP float[25] b) {
@@ -650,6 +653,7 @@ ZONAL_HIGHP float[25] sh5_of_sh2_and_sh5_product(ZONAL_HIGHP float[4] a, ZONAL_H
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 522 (180 mul, 9 add, 333 fma); 22 constants, 28 live values.
+// Vector registers on RDNA 2: 256 and memory for 20 more.
 // Error: f32 rounding at most 1.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.5e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_of_sh2_and_sh5_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL_HIGHP vec3[25] b) {
@@ -733,6 +737,7 @@ ZONAL_HIGHP vec3[25] sh5_of_sh2_and_sh5_product_rgb(ZONAL_HIGHP vec3[4] a, ZONAL
 // a: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 467 (106 mul, 10 add, 351 fma); 111 constants, 48 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 ZONAL_HIGHP float[25] sh5_square(ZONAL_HIGHP float[25] a) {
@@ -920,6 +925,7 @@ ZONAL_HIGHP float[25] sh5_square(ZONAL_HIGHP float[25] a) {
 // a: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1401 (318 mul, 30 add, 1053 fma); 111 constants, 48 live values.
+// Vector registers on RDNA 2: 256 and memory for 92 more.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_square_rgb(ZONAL_HIGHP vec3[25] a) {
@@ -1108,6 +1114,7 @@ ZONAL_HIGHP vec3[25] sh5_square_rgb(ZONAL_HIGHP vec3[25] a) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 25 (1 mul, 0 add, 24 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP float sh5_dot(ZONAL_HIGHP float[25] a, ZONAL_HIGHP float[25] b) {
@@ -1128,6 +1135,7 @@ ZONAL_HIGHP float sh5_dot(ZONAL_HIGHP float[25] a, ZONAL_HIGHP float[25] b) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 75 (3 mul, 0 add, 72 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 3.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 ZONAL_HIGHP vec3 sh5_dot_rgb(ZONAL_HIGHP vec3[25] a, ZONAL_HIGHP vec3[25] b) {
@@ -1148,6 +1156,7 @@ ZONAL_HIGHP vec3 sh5_dot_rgb(ZONAL_HIGHP vec3[25] a, ZONAL_HIGHP vec3[25] b) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 751 (131 mul, 7 add, 613 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 ZONAL_HIGHP float[25] sh5_product_grey(ZONAL_HIGHP float[25] a, ZONAL_HIGHP float[25] b) {
@@ -1421,6 +1430,7 @@ ZONAL_HIGHP float[25] sh5_product_grey(ZONAL_HIGHP float[25] a, ZONAL_HIGHP floa
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2049 (329 mul, 21 add, 1699 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 256 and memory for 104 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_product_grey_rgb(ZONAL_HIGHP float[25] a, ZONAL_HIGHP vec3[25] b) {
@@ -1694,6 +1704,7 @@ ZONAL_HIGHP vec3[25] sh5_product_grey_rgb(ZONAL_HIGHP float[25] a, ZONAL_HIGHP v
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 143 (44 mul, 0 add, 99 fma); 45 constants, 26 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 9.8e-8 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.3e-8; not proven).
 ZONAL_HIGHP float[25] sh5_product_zonal(ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] b) {
@@ -1767,6 +1778,7 @@ ZONAL_HIGHP float[25] sh5_product_zonal(ZONAL_HIGHP float[5] g, ZONAL_HIGHP floa
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 429 (132 mul, 0 add, 297 fma); 45 constants, 26 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 9.8e-8 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.3e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_product_zonal_rgb(ZONAL_HIGHP vec3[5] g, ZONAL_HIGHP vec3[25] b) {
@@ -1842,6 +1854,7 @@ ZONAL_HIGHP vec3[25] sh5_product_zonal_rgb(ZONAL_HIGHP vec3[5] g, ZONAL_HIGHP ve
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 429 (142 mul, 3 add, 284 fma) and 1 inverse square root or reciprocal; 62 constants, 54
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 9.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 3.3e-7; not proven).
 ZONAL_HIGHP float[25] sh5_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] b) {
@@ -2081,6 +2094,7 @@ ZONAL_HIGHP float[25] sh5_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1231 (390 mul, 7 add, 834 fma) and 1 inverse square root or reciprocal; 62 constants, 54
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more.
 // Error: f32 rounding at most 9.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 3.3e-7; not proven).
 ZONAL_HIGHP vec3[25] sh5_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[5] g, ZONAL_HIGHP vec3[25] b) {
@@ -2320,6 +2334,7 @@ ZONAL_HIGHP vec3[25] sh5_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 401 (124 mul, 2 add, 275 fma); 59 constants, 37 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.6e-8; not proven).
 ZONAL_HIGHP float[25] sh5_product_zonal_about_angles(ZONAL_HIGHP vec2[9] cs, ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] b) {
@@ -2535,6 +2550,7 @@ ZONAL_HIGHP float[25] sh5_product_zonal_about_angles(ZONAL_HIGHP vec2[9] cs, ZON
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1203 (372 mul, 6 add, 825 fma); 59 constants, 37 live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.6e-8; not proven).
 ZONAL_HIGHP vec3[25] sh5_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[9] cs, ZONAL_HIGHP vec3[5] g, ZONAL_HIGHP vec3[25] b) {
@@ -2747,6 +2763,7 @@ ZONAL_HIGHP vec3[25] sh5_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[9] cs, 
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 77 (25 mul, 0 add, 52 fma); 30 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP float[25] sh5_product_cosine(ZONAL_HIGHP float[25] b) {
@@ -2789,6 +2806,7 @@ ZONAL_HIGHP float[25] sh5_product_cosine(ZONAL_HIGHP float[25] b) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 231 (75 mul, 0 add, 156 fma); 30 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP vec3[25] sh5_product_cosine_rgb(ZONAL_HIGHP vec3[25] b) {
@@ -2831,6 +2849,7 @@ ZONAL_HIGHP vec3[25] sh5_product_cosine_rgb(ZONAL_HIGHP vec3[25] b) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 65 (25 mul, 0 add, 40 fma); 14 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP float[25] sh5_product_hemisphere(ZONAL_HIGHP float[25] b) {
@@ -2872,6 +2891,7 @@ ZONAL_HIGHP float[25] sh5_product_hemisphere(ZONAL_HIGHP float[25] b) {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 195 (75 mul, 0 add, 120 fma); 14 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 ZONAL_HIGHP vec3[25] sh5_product_hemisphere_rgb(ZONAL_HIGHP vec3[25] b) {
@@ -2915,6 +2935,7 @@ ZONAL_HIGHP vec3[25] sh5_product_hemisphere_rgb(ZONAL_HIGHP vec3[25] b) {
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 31 (18 mul, 2 add, 11 fma) and 1 inverse square root or reciprocal; 2 constants, 17 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7).
 ZONAL_HIGHP vec2[9] sh5_axis_angles(ZONAL_HIGHP vec3 dir) {

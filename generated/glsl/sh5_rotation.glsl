@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
 ZONAL_HIGHP float[25] sh5_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
@@ -172,6 +173,7 @@ ZONAL_HIGHP float[25] sh5_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
 // Returns the rotated coefficients.
 // Operations: 562 (209 mul, 8 add, 345 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
@@ -322,6 +324,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) 
 // Returns the rotated coefficients.
 // Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 //     live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -417,6 +420,7 @@ ZONAL_HIGHP float[25] sh5_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] 
 // Returns the rotated coefficients.
 // Operations: 680 (353 mul, 7 add, 320 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -510,6 +514,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP float[25] sh5_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[25] c) {
@@ -642,6 +647,7 @@ ZONAL_HIGHP float[25] sh5_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 544 (200 mul, 5 add, 339 fma); 15 constants, 42 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[25] c) {
@@ -776,6 +782,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 26 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 6.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-7).
 ZONAL_HIGHP vec2[13] sh5_angles(ZONAL_HIGHP vec4 q) {
@@ -838,6 +845,7 @@ ZONAL_HIGHP vec2[13] sh5_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 ZONAL_HIGHP float[25] sh5_rotate_angles(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP float[25] c) {
@@ -949,6 +957,7 @@ ZONAL_HIGHP float[25] sh5_rotate_angles(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 507 (180 mul, 3 add, 324 fma); 14 constants, 30 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_angles_rgb(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP vec3[25] c) {
@@ -1062,6 +1071,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_angles_rgb(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 122 (66 mul, 6 add, 50 fma) and 4 inverse square roots or reciprocals; 27 constants, 57
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
 ZONAL_HIGHP vec2[28] sh5_lifted(ZONAL_HIGHP vec4 q) {
@@ -1145,6 +1155,7 @@ ZONAL_HIGHP vec2[28] sh5_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
+// Vector registers on RDNA 2: 112; in pieces 112.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[25] sh5_rotate_lifted(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP float[25] c) {
@@ -1232,6 +1243,7 @@ ZONAL_HIGHP float[25] sh5_rotate_lifted(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 420 (120 mul, 0 add, 300 fma); 0 constants, 28 live values.
+// Vector registers on RDNA 2: 208; in pieces 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_lifted_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP vec3[25] c) {
@@ -1318,6 +1330,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_lifted_rgb(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 248 (121 mul, 6 add, 121 fma) and 1 inverse square root or reciprocal; 15 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 ZONAL_HIGHP float[25] sh5_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] c) {
@@ -1468,6 +1481,7 @@ ZONAL_HIGHP float[25] sh5_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25]
 // Returns the rotated coefficients.
 // Operations: 636 (309 mul, 6 add, 321 fma) and 1 inverse square root or reciprocal; 15 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] c) {
@@ -1617,6 +1631,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[2
 // Returns the rotated coefficients.
 // Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 ZONAL_HIGHP float[25] sh5_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
@@ -1734,6 +1749,7 @@ ZONAL_HIGHP float[25] sh5_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25]
 // Returns the rotated coefficients.
 // Operations: 418 (138 mul, 5 add, 275 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
+// Vector registers on RDNA 2: 176; in pieces 128.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
@@ -1850,6 +1866,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[2
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[25] sh5_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] c) {
@@ -1909,6 +1926,7 @@ ZONAL_HIGHP float[25] sh5_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 112 (101 mul, 0 add, 11 fma); 19 constants, 28 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[25] sh5_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[5] c) {

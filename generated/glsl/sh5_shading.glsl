@@ -21,6 +21,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 164 (24 mul, 0 add, 140 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP float[25] sh5_isd_matrix(ZONAL_HIGHP float[25] lambda) {
@@ -93,6 +94,7 @@ ZONAL_HIGHP float[25] sh5_isd_matrix(ZONAL_HIGHP float[25] lambda) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 492 (72 mul, 0 add, 420 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 ZONAL_HIGHP vec3[25] sh5_isd_matrix_rgb(ZONAL_HIGHP vec3[25] lambda) {
@@ -164,6 +166,7 @@ ZONAL_HIGHP vec3[25] sh5_isd_matrix_rgb(ZONAL_HIGHP vec3[25] lambda) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 164 (24 mul, 0 add, 140 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[25] sh5_isd_weights(ZONAL_HIGHP float[25] c) {
@@ -226,6 +229,7 @@ ZONAL_HIGHP float[25] sh5_isd_weights(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 492 (72 mul, 0 add, 420 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[25] sh5_isd_weights_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -291,6 +295,7 @@ ZONAL_HIGHP vec3[25] sh5_isd_weights_rgb(ZONAL_HIGHP vec3[25] c) {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 631 (307 mul, 0 add, 324 fma); 48 constants, 83 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP float sh5_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] e, ZONAL_HIGHP float[25] lambda) {
@@ -528,6 +533,7 @@ ZONAL_HIGHP float sh5_isd_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] e, ZON
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 1009 (357 mul, 0 add, 652 fma); 48 constants, 83 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP vec3 sh5_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] e, ZONAL_HIGHP vec3[25] lambda) {
@@ -767,6 +773,7 @@ ZONAL_HIGHP vec3 sh5_isd_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] e, Z
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 122 (41 mul, 0 add, 81 fma); 34 constants, 27 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 8.6e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.9e-7; not proven).
 ZONAL_HIGHP float sh5_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] lambda) {
@@ -827,6 +834,7 @@ ZONAL_HIGHP float sh5_isd_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, 
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 180 (51 mul, 0 add, 129 fma); 34 constants, 27 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 8.6e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.9e-7; not proven).
 ZONAL_HIGHP vec3 sh5_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] g, ZONAL_HIGHP vec3[25] lambda) {
@@ -885,6 +893,7 @@ ZONAL_HIGHP vec3 sh5_isd_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 di
 // Returns the integral of the light times the reflectance.
 // Operations: 241 (82 mul, 10 add, 149 fma) and 1 inverse square root or reciprocal; 15 constants, 48
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP float sh5_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] e, ZONAL_HIGHP float[25] c) {
@@ -1015,6 +1024,7 @@ ZONAL_HIGHP float sh5_shade(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] e, ZONAL_H
 // Returns the integral of the light times the reflectance.
 // Operations: 613 (188 mul, 20 add, 405 fma) and 1 inverse square root or reciprocal; 15 constants, 48
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 ZONAL_HIGHP vec3 sh5_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] e, ZONAL_HIGHP vec3[25] c) {
@@ -1146,6 +1156,7 @@ ZONAL_HIGHP vec3 sh5_shade_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] e, ZONAL
 // Returns the integral of the light times the reflectance.
 // Operations: 219 (80 mul, 9 add, 130 fma) and 1 inverse square root or reciprocal; 15 constants, 43
 //     live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 5.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.8e-7; not proven).
 ZONAL_HIGHP float sh5_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] e, ZONAL_HIGHP float[15] c) {
@@ -1262,6 +1273,7 @@ ZONAL_HIGHP float sh5_shade_isotropic(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25] 
 // Returns the integral of the light times the reflectance.
 // Operations: 547 (182 mul, 17 add, 348 fma) and 1 inverse square root or reciprocal; 15 constants, 43
 //     live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 5.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.8e-7; not proven).
 ZONAL_HIGHP vec3 sh5_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25] e, ZONAL_HIGHP vec3[15] c) {
@@ -1378,6 +1390,7 @@ ZONAL_HIGHP vec3 sh5_shade_isotropic_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[25
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 89 (40 mul, 0 add, 49 fma); 21 constants, 11 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 7.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.4e-7; not proven).
 ZONAL_HIGHP float sh5_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] g, ZONAL_HIGHP float[25] c) {
@@ -1423,6 +1436,7 @@ ZONAL_HIGHP float sh5_shade_zonal(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONA
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 169 (72 mul, 0 add, 97 fma); 21 constants, 11 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 7.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.4e-7; not proven).
 ZONAL_HIGHP vec3 sh5_shade_zonal_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[5] g, ZONAL_HIGHP vec3[25] c) {

@@ -21,6 +21,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 40 (8 mul, 0 add, 32 fma); 8 constants, 23 live values.
+// Vector registers on RDNA 2: 64; in pieces 32.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
@@ -73,6 +74,7 @@ ZONAL_HIGHP float[25] sh5_taylor1_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 104 (8 mul, 0 add, 96 fma); 8 constants, 23 live values.
+// Vector registers on RDNA 2: 160; in pieces 64.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
@@ -125,6 +127,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor1_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 77 (32 mul, 1 add, 44 fma); 21 constants, 28 live values.
+// Vector registers on RDNA 2: 72; in pieces 40.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -184,6 +187,7 @@ ZONAL_HIGHP float[25] sh5_taylor15_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[2
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 187 (78 mul, 1 add, 108 fma); 21 constants, 28 live values.
+// Vector registers on RDNA 2: 176; in pieces 80.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -243,6 +247,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor15_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 79 (15 mul, 0 add, 64 fma); 15 constants, 28 live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
@@ -311,6 +316,7 @@ ZONAL_HIGHP float[25] sh5_taylor2_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 207 (15 mul, 0 add, 192 fma); 15 constants, 28 live values.
+// Vector registers on RDNA 2: 168; in pieces 128.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it
@@ -379,6 +385,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor2_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 81 (25 mul, 0 add, 56 fma); 16 constants, 28 live values.
+// Vector registers on RDNA 2: 64; in pieces 40.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -467,6 +474,7 @@ ZONAL_HIGHP float[25] sh5_lf3_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 177 (25 mul, 0 add, 152 fma); 16 constants, 28 live values.
+// Vector registers on RDNA 2: 176; in pieces 64.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -555,6 +563,7 @@ ZONAL_HIGHP vec3[25] sh5_lf3_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 129 (37 mul, 0 add, 92 fma); 23 constants, 33 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
@@ -678,6 +687,7 @@ ZONAL_HIGHP float[25] sh5_lf5_y(ZONAL_HIGHP float beta, ZONAL_HIGHP float[25] c)
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 289 (37 mul, 0 add, 252 fma); 23 constants, 33 live values.
+// Vector registers on RDNA 2: 184; in pieces 80.
 // Error: f32 rounding at most 2.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
@@ -802,6 +812,7 @@ ZONAL_HIGHP vec3[25] sh5_lf5_y_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[25] 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 62 (23 mul, 0 add, 39 fma); 16 constants, 23 live values.
+// Vector registers on RDNA 2: 72; in pieces 32.
 // Error: f32 rounding at most 5.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it
@@ -858,6 +869,7 @@ ZONAL_HIGHP float[25] sh5_taylor15_taylor15_taylor15_taylor1_y(ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 121 (50 mul, 0 add, 71 fma); 50 constants, 25 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 6.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -894,6 +906,7 @@ ZONAL_HIGHP float[25] sh5_taylor15_y_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 311 (146 mul, 0 add, 165 fma); 50 constants, 25 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 6.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -931,6 +944,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor15_y_rgb_loop(ZONAL_HIGHP float beta, ZONAL_HIGHP
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 144 (60 mul, 2 add, 82 fma); 8 constants, 36 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows
@@ -1037,6 +1051,7 @@ ZONAL_HIGHP float[25] sh5_taylor1_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 368 (140 mul, 2 add, 226 fma); 8 constants, 36 live values.
+// Vector registers on RDNA 2: 176; in pieces 128.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 6.1e-2 at 5, 2.5e-1 at 10, 5.4e-1 at 15, 1.4e0 at 25 degrees; it grows
@@ -1143,6 +1158,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor1_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 181 (84 mul, 3 add, 94 fma); 21 constants, 38 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -1256,6 +1272,7 @@ ZONAL_HIGHP float[25] sh5_taylor15_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 451 (210 mul, 3 add, 238 fma); 21 constants, 38 live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 2.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 2.9e-2 at 5, 1.3e-1 at 10, 3.1e-1 at 15, 1.1e0 at 25 degrees; it
@@ -1369,6 +1386,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor15_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 183 (67 mul, 2 add, 114 fma); 15 constants, 41 live values.
+// Vector registers on RDNA 2: 88; in pieces 48.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows
@@ -1491,6 +1509,7 @@ ZONAL_HIGHP float[25] sh5_taylor2_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 471 (147 mul, 2 add, 322 fma); 15 constants, 41 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 7.1e-3 at 5, 5.7e-2 at 10, 1.9e-1 at 15, 8.4e-1 at 25 degrees; it grows
@@ -1613,6 +1632,7 @@ ZONAL_HIGHP vec3[25] sh5_taylor2_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 185 (77 mul, 2 add, 106 fma); 16 constants, 37 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -1736,6 +1756,7 @@ ZONAL_HIGHP float[25] sh5_lf3_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 441 (157 mul, 2 add, 282 fma); 16 constants, 37 live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.1e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -1859,6 +1880,7 @@ ZONAL_HIGHP vec3[25] sh5_lf3_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float b
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 233 (89 mul, 2 add, 142 fma); 23 constants, 42 live values.
+// Vector registers on RDNA 2: 96; in pieces 64.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
@@ -2017,6 +2039,7 @@ ZONAL_HIGHP float[25] sh5_lf5_zyz(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float beta
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 553 (169 mul, 2 add, 382 fma); 23 constants, 42 live values.
+// Vector registers on RDNA 2: 200; in pieces 128.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.2e-2 at 25 degrees; it
@@ -2176,6 +2199,7 @@ ZONAL_HIGHP vec3[25] sh5_lf5_zyz_rgb(ZONAL_HIGHP vec2[2] cs, ZONAL_HIGHP float b
 // Returns the rotated coefficients.
 // Operations: 203 (90 mul, 6 add, 107 fma) and 1 inverse square root or reciprocal; 15 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 88; in pieces 48.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -2315,6 +2339,7 @@ ZONAL_HIGHP float[25] sh5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[25]
 // Returns the rotated coefficients.
 // Operations: 465 (182 mul, 8 add, 275 fma) and 1 inverse square root or reciprocal; 15 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1 at 25 degrees; it
@@ -2454,6 +2479,7 @@ ZONAL_HIGHP vec3[25] sh5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[2
 // Returns the rotated coefficients.
 // Operations: 238 (99 mul, 6 add, 133 fma) and 1 inverse square root or reciprocal; 21 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 96; in pieces 64.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
@@ -2618,6 +2644,7 @@ ZONAL_HIGHP float[25] sh5_lf5_rotate_small(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float
 // Returns the rotated coefficients.
 // Operations: 548 (191 mul, 8 add, 349 fma) and 1 inverse square root or reciprocal; 21 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.2e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.2e-3 at 10, 4.1e-3 at 15, 2.4e-2 at 25 degrees; it
@@ -2785,6 +2812,7 @@ ZONAL_HIGHP vec3[25] sh5_lf5_rotate_small_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP ve
 // Returns the rotated coefficients.
 // Operations: 227 (91 mul, 6 add, 130 fma) and 1 inverse square root or reciprocal above the limit,
 //     206 below it; 27 constants, 46 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
 //     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1
@@ -3063,6 +3091,7 @@ ZONAL_HIGHP float[25] sh5_rotate_adaptive(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float 
 // Returns the rotated coefficients.
 // Operations: 565 (211 mul, 8 add, 346 fma) and 1 inverse square root or reciprocal above the limit,
 //     468 below it; 27 constants, 46 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-7).
 //     Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 5.1e-2 at 15, 2.7e-1

@@ -23,6 +23,7 @@
 // Returns the tilted coefficients.
 // Operations: 133 (28 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 19 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
@@ -120,6 +121,7 @@ ZONAL_HIGHP float[25] sh5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) {
 // Returns the tilted coefficients.
 // Operations: 347 (44 mul, 4 add, 299 fma) and 1 inverse square root or reciprocal; 19 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 176; in pieces 80.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it grows
@@ -217,6 +219,7 @@ ZONAL_HIGHP vec3[25] sh5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c) {
 // Returns the tilted coefficients.
 // Operations: 193 (38 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 25 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 88; in pieces 48.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
@@ -342,6 +345,7 @@ ZONAL_HIGHP float[25] sh5_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[25] c) 
 // Returns the tilted coefficients.
 // Operations: 503 (54 mul, 4 add, 445 fma) and 1 inverse square root or reciprocal; 25 constants, 41
 //     live values.
+// Vector registers on RDNA 2: 184; in pieces 80.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
@@ -467,6 +471,7 @@ ZONAL_HIGHP vec3[25] sh5_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[25] c
 // Returns the tilted coefficients, scaled alike.
 // Operations: 127 (22 mul, 2 add, 103 fma) and 1 inverse square root or reciprocal; 13 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
@@ -558,6 +563,7 @@ ZONAL_HIGHP float[25] sh5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[2
 // Returns the tilted coefficients, scaled alike.
 // Operations: 341 (38 mul, 4 add, 299 fma) and 1 inverse square root or reciprocal; 13 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.2e-7). Method error, the
 //     worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1 at 25 degrees; it
@@ -649,6 +655,7 @@ ZONAL_HIGHP vec3[25] sh5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3
 // Returns the tilted coefficients, scaled alike.
 // Operations: 183 (28 mul, 2 add, 153 fma) and 1 inverse square root or reciprocal; 18 constants, 35
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
@@ -764,6 +771,7 @@ ZONAL_HIGHP float[25] sh5_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP flo
 // Returns the tilted coefficients, scaled alike.
 // Operations: 493 (44 mul, 4 add, 445 fma) and 1 inverse square root or reciprocal; 18 constants, 35
 //     live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 4.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.4e-4 at 5, 1.1e-3 at 10, 3.9e-3 at 15, 2.1e-2 at 25 degrees; it
@@ -876,6 +884,7 @@ ZONAL_HIGHP vec3[25] sh5_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 ZONAL_HIGHP float[25] sh5_tilt_scale(ZONAL_HIGHP float[25] c) {
@@ -917,6 +926,7 @@ ZONAL_HIGHP float[25] sh5_tilt_scale(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 42 (42 mul, 0 add, 0 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 1.4e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 ZONAL_HIGHP vec3[25] sh5_tilt_scale_rgb(ZONAL_HIGHP vec3[25] c) {
@@ -958,6 +968,7 @@ ZONAL_HIGHP vec3[25] sh5_tilt_scale_rgb(ZONAL_HIGHP vec3[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 14 (14 mul, 0 add, 0 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
 ZONAL_HIGHP float[25] sh5_tilt_unscale(ZONAL_HIGHP float[25] c) {
@@ -999,6 +1010,7 @@ ZONAL_HIGHP float[25] sh5_tilt_unscale(ZONAL_HIGHP float[25] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 42 (42 mul, 0 add, 0 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-8).
 ZONAL_HIGHP vec3[25] sh5_tilt_unscale_rgb(ZONAL_HIGHP vec3[25] c) {

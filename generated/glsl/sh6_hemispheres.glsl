@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 69 (47 mul, 0 add, 21 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 41 constants, 40 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.9e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 6.2e-7; not proven).
 ZONAL_HIGHP float[36] sh6_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -111,6 +112,7 @@ ZONAL_HIGHP float[36] sh6_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 82 (23 mul, 0 add, 58 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 40 constants, 11 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (3 times the worst of 256 measured, 9.9e-7; not proven).
 ZONAL_HIGHP float sh6_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
@@ -160,6 +162,7 @@ ZONAL_HIGHP float sh6_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 154 (25 mul, 0 add, 128 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 40 constants, 11 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (3 times the worst of 256 measured, 9.9e-7; not proven).
 ZONAL_HIGHP vec3 sh6_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
@@ -211,6 +214,7 @@ ZONAL_HIGHP vec3 sh6_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) 
 // Returns sum c_i H_i(dir).
 // Operations: 40 (3 mul, 0 add, 36 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 8 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP float sh6_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) {
@@ -238,6 +242,7 @@ ZONAL_HIGHP float sh6_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 110 (3 mul, 0 add, 106 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 1 constants, 8 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 ZONAL_HIGHP vec3 sh6_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c) {
@@ -261,6 +266,7 @@ ZONAL_HIGHP vec3 sh6_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 128 (25 mul, 1 add, 102 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.1e-5).
 ZONAL_HIGHP float[36] sh6_hsh_to_monomial(ZONAL_HIGHP float[36] c) {
@@ -336,6 +342,7 @@ ZONAL_HIGHP float[36] sh6_hsh_to_monomial(ZONAL_HIGHP float[36] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 384 (75 mul, 3 add, 306 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 240.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.1e-5).
 ZONAL_HIGHP vec3[36] sh6_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -410,6 +417,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 125 (36 mul, 0 add, 89 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-8).
 ZONAL_HIGHP float[36] sh6_sh_to_hsh(ZONAL_HIGHP float[36] c) {
@@ -473,6 +481,7 @@ ZONAL_HIGHP float[36] sh6_sh_to_hsh(ZONAL_HIGHP float[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 375 (108 mul, 0 add, 267 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 248.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-8).
 ZONAL_HIGHP vec3[36] sh6_sh_to_hsh_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -536,6 +545,7 @@ ZONAL_HIGHP vec3[36] sh6_sh_to_hsh_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 196 (36 mul, 0 add, 160 fma); 108 constants, 36 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.8e-8).
 ZONAL_HIGHP float[36] sh6_of_order_8_sh_to_hsh(ZONAL_HIGHP float[64] c) {
@@ -616,6 +626,7 @@ ZONAL_HIGHP float[36] sh6_of_order_8_sh_to_hsh(ZONAL_HIGHP float[64] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 588 (108 mul, 0 add, 480 fma); 108 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 74 more.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.8e-8).
 ZONAL_HIGHP vec3[36] sh6_of_order_8_sh_to_hsh_rgb(ZONAL_HIGHP vec3[64] c) {
@@ -696,6 +707,7 @@ ZONAL_HIGHP vec3[36] sh6_of_order_8_sh_to_hsh_rgb(ZONAL_HIGHP vec3[64] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 125 (36 mul, 0 add, 89 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP float[36] sh6_hsh_to_sh(ZONAL_HIGHP float[36] c) {
@@ -760,6 +772,7 @@ ZONAL_HIGHP float[36] sh6_hsh_to_sh(ZONAL_HIGHP float[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 375 (108 mul, 0 add, 267 fma); 67 constants, 36 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 ZONAL_HIGHP vec3[36] sh6_hsh_to_sh_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -823,6 +836,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_to_sh_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 68 (30 mul, 0 add, 38 fma); 41 constants, 30 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 ZONAL_HIGHP float[36] sh6_of_order_4_hsh_to_sh(ZONAL_HIGHP float[16] c) {
@@ -876,6 +890,7 @@ ZONAL_HIGHP float[36] sh6_of_order_4_hsh_to_sh(ZONAL_HIGHP float[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 204 (90 mul, 0 add, 114 fma); 41 constants, 30 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 ZONAL_HIGHP vec3[36] sh6_of_order_4_hsh_to_sh_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -929,6 +944,7 @@ ZONAL_HIGHP vec3[36] sh6_of_order_4_hsh_to_sh_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 146 (36 mul, 0 add, 110 fma); 91 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 7.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[36] sh6_hsh_extend(ZONAL_HIGHP float[36] c) {
@@ -998,6 +1014,7 @@ ZONAL_HIGHP float[36] sh6_hsh_extend(ZONAL_HIGHP float[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 438 (108 mul, 0 add, 330 fma); 91 constants, 36 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 7.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[36] sh6_hsh_extend_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -1067,6 +1084,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_extend_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 76 (30 mul, 0 add, 46 fma); 51 constants, 30 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[36] sh6_of_order_4_hsh_extend(ZONAL_HIGHP float[16] c) {
@@ -1120,6 +1138,7 @@ ZONAL_HIGHP float[36] sh6_of_order_4_hsh_extend(ZONAL_HIGHP float[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 228 (90 mul, 0 add, 138 fma); 51 constants, 30 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[36] sh6_of_order_4_hsh_extend_rgb(ZONAL_HIGHP vec3[16] c) {
@@ -1174,6 +1193,7 @@ ZONAL_HIGHP vec3[36] sh6_of_order_4_hsh_extend_rgb(ZONAL_HIGHP vec3[16] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 384 (54 mul, 0 add, 330 fma); 140 constants, 37 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.1e-8).
 ZONAL_HIGHP float[36] sh6_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
@@ -1303,6 +1323,7 @@ ZONAL_HIGHP float[36] sh6_hsh_y_lobe(ZONAL_HIGHP float beta, ZONAL_HIGHP float[3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 1152 (162 mul, 0 add, 990 fma); 140 constants, 37 live values.
+// Vector registers on RDNA 2: 256 and memory for 3 more.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.1e-8).
 ZONAL_HIGHP vec3[36] sh6_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
@@ -1433,6 +1454,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_y_lobe_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 384 (54 mul, 0 add, 330 fma); 140 constants, 37 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.9e-8).
 ZONAL_HIGHP float[36] sh6_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float[36] c) {
@@ -1563,6 +1585,7 @@ ZONAL_HIGHP float[36] sh6_hsh_y_record(ZONAL_HIGHP float beta, ZONAL_HIGHP float
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 1152 (162 mul, 0 add, 990 fma); 140 constants, 37 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.9e-8).
 ZONAL_HIGHP vec3[36] sh6_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP vec3[36] c) {
@@ -1692,6 +1715,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_y_record_rgb(ZONAL_HIGHP float beta, ZONAL_HIGHP ve
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 497 (57 mul, 0 add, 440 fma); 142 constants, 66 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP float[36] sh6_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
@@ -1913,6 +1937,7 @@ ZONAL_HIGHP float[36] sh6_hsh_tilt_lobe(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 1481 (165 mul, 0 add, 1316 fma); 142 constants, 66 live values.
+// Vector registers on RDNA 2: 256 and memory for 49 more.
 // Error: f32 rounding at most 5.2e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP vec3[36] sh6_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
@@ -2136,6 +2161,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_tilt_lobe_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 497 (57 mul, 0 add, 440 fma); 142 constants, 66 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[36] sh6_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
@@ -2360,6 +2386,7 @@ ZONAL_HIGHP float[36] sh6_hsh_tilt_record(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 1481 (165 mul, 0 add, 1316 fma); 142 constants, 66 live values.
+// Vector registers on RDNA 2: 256 and memory for 49 more.
 // Error: f32 rounding at most 5.3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[36] sh6_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
@@ -2583,6 +2610,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_tilt_record_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 556 (141 mul, 4 add, 411 fma) and 1 inverse square root or reciprocal; 143 constants, 62
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.7e-7; not proven).
 ZONAL_HIGHP float[36] sh6_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
@@ -2779,6 +2807,7 @@ ZONAL_HIGHP float[36] sh6_hsh_rotate_lobe(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[
 // Returns the rotated hemispherical coefficients.
 // Operations: 1564 (369 mul, 4 add, 1191 fma) and 1 inverse square root or reciprocal; 143 constants,
 //     62 live values.
+// Vector registers on RDNA 2: 256 and memory for 14 more.
 // Error: f32 rounding at most 2e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.7e-7; not proven).
 ZONAL_HIGHP vec3[36] sh6_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
@@ -2976,6 +3005,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_rotate_lobe_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 556 (141 mul, 4 add, 411 fma) and 1 inverse square root or reciprocal; 143 constants, 62
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.8e-7; not proven).
 ZONAL_HIGHP float[36] sh6_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
@@ -3172,6 +3202,7 @@ ZONAL_HIGHP float[36] sh6_hsh_rotate_record(ZONAL_HIGHP vec4 q, ZONAL_HIGHP floa
 // Returns the rotated hemispherical coefficients.
 // Operations: 1564 (369 mul, 4 add, 1191 fma) and 1 inverse square root or reciprocal; 143 constants,
 //     62 live values.
+// Vector registers on RDNA 2: 256 and memory for 14 more.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.8e-7; not proven).
 ZONAL_HIGHP vec3[36] sh6_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
@@ -3372,6 +3403,7 @@ ZONAL_HIGHP vec3[36] sh6_hsh_rotate_record_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP v
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 276 (162 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 8.2e-6; not proven).
@@ -3523,6 +3555,7 @@ ZONAL_HIGHP float[36] sh6_hsh_gradient(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3 e,
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 348 (234 mul, 14 add, 98 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 38 constants, 65 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 8.2e-6; not proven).

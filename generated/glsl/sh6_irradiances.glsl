@@ -22,6 +22,7 @@
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 35 (13 mul, 0 add, 22 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 ZONAL_HIGHP float[18] sh6_to_irradiance(ZONAL_HIGHP float[36] c) {
@@ -63,6 +64,7 @@ ZONAL_HIGHP float[18] sh6_to_irradiance(ZONAL_HIGHP float[36] c) {
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 105 (39 mul, 0 add, 66 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 ZONAL_HIGHP vec3[18] sh6_to_irradiance_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -105,6 +107,7 @@ ZONAL_HIGHP vec3[18] sh6_to_irradiance_rgb(ZONAL_HIGHP vec3[36] c) {
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 20 (3 mul, 0 add, 17 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP float sh6_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[18] c) {
@@ -126,6 +129,7 @@ ZONAL_HIGHP float sh6_irradiance_prepared(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 58 (7 mul, 0 add, 51 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 ZONAL_HIGHP vec3 sh6_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[18] c) {
@@ -145,6 +149,7 @@ ZONAL_HIGHP vec3 sh6_irradiance_prepared_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP v
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 43 (43 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 35 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP float[36] sh6_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[36] c) {
@@ -204,6 +209,7 @@ ZONAL_HIGHP float[36] sh6_window(ZONAL_HIGHP float mu, ZONAL_HIGHP float[36] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 113 (113 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 35 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 5.8e-7; not proven).
 ZONAL_HIGHP vec3[36] sh6_window_rgb(ZONAL_HIGHP float mu, ZONAL_HIGHP vec3[36] c) {

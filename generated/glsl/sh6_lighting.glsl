@@ -23,6 +23,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 14 (7 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     11 constants, 7 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 ZONAL_HIGHP float[6] sh6_cap(ZONAL_HIGHP float s) {
@@ -52,6 +53,7 @@ ZONAL_HIGHP float[6] sh6_cap(ZONAL_HIGHP float s) {
 // Returns the zonal coefficients, one a band.
 // Operations: 85 (49 mul, 3 add, 25 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 39 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 ZONAL_HIGHP float[6] sh6_gaussian(ZONAL_HIGHP float kappa) {
@@ -109,6 +111,7 @@ ZONAL_HIGHP float[6] sh6_gaussian(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 73 (43 mul, 1 add, 21 fma, 8 min, max or select) and 2 inverse square roots or
 //     reciprocals; 34 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 ZONAL_HIGHP float[6] sh6_gaussian_narrow(ZONAL_HIGHP float kappa) {
@@ -160,6 +163,7 @@ ZONAL_HIGHP float[6] sh6_gaussian_narrow(ZONAL_HIGHP float kappa) {
 // Returns the zonal coefficients, one a band.
 // Operations: 23 (14 mul, 9 add, 0 fma) and 6 inverse square roots or reciprocals; 12 constants, 7
 //     live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 ZONAL_HIGHP float[6] sh6_phong(ZONAL_HIGHP float s) {
@@ -186,6 +190,7 @@ ZONAL_HIGHP float[6] sh6_phong(ZONAL_HIGHP float s) {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 9 (9 mul, 0 add, 0 fma); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     7.3e-8; not proven).
 ZONAL_HIGHP float[6] sh6_henyey_greenstein(ZONAL_HIGHP float g) {
@@ -212,6 +217,7 @@ ZONAL_HIGHP float[6] sh6_henyey_greenstein(ZONAL_HIGHP float g) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 42 (42 mul, 0 add, 0 fma); 6 constants, 36 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 ZONAL_HIGHP float[36] sh6_convolve(ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36] c) {
@@ -270,6 +276,7 @@ ZONAL_HIGHP float[36] sh6_convolve(ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36]
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 114 (114 mul, 0 add, 0 fma); 6 constants, 36 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 ZONAL_HIGHP vec3[36] sh6_convolve_rgb(ZONAL_HIGHP float[6] g, ZONAL_HIGHP vec3[36] c) {
@@ -328,6 +335,7 @@ ZONAL_HIGHP vec3[36] sh6_convolve_rgb(ZONAL_HIGHP float[6] g, ZONAL_HIGHP vec3[3
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[36] sh6_convolve_cosine(ZONAL_HIGHP float[36] c) {
@@ -381,6 +389,7 @@ ZONAL_HIGHP float[36] sh6_convolve_cosine(ZONAL_HIGHP float[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 54 (54 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[36] sh6_convolve_cosine_rgb(ZONAL_HIGHP vec3[36] c) {
@@ -435,6 +444,7 @@ ZONAL_HIGHP vec3[36] sh6_convolve_cosine_rgb(ZONAL_HIGHP vec3[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
@@ -467,6 +477,7 @@ ZONAL_HIGHP float sh6_irradiance(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[36] c) 
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 85 (23 mul, 0 add, 62 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
@@ -499,6 +510,7 @@ ZONAL_HIGHP vec3 sh6_irradiance_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[36] c
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 101 (46 mul, 0 add, 55 fma); 34 constants, 45 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
@@ -585,6 +597,7 @@ ZONAL_HIGHP float[36] sh6_light_directional(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 173 (46 mul, 0 add, 127 fma); 34 constants, 45 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
@@ -673,6 +686,7 @@ ZONAL_HIGHP vec3[36] sh6_light_directional_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP
 // Returns the coefficients with the light added.
 // Operations: 117 (55 mul, 1 add, 60 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 41 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
@@ -769,6 +783,7 @@ ZONAL_HIGHP float[36] sh6_light_sphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float s
 // Returns the coefficients with the light added.
 // Operations: 199 (65 mul, 1 add, 132 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 41 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 6 more.
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
@@ -863,6 +878,7 @@ ZONAL_HIGHP vec3[36] sh6_light_sphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP floa
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 117 (56 mul, 2 add, 59 fma); 42 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
@@ -957,6 +973,7 @@ ZONAL_HIGHP float[36] sh6_light_cone(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float cos
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 199 (66 mul, 2 add, 131 fma); 42 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 5 more.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
@@ -1052,6 +1069,7 @@ ZONAL_HIGHP vec3[36] sh6_light_cone_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -1110,6 +1128,7 @@ ZONAL_HIGHP float[36] sh6_light_hemisphere(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -1168,6 +1187,7 @@ ZONAL_HIGHP vec3[36] sh6_light_hemisphere_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients with the light added.
 // Operations: 188 (97 mul, 3 add, 80 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 69 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
@@ -1292,6 +1312,7 @@ ZONAL_HIGHP float[36] sh6_light_gaussian(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // Returns the coefficients with the light added.
 // Operations: 270 (107 mul, 3 add, 152 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 69 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more.
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
@@ -1414,6 +1435,7 @@ ZONAL_HIGHP vec3[36] sh6_light_gaussian_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP fl
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 ZONAL_HIGHP vec3 sh6_dominant(ZONAL_HIGHP float[36] c) {
@@ -1437,6 +1459,7 @@ ZONAL_HIGHP vec3 sh6_dominant(ZONAL_HIGHP float[36] c) {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 56 (23 mul, 0 add, 30 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 24 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.4e-7; not proven).
 ZONAL_HIGHP float[5] sh6_light_fit(ZONAL_HIGHP float[36] c) {
@@ -1480,6 +1503,7 @@ ZONAL_HIGHP float[5] sh6_light_fit(ZONAL_HIGHP float[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
@@ -1516,6 +1540,7 @@ ZONAL_HIGHP float[2] sh6_light_fit_along(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 91 (29 mul, 0 add, 62 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).

@@ -20,6 +20,7 @@
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1370 (189 mul, 14 add, 1167 fma); 219 constants, 93 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4e-8; not proven).
 ZONAL_HIGHP float[36] sh6_product(ZONAL_HIGHP float[36] a, ZONAL_HIGHP float[36] b) {
@@ -524,6 +525,7 @@ ZONAL_HIGHP float[36] sh6_product(ZONAL_HIGHP float[36] a, ZONAL_HIGHP float[36]
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 4110 (567 mul, 42 add, 3501 fma); 219 constants, 93 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4e-8; not proven).
 ZONAL_HIGHP vec3[36] sh6_product_rgb(ZONAL_HIGHP vec3[36] a, ZONAL_HIGHP vec3[36] b) {
@@ -1027,6 +1029,7 @@ ZONAL_HIGHP vec3[36] sh6_product_rgb(ZONAL_HIGHP vec3[36] a, ZONAL_HIGHP vec3[36
 // a: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 854 (156 mul, 20 add, 678 fma); 175 constants, 64 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 7.3e-8; not proven).
 ZONAL_HIGHP float[36] sh6_square(ZONAL_HIGHP float[36] a) {
@@ -1329,6 +1332,7 @@ ZONAL_HIGHP float[36] sh6_square(ZONAL_HIGHP float[36] a) {
 // a: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2562 (468 mul, 60 add, 2034 fma); 175 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 209 more.
 // Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 7.3e-8; not proven).
 ZONAL_HIGHP vec3[36] sh6_square_rgb(ZONAL_HIGHP vec3[36] a) {
@@ -1632,6 +1636,7 @@ ZONAL_HIGHP vec3[36] sh6_square_rgb(ZONAL_HIGHP vec3[36] a) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 36 (1 mul, 0 add, 35 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 6.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 2.3e-7; not proven).
 ZONAL_HIGHP float sh6_dot(ZONAL_HIGHP float[36] a, ZONAL_HIGHP float[36] b) {
@@ -1653,6 +1658,7 @@ ZONAL_HIGHP float sh6_dot(ZONAL_HIGHP float[36] a, ZONAL_HIGHP float[36] b) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 108 (3 mul, 0 add, 105 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 6.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 2.3e-7; not proven).
 ZONAL_HIGHP vec3 sh6_dot_rgb(ZONAL_HIGHP vec3[36] a, ZONAL_HIGHP vec3[36] b) {
@@ -1674,6 +1680,7 @@ ZONAL_HIGHP vec3 sh6_dot_rgb(ZONAL_HIGHP vec3[36] a, ZONAL_HIGHP vec3[36] b) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 256 (69 mul, 0 add, 187 fma); 82 constants, 37 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 ZONAL_HIGHP float[36] sh6_product_zonal(ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36] b) {
@@ -1780,6 +1787,7 @@ ZONAL_HIGHP float[36] sh6_product_zonal(ZONAL_HIGHP float[6] g, ZONAL_HIGHP floa
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 768 (207 mul, 0 add, 561 fma); 82 constants, 37 live values.
+// Vector registers on RDNA 2: 256 and memory for 119 more.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 ZONAL_HIGHP vec3[36] sh6_product_zonal_rgb(ZONAL_HIGHP vec3[6] g, ZONAL_HIGHP vec3[36] b) {
@@ -1888,6 +1896,7 @@ ZONAL_HIGHP vec3[36] sh6_product_zonal_rgb(ZONAL_HIGHP vec3[6] g, ZONAL_HIGHP ve
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 722 (211 mul, 3 add, 508 fma) and 1 inverse square root or reciprocal; 117 constants, 72
 //     live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 8e-7 of the product of both factors' norms, for every dir of unit length
 //     (3 times the worst of 256 measured, 2.7e-7; not proven).
 ZONAL_HIGHP float[36] sh6_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36] b) {
@@ -2261,6 +2270,7 @@ ZONAL_HIGHP float[36] sh6_product_zonal_about(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2094 (589 mul, 7 add, 1498 fma) and 1 inverse square root or reciprocal; 117 constants,
 //     72 live values.
+// Vector registers on RDNA 2: 256 and memory for 150 more.
 // Error: f32 rounding at most 8e-7 of the product of both factors' norms, for every dir of unit length
 //     (3 times the worst of 256 measured, 2.7e-7; not proven).
 ZONAL_HIGHP vec3[36] sh6_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] g, ZONAL_HIGHP vec3[36] b) {
@@ -2634,6 +2644,7 @@ ZONAL_HIGHP vec3[36] sh6_product_zonal_about_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIG
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 686 (189 mul, 2 add, 495 fma); 114 constants, 51 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 7e-8; not proven).
 ZONAL_HIGHP float[36] sh6_product_zonal_about_angles(ZONAL_HIGHP vec2[11] cs, ZONAL_HIGHP float[6] g, ZONAL_HIGHP float[36] b) {
@@ -2979,6 +2990,7 @@ ZONAL_HIGHP float[36] sh6_product_zonal_about_angles(ZONAL_HIGHP vec2[11] cs, ZO
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2058 (567 mul, 6 add, 1485 fma); 114 constants, 51 live values.
+// Vector registers on RDNA 2: 256 and memory for 150 more.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 7e-8; not proven).
 ZONAL_HIGHP vec3[36] sh6_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[11] cs, ZONAL_HIGHP vec3[6] g, ZONAL_HIGHP vec3[36] b) {
@@ -3321,6 +3333,7 @@ ZONAL_HIGHP vec3[36] sh6_product_zonal_about_angles_rgb(ZONAL_HIGHP vec2[11] cs,
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 126 (36 mul, 0 add, 90 fma); 45 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[36] sh6_product_cosine(ZONAL_HIGHP float[36] b) {
@@ -3379,6 +3392,7 @@ ZONAL_HIGHP float[36] sh6_product_cosine(ZONAL_HIGHP float[36] b) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 378 (108 mul, 0 add, 270 fma); 45 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 17 more.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[36] sh6_product_cosine_rgb(ZONAL_HIGHP vec3[36] b) {
@@ -3437,6 +3451,7 @@ ZONAL_HIGHP vec3[36] sh6_product_cosine_rgb(ZONAL_HIGHP vec3[36] b) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 106 (36 mul, 0 add, 70 fma); 23 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
 ZONAL_HIGHP float[36] sh6_product_hemisphere(ZONAL_HIGHP float[36] b) {
@@ -3489,6 +3504,7 @@ ZONAL_HIGHP float[36] sh6_product_hemisphere(ZONAL_HIGHP float[36] b) {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 318 (108 mul, 0 add, 210 fma); 23 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 14 more.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
 ZONAL_HIGHP vec3[36] sh6_product_hemisphere_rgb(ZONAL_HIGHP vec3[36] b) {
@@ -3543,6 +3559,7 @@ ZONAL_HIGHP vec3[36] sh6_product_hemisphere_rgb(ZONAL_HIGHP vec3[36] b) {
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 39 (22 mul, 2 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 21 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3.8e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
 ZONAL_HIGHP vec2[11] sh6_axis_angles(ZONAL_HIGHP vec3 dir) {

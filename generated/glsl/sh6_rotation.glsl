@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 342 (125 mul, 6 add, 211 fma) and 1 inverse square root or reciprocal; 33 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 ZONAL_HIGHP float[36] sh6_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
@@ -236,6 +237,7 @@ ZONAL_HIGHP float[36] sh6_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
 // Returns the rotated coefficients.
 // Operations: 892 (305 mul, 8 add, 579 fma) and 1 inverse square root or reciprocal; 33 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
@@ -450,6 +452,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) 
 // Returns the rotated coefficients.
 // Operations: 398 (195 mul, 7 add, 196 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -549,6 +552,7 @@ ZONAL_HIGHP float[36] sh6_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] 
 // Returns the rotated coefficients.
 // Operations: 1058 (515 mul, 7 add, 536 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 34 more.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -646,6 +650,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 324 (116 mul, 3 add, 205 fma); 33 constants, 59 live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP float[36] sh6_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[36] c) {
@@ -842,6 +847,7 @@ ZONAL_HIGHP float[36] sh6_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 874 (296 mul, 5 add, 573 fma); 33 constants, 59 live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[36] c) {
@@ -1040,6 +1046,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 32 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 8e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
 ZONAL_HIGHP vec2[16] sh6_angles(ZONAL_HIGHP vec4 q) {
@@ -1111,6 +1118,7 @@ ZONAL_HIGHP vec2[16] sh6_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
+// Vector registers on RDNA 2: 112; in pieces 80.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP float[36] sh6_rotate_angles(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP float[36] c) {
@@ -1280,6 +1288,7 @@ ZONAL_HIGHP float[36] sh6_rotate_angles(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 825 (270 mul, 3 add, 552 fma); 32 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 29 more; in pieces 128.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_angles_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP vec3[36] c) {
@@ -1451,6 +1460,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_angles_rgb(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 215 (103 mul, 6 add, 106 fma) and 5 inverse square roots or reciprocals; 72 constants,
 //     92 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 ZONAL_HIGHP vec2[45] sh6_lifted(ZONAL_HIGHP vec4 q) {
@@ -1558,6 +1568,7 @@ ZONAL_HIGHP vec2[45] sh6_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
+// Vector registers on RDNA 2: 168; in pieces 168.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[36] sh6_rotate_lifted(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP float[36] c) {
@@ -1677,6 +1688,7 @@ ZONAL_HIGHP float[36] sh6_rotate_lifted(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 675 (180 mul, 0 add, 495 fma); 0 constants, 40 live values.
+// Vector registers on RDNA 2: 256 and memory for 55 more; in pieces 256.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_lifted_rgb(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP vec3[36] c) {
@@ -1795,6 +1807,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_lifted_rgb(ZONAL_HIGHP vec2[45] cs, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 382 (179 mul, 6 add, 197 fma) and 1 inverse square root or reciprocal; 28 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 ZONAL_HIGHP float[36] sh6_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36] c) {
@@ -2003,6 +2016,7 @@ ZONAL_HIGHP float[36] sh6_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[36]
 // Returns the rotated coefficients.
 // Operations: 1014 (471 mul, 6 add, 537 fma) and 1 inverse square root or reciprocal; 28 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 28 more; in pieces 128.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[36] c) {
@@ -2210,6 +2224,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[3
 // Returns the rotated coefficients.
 // Operations: 254 (82 mul, 3 add, 169 fma) and 1 inverse square root or reciprocal; 33 constants, 60
 //     live values.
+// Vector registers on RDNA 2: 96; in pieces 64.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 ZONAL_HIGHP float[36] sh6_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36] c) {
@@ -2382,6 +2397,7 @@ ZONAL_HIGHP float[36] sh6_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[36]
 // Returns the rotated coefficients.
 // Operations: 684 (202 mul, 5 add, 477 fma) and 1 inverse square root or reciprocal; 33 constants, 60
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 13 more; in pieces 128.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[36] c) {
@@ -2553,6 +2569,7 @@ ZONAL_HIGHP vec3[36] sh6_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[3
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 97 (78 mul, 0 add, 19 fma); 31 constants, 41 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 ZONAL_HIGHP float[36] sh6_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6] c) {
@@ -2634,6 +2651,7 @@ ZONAL_HIGHP float[36] sh6_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[6
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 167 (148 mul, 0 add, 19 fma); 31 constants, 41 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 ZONAL_HIGHP vec3[36] sh6_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[6] c) {

@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 94 (63 mul, 0 add, 30 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 57 constants, 52 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.5e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 8.1e-7; not proven).
 ZONAL_HIGHP float[49] sh7_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -134,6 +135,7 @@ ZONAL_HIGHP float[49] sh7_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 110 (29 mul, 0 add, 80 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 56 constants, 13 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-6; not proven).
 ZONAL_HIGHP float sh7_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[49] c) {
@@ -193,6 +195,7 @@ ZONAL_HIGHP float sh7_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[49] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 208 (31 mul, 0 add, 176 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 56 constants, 13 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 4.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-6; not proven).
 ZONAL_HIGHP vec3 sh7_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[49] c) {
@@ -254,6 +257,7 @@ ZONAL_HIGHP vec3 sh7_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[49] c) 
 // Returns sum c_i H_i(dir).
 // Operations: 53 (3 mul, 0 add, 49 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP float sh7_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[49] c) {
@@ -283,6 +287,7 @@ ZONAL_HIGHP float sh7_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 149 (3 mul, 0 add, 145 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 1 constants, 9 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 ZONAL_HIGHP vec3 sh7_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[49] c) {
@@ -308,6 +313,7 @@ ZONAL_HIGHP vec3 sh7_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 221 (33 mul, 4 add, 184 fma); 107 constants, 49 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.9e-3 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.4e-4).
 ZONAL_HIGHP float[49] sh7_hsh_to_monomial(ZONAL_HIGHP float[49] c) {
@@ -411,6 +417,7 @@ ZONAL_HIGHP float[49] sh7_hsh_to_monomial(ZONAL_HIGHP float[49] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 663 (99 mul, 12 add, 552 fma); 107 constants, 49 live values.
+// Vector registers on RDNA 2: 256 and memory for 71 more.
 // Error: f32 rounding at most 1.9e-3 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.4e-4).
 ZONAL_HIGHP vec3[49] sh7_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[49] c) {
@@ -513,6 +520,7 @@ ZONAL_HIGHP vec3[49] sh7_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 199 (49 mul, 0 add, 150 fma); 107 constants, 49 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[49] sh7_sh_to_hsh(ZONAL_HIGHP float[49] c) {
@@ -596,6 +604,7 @@ ZONAL_HIGHP float[49] sh7_sh_to_hsh(ZONAL_HIGHP float[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 597 (147 mul, 0 add, 450 fma); 107 constants, 49 live values.
+// Vector registers on RDNA 2: 256 and memory for 92 more.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[49] sh7_sh_to_hsh_rgb(ZONAL_HIGHP vec3[49] c) {
@@ -680,6 +689,7 @@ ZONAL_HIGHP vec3[49] sh7_sh_to_hsh_rgb(ZONAL_HIGHP vec3[49] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 231 (49 mul, 0 add, 182 fma); 140 constants, 49 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[49] sh7_hsh_extend(ZONAL_HIGHP float[49] c) {
@@ -775,6 +785,7 @@ ZONAL_HIGHP float[49] sh7_hsh_extend(ZONAL_HIGHP float[49] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 693 (147 mul, 0 add, 546 fma); 140 constants, 49 live values.
+// Vector registers on RDNA 2: 256 and memory for 110 more.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[49] sh7_hsh_extend_rgb(ZONAL_HIGHP vec3[49] c) {
@@ -870,6 +881,7 @@ ZONAL_HIGHP vec3[49] sh7_hsh_extend_rgb(ZONAL_HIGHP vec3[49] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 135 (43 mul, 0 add, 92 fma); 86 constants, 43 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 6.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP float[49] sh7_of_order_5_hsh_extend(ZONAL_HIGHP float[25] c) {
@@ -943,6 +955,7 @@ ZONAL_HIGHP float[49] sh7_of_order_5_hsh_extend(ZONAL_HIGHP float[25] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 405 (129 mul, 0 add, 276 fma); 86 constants, 43 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 6.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 ZONAL_HIGHP vec3[49] sh7_of_order_5_hsh_extend_rgb(ZONAL_HIGHP vec3[25] c) {

@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 490 (167 mul, 6 add, 317 fma) and 1 inverse square root or reciprocal; 53 constants, 80
 //     live values.
+// Vector registers on RDNA 2: 152; in pieces 80.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 ZONAL_HIGHP float[49] sh7_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
@@ -317,6 +318,7 @@ ZONAL_HIGHP float[49] sh7_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
 // Returns the rotated coefficients.
 // Operations: 1312 (419 mul, 8 add, 885 fma) and 1 inverse square root or reciprocal; 53 constants, 80
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 116 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 ZONAL_HIGHP vec3[49] sh7_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
@@ -612,6 +614,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) 
 // Returns the rotated coefficients.
 // Operations: 568 (263 mul, 7 add, 298 fma) and 1 inverse square root or reciprocal; 118 constants,
 //     104 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -716,6 +719,7 @@ ZONAL_HIGHP float[49] sh7_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] 
 // Returns the rotated coefficients.
 // Operations: 1544 (707 mul, 7 add, 830 fma) and 1 inverse square root or reciprocal; 118 constants,
 //     104 live values.
+// Vector registers on RDNA 2: 256 and memory for 124 more.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -818,6 +822,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 472 (158 mul, 3 add, 311 fma); 53 constants, 76 live values.
+// Vector registers on RDNA 2: 144; in pieces 80.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP float[49] sh7_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[49] c) {
@@ -1095,6 +1100,7 @@ ZONAL_HIGHP float[49] sh7_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1294 (410 mul, 5 add, 879 fma); 53 constants, 76 live values.
+// Vector registers on RDNA 2: 256 and memory for 116 more; in pieces 256.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP vec3[49] sh7_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[49] c) {
@@ -1374,6 +1380,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 79 (41 mul, 5 add, 33 fma) and 1 inverse square root or reciprocal; 2 constants, 38 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 9.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 ZONAL_HIGHP vec2[19] sh7_angles(ZONAL_HIGHP vec4 q) {
@@ -1454,6 +1461,7 @@ ZONAL_HIGHP vec2[19] sh7_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 411 (126 mul, 1 add, 284 fma); 52 constants, 56 live values.
+// Vector registers on RDNA 2: 144; in pieces 128.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 ZONAL_HIGHP float[49] sh7_rotate_angles(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP float[49] c) {
@@ -1698,6 +1706,7 @@ ZONAL_HIGHP float[49] sh7_rotate_angles(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1233 (378 mul, 3 add, 852 fma); 52 constants, 56 live values.
+// Vector registers on RDNA 2: 256 and memory for 119 more; in pieces 256.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 ZONAL_HIGHP vec3[49] sh7_rotate_angles_rgb(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP vec3[49] c) {
@@ -1944,6 +1953,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_angles_rgb(ZONAL_HIGHP vec2[19] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 350 (148 mul, 6 add, 196 fma) and 6 inverse square roots or reciprocals; 136 constants,
 //     139 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2.6e-5 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
 ZONAL_HIGHP vec2[68] sh7_lifted(ZONAL_HIGHP vec4 q) {
@@ -2085,6 +2095,7 @@ ZONAL_HIGHP vec2[68] sh7_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 336 (84 mul, 0 add, 252 fma); 0 constants, 54 live values.
+// Vector registers on RDNA 2: 240; in pieces 240.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[49] sh7_rotate_lifted(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP float[49] c) {
@@ -2242,6 +2253,7 @@ ZONAL_HIGHP float[49] sh7_rotate_lifted(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1008 (252 mul, 0 add, 756 fma); 0 constants, 54 live values.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 26 more.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[49] sh7_rotate_lifted_rgb(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP vec3[49] c) {
@@ -2398,6 +2410,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_lifted_rgb(ZONAL_HIGHP vec2[68] cs, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 552 (247 mul, 6 add, 299 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
+// Vector registers on RDNA 2: 152; in pieces 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 ZONAL_HIGHP float[49] sh7_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49] c) {
@@ -2674,6 +2687,7 @@ ZONAL_HIGHP float[49] sh7_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[49]
 // Returns the rotated coefficients.
 // Operations: 1500 (663 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 127 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 ZONAL_HIGHP vec3[49] sh7_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[49] c) {
@@ -2949,6 +2963,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[4
 // Returns the rotated coefficients.
 // Operations: 374 (110 mul, 3 add, 261 fma) and 1 inverse square root or reciprocal; 53 constants, 79
 //     live values.
+// Vector registers on RDNA 2: 128; in pieces 64.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
 ZONAL_HIGHP float[49] sh7_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
@@ -3194,6 +3209,7 @@ ZONAL_HIGHP float[49] sh7_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49]
 // Returns the rotated coefficients.
 // Operations: 1028 (278 mul, 5 add, 745 fma) and 1 inverse square root or reciprocal; 53 constants, 79
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 98 more; in pieces 128.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
 ZONAL_HIGHP vec3[49] sh7_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
@@ -3438,6 +3454,7 @@ ZONAL_HIGHP vec3[49] sh7_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[4
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 135 (107 mul, 0 add, 28 fma); 47 constants, 57 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP float[49] sh7_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[7] c) {
@@ -3542,6 +3559,7 @@ ZONAL_HIGHP float[49] sh7_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[7
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 231 (203 mul, 0 add, 28 fma); 47 constants, 57 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP vec3[49] sh7_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[7] c) {

@@ -23,6 +23,7 @@
 // Returns the tilted coefficients.
 // Operations: 283 (54 mul, 2 add, 227 fma) and 1 inverse square root or reciprocal; 45 constants, 59
 //     live values.
+// Vector registers on RDNA 2: 152; in pieces 48.
 // Error: f32 rounding at most 8.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
@@ -198,6 +199,7 @@ ZONAL_HIGHP float[49] sh7_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) {
 // Returns the tilted coefficients.
 // Operations: 737 (70 mul, 4 add, 663 fma) and 1 inverse square root or reciprocal; 45 constants, 59
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 96 more; in pieces 128.
 // Error: f32 rounding at most 8.8e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.9e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
@@ -373,6 +375,7 @@ ZONAL_HIGHP vec3[49] sh7_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c) {
 // Returns the tilted coefficients.
 // Operations: 439 (78 mul, 2 add, 359 fma) and 1 inverse square root or reciprocal; 54 constants, 66
 //     live values.
+// Vector registers on RDNA 2: 160; in pieces 48.
 // Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
@@ -616,6 +619,7 @@ ZONAL_HIGHP float[49] sh7_lf5_tilt(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[49] c) 
 // Returns the tilted coefficients.
 // Operations: 1149 (94 mul, 4 add, 1051 fma) and 1 inverse square root or reciprocal; 54 constants, 66
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 104 more; in pieces 128.
 // Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it
@@ -859,6 +863,7 @@ ZONAL_HIGHP vec3[49] sh7_lf5_tilt_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[49] c
 // Returns the tilted coefficients, scaled alike.
 // Operations: 263 (34 mul, 6 add, 223 fma) and 1 inverse square root or reciprocal; 24 constants, 55
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 7.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
@@ -1014,6 +1019,7 @@ ZONAL_HIGHP float[49] sh7_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[4
 // Returns the tilted coefficients, scaled alike.
 // Operations: 717 (50 mul, 16 add, 651 fma) and 1 inverse square root or reciprocal; 24 constants, 55
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 82 more.
 // Error: f32 rounding at most 7.7e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.5e-7). Method error, the
 //     worst band's in spectral norm: 6.1e-3 at 5, 5e-2 at 10, 1.8e-1 at 15, 1.7e0 at 25 degrees; it
@@ -1169,6 +1175,7 @@ ZONAL_HIGHP vec3[49] sh7_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3
 // Returns the tilted coefficients, scaled alike.
 // Operations: 407 (46 mul, 10 add, 351 fma) and 1 inverse square root or reciprocal; 33 constants, 58
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it grows
@@ -1380,6 +1387,7 @@ ZONAL_HIGHP float[49] sh7_lf5_tilt_prescaled(ZONAL_HIGHP vec3 n, ZONAL_HIGHP flo
 // Returns the tilted coefficients, scaled alike.
 // Operations: 1117 (62 mul, 28 add, 1027 fma) and 1 inverse square root or reciprocal; 33 constants,
 //     58 live values.
+// Vector registers on RDNA 2: 256 and memory for 86 more.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7). Method error, the worst
 //     band's in spectral norm: 4.5e-4 at 5, 3.9e-3 at 10, 1.5e-2 at 15, 1.1e-1 at 25 degrees; it grows
@@ -1588,6 +1596,7 @@ ZONAL_HIGHP vec3[49] sh7_lf5_tilt_prescaled_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 36 (36 mul, 0 add, 0 fma); 17 constants, 36 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[49] sh7_tilt_scale(ZONAL_HIGHP float[49] c) {
@@ -1653,6 +1662,7 @@ ZONAL_HIGHP float[49] sh7_tilt_scale(ZONAL_HIGHP float[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients as `tilt_prescaled` takes them.
 // Operations: 108 (108 mul, 0 add, 0 fma); 17 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 38 more.
 // Error: f32 rounding at most 2.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[49] sh7_tilt_scale_rgb(ZONAL_HIGHP vec3[49] c) {
@@ -1718,6 +1728,7 @@ ZONAL_HIGHP vec3[49] sh7_tilt_scale_rgb(ZONAL_HIGHP vec3[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 36 (36 mul, 0 add, 0 fma); 17 constants, 36 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP float[49] sh7_tilt_unscale(ZONAL_HIGHP float[49] c) {
@@ -1783,6 +1794,7 @@ ZONAL_HIGHP float[49] sh7_tilt_unscale(ZONAL_HIGHP float[49] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients that were scaled; those of a light, to be multiplied with scaled ones.
 // Operations: 108 (108 mul, 0 add, 0 fma); 17 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 38 more.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 ZONAL_HIGHP vec3[49] sh7_tilt_unscale_rgb(ZONAL_HIGHP vec3[49] c) {

@@ -22,6 +22,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 126 (83 mul, 0 add, 42 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 75 constants, 70 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.7e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 9e-7; not proven).
 ZONAL_HIGHP float[64] sh8_hsh_basis(ZONAL_HIGHP vec3 dir) {
@@ -162,6 +163,7 @@ ZONAL_HIGHP float[64] sh8_hsh_basis(ZONAL_HIGHP vec3 dir) {
 // Returns sum c_i H_i(dir).
 // Operations: 144 (36 mul, 0 add, 107 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 74 constants, 14 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-6; not proven).
 ZONAL_HIGHP float sh8_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[64] c) {
@@ -235,6 +237,7 @@ ZONAL_HIGHP float sh8_hsh_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[64] c) {
 // Returns sum c_i H_i(dir).
 // Operations: 272 (38 mul, 0 add, 233 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 74 constants, 14 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 4.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-6; not proven).
 ZONAL_HIGHP vec3 sh8_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[64] c) {
@@ -310,6 +313,7 @@ ZONAL_HIGHP vec3 sh8_hsh_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[64] c) 
 // Returns sum c_i H_i(dir).
 // Operations: 68 (3 mul, 0 add, 64 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 5.7e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.9e-7; not proven).
 ZONAL_HIGHP float sh8_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[64] c) {
@@ -341,6 +345,7 @@ ZONAL_HIGHP float sh8_hsh_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[
 // Returns sum c_i H_i(dir).
 // Operations: 194 (3 mul, 0 add, 190 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 1 constants, 10 live values.
+// Vector registers on RDNA 2: 200.
 // Error: f32 rounding at most 5.7e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.9e-7; not proven).
 ZONAL_HIGHP vec3 sh8_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[64] c) {
@@ -368,6 +373,7 @@ ZONAL_HIGHP vec3 sh8_hsh_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 358 (41 mul, 4 add, 313 fma); 163 constants, 64 live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-2 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-3).
 ZONAL_HIGHP float[64] sh8_hsh_to_monomial(ZONAL_HIGHP float[64] c) {
@@ -505,6 +511,7 @@ ZONAL_HIGHP float[64] sh8_hsh_to_monomial(ZONAL_HIGHP float[64] c) {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 1074 (123 mul, 12 add, 939 fma); 163 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 173 more.
 // Error: f32 rounding at most 1.1e-2 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-3).
 ZONAL_HIGHP vec3[64] sh8_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[64] c) {
@@ -641,6 +648,7 @@ ZONAL_HIGHP vec3[64] sh8_hsh_to_monomial_rgb(ZONAL_HIGHP vec3[64] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 301 (64 mul, 0 add, 237 fma); 161 constants, 64 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.9e-8).
 ZONAL_HIGHP float[64] sh8_sh_to_hsh(ZONAL_HIGHP float[64] c) {
@@ -757,6 +765,7 @@ ZONAL_HIGHP float[64] sh8_sh_to_hsh(ZONAL_HIGHP float[64] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 903 (192 mul, 0 add, 711 fma); 161 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 200 more.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.9e-8).
 ZONAL_HIGHP vec3[64] sh8_sh_to_hsh_rgb(ZONAL_HIGHP vec3[64] c) {
@@ -874,6 +883,7 @@ ZONAL_HIGHP vec3[64] sh8_sh_to_hsh_rgb(ZONAL_HIGHP vec3[64] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 344 (64 mul, 0 add, 280 fma); 204 constants, 64 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[64] sh8_hsh_extend(ZONAL_HIGHP float[64] c) {
@@ -999,6 +1009,7 @@ ZONAL_HIGHP float[64] sh8_hsh_extend(ZONAL_HIGHP float[64] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 1032 (192 mul, 0 add, 840 fma); 204 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 239 more.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP vec3[64] sh8_hsh_extend_rgb(ZONAL_HIGHP vec3[64] c) {
@@ -1124,6 +1135,7 @@ ZONAL_HIGHP vec3[64] sh8_hsh_extend_rgb(ZONAL_HIGHP vec3[64] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 218 (58 mul, 0 add, 160 fma); 134 constants, 58 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 7.8e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP float[64] sh8_of_order_6_hsh_extend(ZONAL_HIGHP float[36] c) {
@@ -1227,6 +1239,7 @@ ZONAL_HIGHP float[64] sh8_of_order_6_hsh_extend(ZONAL_HIGHP float[36] c) {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 654 (174 mul, 0 add, 480 fma); 134 constants, 58 live values.
+// Vector registers on RDNA 2: 256 and memory for 65 more.
 // Error: f32 rounding at most 7.8e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 ZONAL_HIGHP vec3[64] sh8_of_order_6_hsh_extend_rgb(ZONAL_HIGHP vec3[36] c) {

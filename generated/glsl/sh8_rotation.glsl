@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 676 (215 mul, 6 add, 455 fma) and 1 inverse square root or reciprocal; 96 constants, 102
 //     live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 ZONAL_HIGHP float[64] sh8_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
@@ -408,6 +409,7 @@ ZONAL_HIGHP float[64] sh8_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
 // Returns the rotated coefficients.
 // Operations: 1846 (551 mul, 8 add, 1287 fma) and 1 inverse square root or reciprocal; 96 constants,
 //     102 live values.
+// Vector registers on RDNA 2: 256 and memory for 221 more; in pieces 256.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 ZONAL_HIGHP vec3[64] sh8_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
@@ -794,6 +796,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) 
 // Returns the rotated coefficients.
 // Operations: 778 (341 mul, 7 add, 430 fma) and 1 inverse square root or reciprocal; 175 constants,
 //     127 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -905,6 +908,7 @@ ZONAL_HIGHP float[64] sh8_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] 
 // Returns the rotated coefficients.
 // Operations: 2150 (929 mul, 7 add, 1214 fma) and 1 inverse square root or reciprocal; 175 constants,
 //     127 live values.
+// Vector registers on RDNA 2: 256 and memory for 406 more.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1014,6 +1018,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 658 (206 mul, 3 add, 449 fma); 96 constants, 98 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 ZONAL_HIGHP float[64] sh8_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[64] c) {
@@ -1382,6 +1387,7 @@ ZONAL_HIGHP float[64] sh8_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1828 (542 mul, 5 add, 1281 fma); 96 constants, 98 live values.
+// Vector registers on RDNA 2: 256 and memory for 221 more; in pieces 256.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[64] c) {
@@ -1752,6 +1758,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 91 (47 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 2 constants, 44 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 ZONAL_HIGHP vec2[22] sh8_angles(ZONAL_HIGHP vec4 q) {
@@ -1841,6 +1848,7 @@ ZONAL_HIGHP vec2[22] sh8_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 585 (168 mul, 1 add, 416 fma); 95 constants, 74 live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 ZONAL_HIGHP float[64] sh8_rotate_angles(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP float[64] c) {
@@ -2170,6 +2178,7 @@ ZONAL_HIGHP float[64] sh8_rotate_angles(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1755 (504 mul, 3 add, 1248 fma); 95 constants, 74 live values.
+// Vector registers on RDNA 2: 256 and memory for 224 more; in pieces 256.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_angles_rgb(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP vec3[64] c) {
@@ -2501,6 +2510,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_angles_rgb(ZONAL_HIGHP vec2[22] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 565 (211 mul, 6 add, 348 fma) and 7 inverse square roots or reciprocals; 250 constants,
 //     200 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 ZONAL_HIGHP vec2[98] sh8_lifted(ZONAL_HIGHP vec4 q) {
@@ -2679,6 +2689,7 @@ ZONAL_HIGHP vec2[98] sh8_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
+// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 256 and memory for 7 more.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[64] sh8_rotate_lifted(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP float[64] c) {
@@ -2880,6 +2891,7 @@ ZONAL_HIGHP float[64] sh8_rotate_lifted(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
+// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256 and memory for 141 more.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_lifted_rgb(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP vec3[64] c) {
@@ -3080,6 +3092,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_lifted_rgb(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP 
 // Returns the rotated coefficients.
 // Operations: 762 (325 mul, 6 add, 431 fma) and 1 inverse square root or reciprocal; 76 constants, 101
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 ZONAL_HIGHP float[64] sh8_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64] c) {
@@ -3434,6 +3447,7 @@ ZONAL_HIGHP float[64] sh8_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[64]
 // Returns the rotated coefficients.
 // Operations: 2106 (885 mul, 6 add, 1215 fma) and 1 inverse square root or reciprocal; 76 constants,
 //     101 live values.
+// Vector registers on RDNA 2: 256 and memory for 238 more; in pieces 256.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 ZONAL_HIGHP vec3[64] sh8_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[64] c) {
@@ -3787,6 +3801,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[6
 // Returns the rotated coefficients.
 // Operations: 528 (142 mul, 3 add, 383 fma) and 1 inverse square root or reciprocal; 96 constants, 98
 //     live values.
+// Vector registers on RDNA 2: 168; in pieces 80.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
 ZONAL_HIGHP float[64] sh8_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64] c) {
@@ -4112,6 +4127,7 @@ ZONAL_HIGHP float[64] sh8_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[64]
 // Returns the rotated coefficients.
 // Operations: 1474 (366 mul, 5 add, 1103 fma) and 1 inverse square root or reciprocal; 96 constants,
 //     98 live values.
+// Vector registers on RDNA 2: 256 and memory for 201 more; in pieces 256.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[64] c) {
@@ -4436,6 +4452,7 @@ ZONAL_HIGHP vec3[64] sh8_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[6
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[64] sh8_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[8] c) {
@@ -4568,6 +4585,7 @@ ZONAL_HIGHP float[64] sh8_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[8
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 308 (268 mul, 0 add, 40 fma); 65 constants, 73 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[8] c) {

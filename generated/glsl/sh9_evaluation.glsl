@@ -19,7 +19,8 @@
 // 2013's recurrence, rearranged).
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
-// Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 80 live values.
+// Operations: 157 (104 mul, 0 add, 53 fma); 90 constants, 83 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 5.2e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.7e-7).
 ZONAL_HIGHP float[81] sh9_basis(ZONAL_HIGHP vec3 dir) {
@@ -27,155 +28,155 @@ ZONAL_HIGHP float[81] sh9_basis(ZONAL_HIGHP vec3 dir) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = 0.48860252 * dir.z;
-    float t1 = dir.z * dir.z;
-    float t2 = 0.9461747 * t1 - 0.31539157;
-    float t3 = 3.818813 * t1 - 2.291288;
-    float t4 = (3.913119 * t1 - 2.0497289) * t2 - 0.3291106;
-    float t5 = (3.948734 * t1 - 2.018242) * t3 - 1.0340213;
-    float t6 = (3.9661064 * t1 - 2.0088072) * t4 - 1.013541 * t2;
-    float t7 = 0.48860252 * dir.x;
-    float t8 = 0.48860252 * dir.y;
-    float t9 = 2.236068 * dir.z;
-    float t10 = t7 * t9;
-    float t11 = t8 * t9;
-    float t12 = 4.6770716 * t1 - 0.9354144;
-    float t13 = 4.2866073 * t1 - 1.8371173;
-    float t14 = (4.162331 * t1 - 1.9424212) * t12 - 0.88994384;
-    float t15 = (4.10531 * t1 - 1.9726815) * t13 - 0.9577062;
-    float t16 = (4.0740905 * t1 - 1.9848133) * t14 - 0.97880024 * t12;
-    float t17 = (4.0550528 * t1 - 1.9906622) * t15 - 0.9877579 * t13;
-    float t18 = t7 * t7 - t8 * t8;
-    float t19 = 2.288228 * t18;
-    float t20 = 2.236068 * dir.x * t8;
-    float t21 = 2.6457512 * dir.z;
-    float t22 = t19 * t21;
-    float t23 = t20 * t21;
-    float t24 = 6.0621777 * t1 - 0.8660254;
-    float t25 = 4.974937 * t1 - 1.6583124;
-    float t26 = (4.589876 * t1 - 1.8478723) * t24 - 0.75713325;
-    float t27 = (4.400521 * t1 - 1.9181757) * t25 - 0.88453794;
-    float t28 = (4.2914643 * t1 - 1.9506656) * t26 - 0.93498474 * t24;
-    float t29 = 1.0801234 * dir.y;
-    float t30 = 1.0801234 * dir.x;
-    float t31 = t20 * t29 - t19 * t30;
-    float t32 = t19 * t29 + t20 * t30;
-    float t33 = 3.0 * dir.z;
-    float t34 = t31 * t33;
-    float t35 = t32 * t33;
-    float t36 = 7.4624057 * t1 - 0.8291562;
-    float t37 = 5.7245817 * t1 - 1.5612495;
-    float t38 = (5.0812836 * t1 - 1.7806208) * t36 - 0.6809176;
-    float t39 = (4.7541847 * t1 - 1.8728607) * t37 - 0.830486;
-    float t40 = t19 * t19 - t20 * t20;
-    float t41 = 2.0971956 * t40;
-    float t42 = 9.597724 * t18 * t20;
-    float t43 = 3.3166249 * dir.z;
-    float t44 = t41 * t43;
-    float t45 = t42 * t43;
-    float t46 = 8.868484 * t1 - 0.8062258;
-    float t47 = 6.5 * t1 - 1.5;
-    float t48 = (5.6028605 * t1 - 1.7317933) * t46 - 0.6317721;
-    float t49 = 1.0488088 * dir.y;
-    float t50 = 1.0488088 * dir.x;
-    float t51 = t42 * t49 - t41 * t50;
-    float t52 = t41 * t49 + t42 * t50;
-    float t53 = 3.6055512 * dir.z;
-    float t54 = t51 * t53;
-    float t55 = t52 * t53;
-    float t56 = 10.277402 * t1 - 0.7905694;
-    float t57 = 7.28869 * t1 - 1.4577379;
-    float t58 = 1.9623188 * (t31 * t31 - t32 * t32);
-    float t59 = 3.9246376 * t31 * t32;
-    float t60 = 3.8729835 * dir.z;
-    float t61 = 11.687906 * t1 - 0.7791937;
-    float t62 = 1.0350983 * dir.y;
-    float t63 = 1.0350983 * dir.x;
-    float t64 = t58 * t63 + t59 * t62;
-    float t65 = t59 * t63 - t58 * t62;
-    float t66 = 4.1231055 * dir.z;
+    float t0 = 0.48860252 * dir.y;
+    float t1 = 0.48860252 * dir.z;
+    float t2 = 0.48860252 * dir.x;
+    float t3 = 2.236068 * dir.x * t0;
+    float t4 = 2.236068 * dir.z;
+    float t5 = t0 * t4;
+    float t6 = dir.z * dir.z;
+    float t7 = 0.9461747 * t6 - 0.31539157;
+    float t8 = t2 * t4;
+    float t9 = t2 * t2 - t0 * t0;
+    float t10 = 2.288228 * t9;
+    float t11 = 1.0801234 * dir.x;
+    float t12 = 1.0801234 * dir.y;
+    float t13 = t10 * t12 + t3 * t11;
+    float t14 = 2.6457512 * dir.z;
+    float t15 = t3 * t14;
+    float t16 = 4.6770716 * t6 - 0.9354144;
+    float t17 = 3.818813 * t6 - 2.291288;
+    float t18 = t10 * t14;
+    float t19 = t3 * t12 - t10 * t11;
+    float t20 = 9.597724 * t9 * t3;
+    float t21 = 3.0 * dir.z;
+    float t22 = t13 * t21;
+    float t23 = 6.0621777 * t6 - 0.8660254;
+    float t24 = 4.2866073 * t6 - 1.8371173;
+    float t25 = (3.913119 * t6 - 2.0497289) * t7 - 0.3291106;
+    float t26 = t19 * t21;
+    float t27 = t10 * t10 - t3 * t3;
+    float t28 = 2.0971956 * t27;
+    float t29 = 1.0488088 * dir.x;
+    float t30 = 1.0488088 * dir.y;
+    float t31 = t28 * t30 + t20 * t29;
+    float t32 = 3.3166249 * dir.z;
+    float t33 = t20 * t32;
+    float t34 = 7.4624057 * t6 - 0.8291562;
+    float t35 = 4.974937 * t6 - 1.6583124;
+    float t36 = (4.162331 * t6 - 1.9424212) * t16 - 0.88994384;
+    float t37 = (3.948734 * t6 - 2.018242) * t17 - 1.0340213;
+    float t38 = t28 * t32;
+    float t39 = t20 * t30 - t28 * t29;
+    float t40 = 3.9246376 * t19 * t13;
+    float t41 = 3.6055512 * dir.z;
+    float t42 = t31 * t41;
+    float t43 = 8.868484 * t6 - 0.8062258;
+    float t44 = 5.7245817 * t6 - 1.5612495;
+    float t45 = (4.589876 * t6 - 1.8478723) * t23 - 0.75713325;
+    float t46 = (4.10531 * t6 - 1.9726815) * t24 - 0.9577062;
+    float t47 = (3.9661064 * t6 - 2.0088072) * t25 - 1.013541 * t7;
+    float t48 = t39 * t41;
+    float t49 = 1.9623188 * (t19 * t19 - t13 * t13);
+    float t50 = 1.0350983 * dir.x;
+    float t51 = 1.0350983 * dir.y;
+    float t52 = t40 * t50 - t49 * t51;
+    float t53 = 3.8729835 * dir.z;
+    float t54 = 10.277402 * t6 - 0.7905694;
+    float t55 = 6.5 * t6 - 1.5;
+    float t56 = (5.0812836 * t6 - 1.7806208) * t34 - 0.6809176;
+    float t57 = (4.400521 * t6 - 1.9181757) * t35 - 0.88453794;
+    float t58 = (4.0740905 * t6 - 1.9848133) * t36 - 0.97880024 * t16;
+    float t59 = t49 * t50 + t40 * t51;
+    float t60 = 4.1231055 * dir.z;
+    float t61 = 11.687906 * t6 - 0.7791937;
+    float t62 = 7.28869 * t6 - 1.4577379;
+    float t63 = (5.6028605 * t6 - 1.7317933) * t43 - 0.6317721;
+    float t64 = (4.7541847 * t6 - 1.8728607) * t44 - 0.830486;
+    float t65 = (4.2914643 * t6 - 1.9506656) * t45 - 0.93498474 * t23;
+    float t66 = (4.0550528 * t6 - 1.9906622) * t46 - 0.9877579 * t24;
     return float[81](
         0.2820948,
+        -t0,
+        t1,
+        -t2,
+        t3,
+        -t5,
+        t7,
         -t8,
-        t0,
-        -t7,
-        t20,
-        -t11,
-        t2,
-        -t10,
+        t10,
+        -t13,
+        t15,
+        -(t0 * t16),
+        t17 * t1,
+        -(t2 * t16),
+        t18,
         t19,
-        -t32,
-        t23,
-        -(t8 * t12),
-        t3 * t0,
-        -(t7 * t12),
-        t22,
-        t31,
-        t42,
-        -t35,
-        t20 * t24,
-        -(t13 * t11),
-        t4,
-        -(t13 * t10),
-        t19 * t24,
-        t34,
-        t41,
-        -t52,
-        t45,
-        -(t32 * t36),
-        t25 * t23,
-        -(t8 * t14),
-        t5 * t0,
-        -(t7 * t14),
-        t25 * t22,
-        t31 * t36,
-        t44,
-        t51,
+        t20,
+        -t22,
+        t3 * t23,
+        -(t24 * t5),
+        t25,
+        -(t24 * t8),
+        t10 * t23,
+        t26,
+        t28,
+        -t31,
+        t33,
+        -(t13 * t34),
+        t35 * t15,
+        -(t0 * t36),
+        t37 * t1,
+        -(t2 * t36),
+        t35 * t18,
+        t19 * t34,
+        t38,
+        t39,
+        -t40,
+        -t42,
+        t20 * t43,
+        -(t44 * t22),
+        t3 * t45,
+        -(t46 * t5),
+        t47,
+        -(t46 * t8),
+        t10 * t45,
+        t44 * t26,
+        t28 * t43,
+        t48,
+        t49,
+        t52,
+        -(t40 * t53),
+        -(t31 * t54),
+        t55 * t33,
+        -(t13 * t56),
+        t57 * t15,
+        -(t0 * t58),
+        ((3.9759054 * t6 - 2.0049436) * t37 - 1.006881 * t17) * t1,
+        -(t2 * t58),
+        t57 * t18,
+        t19 * t56,
+        t55 * t38,
+        t39 * t54,
+        t49 * t53,
         -t59,
-        -t55,
-        t42 * t46,
-        -(t37 * t35),
-        t20 * t26,
-        -(t15 * t11),
-        t6,
-        -(t15 * t10),
-        t19 * t26,
-        t37 * t34,
-        t41 * t46,
-        t54,
-        t58,
-        t65,
+        7.806063 * t27 * t20,
+        t52 * t60,
+        -(t40 * t61),
+        -(t62 * t42),
+        t20 * t63,
+        -(t64 * t22),
+        t3 * t65,
+        -(t66 * t5),
+        (3.9819827 * t6 - 2.003058) * t47 - 1.004003 * t25,
+        -(t66 * t8),
+        t10 * t65,
+        t64 * t26,
+        t28 * t63,
+        t62 * t48,
+        t49 * t61,
         -(t59 * t60),
-        -(t52 * t56),
-        t47 * t45,
-        -(t32 * t38),
-        t27 * t23,
-        -(t8 * t16),
-        ((3.9759054 * t1 - 2.0049436) * t5 - 1.006881 * t3) * t0,
-        -(t7 * t16),
-        t27 * t22,
-        t31 * t38,
-        t47 * t44,
-        t51 * t56,
-        t58 * t60,
-        -t64,
-        7.806063 * t40 * t42,
-        t65 * t66,
-        -(t59 * t61),
-        -(t57 * t55),
-        t42 * t48,
-        -(t39 * t35),
-        t20 * t28,
-        -(t17 * t11),
-        (3.9819827 * t1 - 2.003058) * t6 - 1.004003 * t4,
-        -(t17 * t10),
-        t19 * t28,
-        t39 * t34,
-        t41 * t48,
-        t57 * t54,
-        t58 * t61,
-        -(t64 * t66),
-        1.8610717 * (t41 * t41 - t42 * t42)
+        1.8610717 * (t28 * t28 - t20 * t20)
     );
 }
 
@@ -184,6 +185,7 @@ ZONAL_HIGHP float[81] sh9_basis(ZONAL_HIGHP vec3 dir) {
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
 // Operations: 212 (132 mul, 0 add, 80 fma); 80 constants, 81 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 8.9e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-7).
 // y_l = a z y_(l-1) - b y_(l-2) for each m: a, at l(l-1)/2 + |m|
@@ -256,6 +258,7 @@ ZONAL_HIGHP float[81] sh9_basis_loop(ZONAL_HIGHP vec3 dir) {
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 177 (42 mul, 0 add, 135 fma); 92 constants, 14 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     7.7e-7).
@@ -334,6 +337,7 @@ ZONAL_HIGHP float sh9_eval(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[81] c) {
 // c: the coefficients of the bands, ascending.
 // Returns sum c_i y_i(dir).
 // Operations: 339 (44 mul, 0 add, 295 fma); 92 constants, 14 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     7.7e-7).
@@ -413,6 +417,7 @@ ZONAL_HIGHP vec3 sh9_eval_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[81] c) {
 // c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 // Returns sum c_i y_i(dir).
 // Operations: 108 (14 mul, 1 add, 93 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.1e-6).
@@ -457,6 +462,7 @@ ZONAL_HIGHP float sh9_eval_monomial(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[81] 
 // c: the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 // Returns sum c_i y_i(dir).
 // Operations: 268 (14 mul, 1 add, 253 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 1.5e-5 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     1.1e-6).
@@ -500,6 +506,7 @@ ZONAL_HIGHP vec3 sh9_eval_monomial_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[81
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 // Operations: 163 (79 mul, 0 add, 84 fma); 92 constants, 81 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
 ZONAL_HIGHP float[81] sh9_to_monomial(ZONAL_HIGHP float[81] c) {
@@ -600,6 +607,7 @@ ZONAL_HIGHP float[81] sh9_to_monomial(ZONAL_HIGHP float[81] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of z^(l-|m|) Re (x+iy)^m, Im and |m| for m < 0, index l(l+1)+m.
 // Operations: 489 (237 mul, 0 add, 252 fma); 92 constants, 81 live values.
+// Vector registers on RDNA 2: 256 and memory for 239 more.
 // Error: f32 rounding at most 1.9e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
 ZONAL_HIGHP vec3[81] sh9_to_monomial_rgb(ZONAL_HIGHP vec3[81] c) {

@@ -21,6 +21,7 @@
 // b: the coefficients of a function of order 9, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 81 (1 mul, 0 add, 80 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 4e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP float sh9_dot(ZONAL_HIGHP float[81] a, ZONAL_HIGHP float[81] b) {
@@ -50,6 +51,7 @@ ZONAL_HIGHP float sh9_dot(ZONAL_HIGHP float[81] a, ZONAL_HIGHP float[81] b) {
 // b: the coefficients of a function of order 9, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 243 (3 mul, 0 add, 240 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 256 and memory for 233 more.
 // Error: f32 rounding at most 4e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 1.4e-7; not proven).
 ZONAL_HIGHP vec3 sh9_dot_rgb(ZONAL_HIGHP vec3[81] a, ZONAL_HIGHP vec3[81] b) {

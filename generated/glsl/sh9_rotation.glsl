@@ -22,6 +22,7 @@
 // Returns the rotated coefficients.
 // Operations: 902 (269 mul, 6 add, 627 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     122 live values.
+// Vector registers on RDNA 2: 232; in pieces 128.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 ZONAL_HIGHP float[81] sh9_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
@@ -525,6 +526,7 @@ ZONAL_HIGHP float[81] sh9_rotate(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
 // Returns the rotated coefficients.
 // Operations: 2500 (701 mul, 8 add, 1791 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     122 live values.
+// Vector registers on RDNA 2: 256 and memory for 350 more; in pieces 256.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 ZONAL_HIGHP vec3[81] sh9_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
@@ -1028,6 +1030,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) 
 // Returns the rotated coefficients.
 // Operations: 1032 (429 mul, 7 add, 596 fma) and 1 inverse square root or reciprocal; 248 constants,
 //     152 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1148,6 +1151,7 @@ ZONAL_HIGHP float[81] sh9_rotate_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] 
 // Returns the rotated coefficients.
 // Operations: 2888 (1181 mul, 7 add, 1700 fma) and 1 inverse square root or reciprocal; 248 constants,
 //     152 live values.
+// Vector registers on RDNA 2: 256 and memory for 742 more.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1266,6 +1270,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_rgb_loop(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 884 (260 mul, 3 add, 621 fma); 135 constants, 118 live values.
+// Vector registers on RDNA 2: 232; in pieces 128.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP float[81] sh9_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float[81] c) {
@@ -1751,6 +1756,7 @@ ZONAL_HIGHP float[81] sh9_rotate_euler(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP float
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2482 (692 mul, 5 add, 1785 fma); 135 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 350 more; in pieces 256.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP vec3[81] c) {
@@ -2238,6 +2244,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_euler_rgb(ZONAL_HIGHP vec2[3] cs, ZONAL_HIGHP ve
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 103 (53 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 50
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 ZONAL_HIGHP vec2[25] sh9_angles(ZONAL_HIGHP vec4 q) {
@@ -2336,6 +2343,7 @@ ZONAL_HIGHP vec2[25] sh9_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 799 (216 mul, 1 add, 582 fma); 134 constants, 90 live values.
+// Vector registers on RDNA 2: 224; in pieces 128.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 ZONAL_HIGHP float[81] sh9_rotate_angles(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP float[81] c) {
@@ -2776,6 +2784,7 @@ ZONAL_HIGHP float[81] sh9_rotate_angles(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2397 (648 mul, 3 add, 1746 fma); 134 constants, 90 live values.
+// Vector registers on RDNA 2: 256 and memory for 369 more; in pieces 256.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_angles_rgb(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP vec3[81] c) {
@@ -3218,6 +3227,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_angles_rgb(ZONAL_HIGHP vec2[25] cs, ZONAL_HIGHP 
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 850 (290 mul, 6 add, 554 fma) and 8 inverse square roots or reciprocals; 386 constants,
 //     277 live values.
+// Vector registers on RDNA 2: 256 and memory for 25 more.
 // Error: f32 rounding at most 3.3e-5 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 ZONAL_HIGHP vec2[136] sh9_lifted(ZONAL_HIGHP vec4 q) {
@@ -3441,6 +3451,7 @@ ZONAL_HIGHP vec2[136] sh9_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 100 more.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[81] sh9_rotate_lifted(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP float[81] c) {
@@ -3700,6 +3711,7 @@ ZONAL_HIGHP float[81] sh9_rotate_lifted(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1944 (432 mul, 0 add, 1512 fma); 0 constants, 88 live values.
+// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256 and memory for 268 more.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_lifted_rgb(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP vec3[81] c) {
@@ -3958,6 +3970,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_lifted_rgb(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP
 // Returns the rotated coefficients.
 // Operations: 1012 (413 mul, 6 add, 593 fma) and 1 inverse square root or reciprocal; 108 constants,
 //     125 live values.
+// Vector registers on RDNA 2: 240; in pieces 128.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 ZONAL_HIGHP float[81] sh9_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81] c) {
@@ -4401,6 +4414,7 @@ ZONAL_HIGHP float[81] sh9_rotate_zxzxz(ZONAL_HIGHP vec4 q, ZONAL_HIGHP float[81]
 // Returns the rotated coefficients.
 // Operations: 2832 (1137 mul, 6 add, 1689 fma) and 1 inverse square root or reciprocal; 108 constants,
 //     125 live values.
+// Vector registers on RDNA 2: 256 and memory for 388 more; in pieces 256.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 ZONAL_HIGHP vec3[81] sh9_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[81] c) {
@@ -4843,6 +4857,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_zxzxz_rgb(ZONAL_HIGHP vec4 q, ZONAL_HIGHP vec3[8
 // Returns the rotated coefficients.
 // Operations: 718 (178 mul, 3 add, 537 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     121 live values.
+// Vector registers on RDNA 2: 208; in pieces 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 ZONAL_HIGHP float[81] sh9_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81] c) {
@@ -5273,6 +5288,7 @@ ZONAL_HIGHP float[81] sh9_rotate_align(ZONAL_HIGHP vec3 n, ZONAL_HIGHP float[81]
 // Returns the rotated coefficients.
 // Operations: 2028 (466 mul, 5 add, 1557 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     121 live values.
+// Vector registers on RDNA 2: 256 and memory for 325 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[81] c) {
@@ -5702,6 +5718,7 @@ ZONAL_HIGHP vec3[81] sh9_rotate_align_rgb(ZONAL_HIGHP vec3 n, ZONAL_HIGHP vec3[8
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 234 (181 mul, 0 add, 53 fma); 87 constants, 93 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
 ZONAL_HIGHP float[81] sh9_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9] c) {
@@ -5864,6 +5881,7 @@ ZONAL_HIGHP float[81] sh9_rotate_zonal(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP float[9
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 394 (341 mul, 0 add, 53 fma); 87 constants, 93 live values.
+// Vector registers on RDNA 2: 256 and memory for 16 more.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_zonal_rgb(ZONAL_HIGHP vec3 dir, ZONAL_HIGHP vec3[9] c) {

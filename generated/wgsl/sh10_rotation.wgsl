@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 1166 (329 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     149 live values.
+// Vector registers on RDNA 2: 256 and memory for 18 more; in pieces 128.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_rotate(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
@@ -631,6 +632,7 @@ fn sh10_rotate(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 3268 (869 mul, 8 add, 2391 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     149 live values.
+// Vector registers on RDNA 2: 256 and memory for 599 more; in pieces 256.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -1252,6 +1254,7 @@ fn sh10_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 1
 // Returns the rotated coefficients.
 // Operations: 1334 (527 mul, 7 add, 800 fma) and 1 inverse square root or reciprocal; 339 constants,
 //     179 live values.
+// Vector registers on RDNA 2: 256 and memory for 22 more.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1380,6 +1383,7 @@ fn sh10_rotate_loop(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 3770 (1463 mul, 7 add, 2300 fma) and 1 inverse square root or reciprocal; 339 constants,
 //     179 live values.
+// Vector registers on RDNA 2: 256 and memory for 1141 more.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1506,6 +1510,7 @@ fn sh10_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1148 (320 mul, 3 add, 825 fma); 204 constants, 145 live values.
+// Vector registers on RDNA 2: 256 and memory for 18 more; in pieces 128.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 fn sh10_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 100>) -> array<f32, 100> {
@@ -2109,6 +2114,7 @@ fn sh10_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 100>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3250 (860 mul, 5 add, 2385 fma); 204 constants, 145 live values.
+// Vector registers on RDNA 2: 256 and memory for 596 more; in pieces 256.
 // Error: f32 rounding at most 8.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.4e-7).
 fn sh10_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -2714,6 +2720,7 @@ fn sh10_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 100>) -> a
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 115 (59 mul, 5 add, 51 fma) and 1 inverse square root or reciprocal; 2 constants, 56
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-6).
 fn sh10_angles(q: vec4<f32>) -> array<vec2<f32>, 28> {
@@ -2817,6 +2824,7 @@ fn sh10_angles(q: vec4<f32>) -> array<vec2<f32>, 28> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1051 (270 mul, 1 add, 780 fma); 203 constants, 113 live values.
+// Vector registers on RDNA 2: 256 and memory for 21 more; in pieces 128.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
 fn sh10_rotate_angles(cs: array<vec2<f32>, 28>, c: array<f32, 100>) -> array<f32, 100> {
@@ -3370,6 +3378,7 @@ fn sh10_rotate_angles(cs: array<vec2<f32>, 28>, c: array<f32, 100>) -> array<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3153 (810 mul, 3 add, 2340 fma); 203 constants, 113 live values.
+// Vector registers on RDNA 2: 256 and memory for 627 more; in pieces 256.
 // Error: f32 rounding at most 5.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.5e-7).
 fn sh10_rotate_angles_rgb(cs: array<vec2<f32>, 28>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -3924,6 +3933,7 @@ fn sh10_rotate_angles_rgb(cs: array<vec2<f32>, 28>, c: array<vec3<f32>, 100>) ->
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 1275 (387 mul, 6 add, 882 fma) and 9 inverse square roots or reciprocals; 604 constants,
 //     372 live values.
+// Vector registers on RDNA 2: 256 and memory for 120 more.
 // Error: f32 rounding at most 3.8e-5 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_lifted(q: vec4<f32>) -> array<vec2<f32>, 183> {
@@ -4247,6 +4257,7 @@ fn sh10_lifted(q: vec4<f32>) -> array<vec2<f32>, 183> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 311 more; in pieces 256 and memory for 213 more.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 fn sh10_rotate_lifted(cs: array<vec2<f32>, 183>, c: array<f32, 100>) -> array<f32, 100> {
@@ -4567,6 +4578,7 @@ fn sh10_rotate_lifted(cs: array<vec2<f32>, 183>, c: array<f32, 100>) -> array<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 970 more; in pieces 256 and memory for 419 more.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 fn sh10_rotate_lifted_rgb(cs: array<vec2<f32>, 183>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -4886,6 +4898,7 @@ fn sh10_rotate_lifted_rgb(cs: array<vec2<f32>, 183>, c: array<vec3<f32>, 100>) -
 // Returns the rotated coefficients.
 // Operations: 1314 (511 mul, 6 add, 797 fma) and 1 inverse square root or reciprocal; 150 constants,
 //     150 live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_rotate_zxzxz(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
@@ -5424,6 +5437,7 @@ fn sh10_rotate_zxzxz(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 3714 (1419 mul, 6 add, 2289 fma) and 1 inverse square root or reciprocal; 150 constants,
 //     150 live values.
+// Vector registers on RDNA 2: 256 and memory for 625 more; in pieces 256.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh10_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -5961,6 +5975,7 @@ fn sh10_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f
 // Returns the rotated coefficients.
 // Operations: 942 (218 mul, 3 add, 721 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     144 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
 fn sh10_rotate_align(n: vec3<f32>, c: array<f32, 100>) -> array<f32, 100> {
@@ -6494,6 +6509,7 @@ fn sh10_rotate_align(n: vec3<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 2684 (578 mul, 5 add, 2101 fma) and 1 inverse square root or reciprocal; 204 constants,
 //     144 live values.
+// Vector registers on RDNA 2: 256 and memory for 564 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.9e-7).
 fn sh10_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {
@@ -7026,6 +7042,7 @@ fn sh10_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 295 (226 mul, 0 add, 69 fma); 111 constants, 114 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh10_rotate_zonal(dir: vec3<f32>, c: array<f32, 10>) -> array<f32, 100> {
@@ -7218,6 +7235,7 @@ fn sh10_rotate_zonal(dir: vec3<f32>, c: array<f32, 10>) -> array<f32, 100> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 493 (424 mul, 0 add, 69 fma); 111 constants, 114 live values.
+// Vector registers on RDNA 2: 256 and memory for 78 more.
 // Error: f32 rounding at most 5.3e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh10_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 10>) -> array<vec3<f32>, 100> {

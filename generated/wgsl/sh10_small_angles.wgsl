@@ -9,6 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 192 (30 mul, 0 add, 162 fma); 30 constants, 98 live values.
+// Vector registers on RDNA 2: 232; in pieces 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
@@ -154,6 +155,7 @@ fn sh10_taylor1_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 516 (30 mul, 0 add, 486 fma); 30 constants, 98 live values.
+// Vector registers on RDNA 2: 256 and memory for 418 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7). Method error, the
 //     worst band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it
@@ -299,6 +301,7 @@ fn sh10_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 1
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 336 (129 mul, 1 add, 206 fma); 73 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 11 more; in pieces 64.
 // Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -478,6 +481,7 @@ fn sh10_taylor15_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 856 (325 mul, 1 add, 530 fma); 73 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 456 more; in pieces 256.
 // Error: f32 rounding at most 2.6e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -657,6 +661,7 @@ fn sh10_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 378 (54 mul, 0 add, 324 fma); 54 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 53 more; in pieces 80.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -890,6 +895,7 @@ fn sh10_taylor2_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1026 (54 mul, 0 add, 972 fma); 54 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 665 more; in pieces 256.
 // Error: f32 rounding at most 5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -1123,6 +1129,7 @@ fn sh10_taylor2_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 1
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 366 (105 mul, 0 add, 261 fma); 46 constants, 108 live values.
+// Vector registers on RDNA 2: 256; in pieces 64.
 // Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -1432,6 +1439,7 @@ fn sh10_lf3_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 852 (105 mul, 0 add, 747 fma); 46 constants, 108 live values.
+// Vector registers on RDNA 2: 256 and memory for 476 more; in pieces 256.
 // Error: f32 rounding at most 9.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -1741,6 +1749,7 @@ fn sh10_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 589 (157 mul, 0 add, 432 fma); 60 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more; in pieces 80.
 // Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -2200,6 +2209,7 @@ fn sh10_lf5_y(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1399 (157 mul, 0 add, 1242 fma); 60 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 485 more; in pieces 256.
 // Error: f32 rounding at most 8.2e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.4e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -2659,6 +2669,7 @@ fn sh10_lf5_y_rgb(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 496 (200 mul, 0 add, 296 fma); 200 constants, 100 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
@@ -2704,6 +2715,7 @@ fn sh10_taylor15_y_loop(beta: f32, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1286 (596 mul, 0 add, 690 fma); 200 constants, 100 live values.
+// Vector registers on RDNA 2: 256 and memory for 508 more.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-7). Method error, the worst
 //     band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it grows
@@ -2750,6 +2762,7 @@ fn sh10_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 100>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 616 (242 mul, 2 add, 372 fma); 30 constants, 126 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
@@ -3109,6 +3122,7 @@ fn sh10_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 100>) -> a
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1660 (602 mul, 2 add, 1056 fma); 30 constants, 126 live values.
+// Vector registers on RDNA 2: 256 and memory for 545 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4e-7). Method error, the worst
 //     band's in spectral norm: 3.1e-1 at 5, 1.2e0 at 10, 2.4e0 at 15, 5e0 at 25 degrees; it grows
@@ -3468,6 +3482,7 @@ fn sh10_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 760 (341 mul, 3 add, 416 fma); 73 constants, 129 live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more; in pieces 128.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -3862,6 +3877,7 @@ fn sh10_taylor15_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 100>) -> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2000 (897 mul, 3 add, 1100 fma); 73 constants, 129 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more; in pieces 256.
 // Error: f32 rounding at most 2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.8e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-1 at 5, 7.6e-1 at 10, 2e0 at 15, 6.7e0 at 25 degrees; it
@@ -4255,6 +4271,7 @@ fn sh10_taylor15_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>,
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 802 (266 mul, 2 add, 534 fma); 54 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 9 more; in pieces 128.
 // Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -4702,6 +4719,7 @@ fn sh10_taylor2_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 100>) -> a
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2170 (626 mul, 2 add, 1542 fma); 54 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more; in pieces 256.
 // Error: f32 rounding at most 2.4e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7). Method error, the
 //     worst band's in spectral norm: 8e-2 at 5, 6.2e-1 at 10, 2e0 at 15, 7.6e0 at 25 degrees; it grows
@@ -5149,6 +5167,7 @@ fn sh10_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 790 (317 mul, 2 add, 471 fma); 46 constants, 127 live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -5583,6 +5602,7 @@ fn sh10_lf3_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 100>) -> array
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1996 (677 mul, 2 add, 1317 fma); 46 constants, 127 live values.
+// Vector registers on RDNA 2: 256 and memory for 521 more; in pieces 256.
 // Error: f32 rounding at most 2.6e-4 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.3e-6). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.8e1 at 25 degrees; it
@@ -6017,6 +6037,7 @@ fn sh10_lf3_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 100>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1013 (369 mul, 2 add, 642 fma); 60 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 5 more; in pieces 128.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -6601,6 +6622,7 @@ fn sh10_lf5_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 100>) -> array
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2543 (729 mul, 2 add, 1812 fma); 60 constants, 132 live values.
+// Vector registers on RDNA 2: 256 and memory for 528 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 3.8e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -7186,6 +7208,7 @@ fn sh10_lf5_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 100>
 // Returns the rotated coefficients.
 // Operations: 808 (330 mul, 6 add, 472 fma) and 1 inverse square root or reciprocal; 45 constants, 131
 //     live values.
+// Vector registers on RDNA 2: 256; in pieces 128.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
@@ -7636,6 +7659,7 @@ fn sh10_rotate_small(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 2020 (702 mul, 8 add, 1310 fma) and 1 inverse square root or reciprocal; 45 constants,
 //     131 live values.
+// Vector registers on RDNA 2: 256 and memory for 533 more; in pieces 256.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-5). Method error, the
 //     worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at 25 degrees; it
@@ -8086,6 +8110,7 @@ fn sh10_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f
 // Returns the rotated coefficients.
 // Operations: 1018 (379 mul, 6 add, 633 fma) and 1 inverse square root or reciprocal; 57 constants,
 //     136 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more; in pieces 128.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -8676,6 +8701,7 @@ fn sh10_lf5_rotate_small(q: vec4<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // Returns the rotated coefficients.
 // Operations: 2538 (751 mul, 8 add, 1779 fma) and 1 inverse square root or reciprocal; 57 constants,
 //     136 live values.
+// Vector registers on RDNA 2: 256 and memory for 540 more; in pieces 256.
 // Error: f32 rounding at most 4.2e-5 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.3e-6). Method error, the
 //     worst band's in spectral norm: 1.6e-3 at 5, 1.6e-2 at 10, 7e-2 at 15, 5.7e-1 at 25 degrees; it
@@ -9269,6 +9295,7 @@ fn sh10_lf5_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 100>) -> array<ve
 // Returns the rotated coefficients.
 // Operations: 1169 (331 mul, 6 add, 832 fma) and 1 inverse square root or reciprocal above the limit,
 //     811 below it; 246 constants, 149 live values.
+// Vector registers on RDNA 2: 256 and memory for 17 more.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at
@@ -10333,6 +10360,7 @@ fn sh10_rotate_adaptive(q: vec4<f32>, limit: f32, c: array<f32, 100>) -> array<f
 // Returns the rotated coefficients.
 // Operations: 3271 (871 mul, 8 add, 2392 fma) and 1 inverse square root or reciprocal above the limit,
 //     2023 below it; 246 constants, 149 live values.
+// Vector registers on RDNA 2: 256 and memory for 792 more.
 // Error: f32 rounding at most 1.4e-3 of the norm of a band, for every unit q, with a limit up to 25
 //     degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 //     Method error, the worst band's in spectral norm: 2.1e-2 at 5, 2e-1 at 10, 1.2e0 at 15, 6.6e1 at

@@ -10,6 +10,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 7 (4 mul, 1 add, 1 fma, 1 min, max or select) and 1 inverse square root or reciprocal; 4
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.6e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 8.4e-8; not proven).
 fn sh2_hsh_basis(dir: vec3<f32>) -> array<f32, 4> {
@@ -32,6 +33,7 @@ fn sh2_hsh_basis(dir: vec3<f32>) -> array<f32, 4> {
 // Returns sum c_i H_i(dir).
 // Operations: 11 (5 mul, 1 add, 4 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     4 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn sh2_hsh_eval(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -49,6 +51,7 @@ fn sh2_hsh_eval(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 19 (7 mul, 1 add, 10 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn sh2_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -68,6 +71,7 @@ fn sh2_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 8 (3 mul, 0 add, 4 fma, 1 min, max or select) and 1 inverse square root or reciprocal; 1
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 fn sh2_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -86,6 +90,7 @@ fn sh2_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 14 (3 mul, 0 add, 10 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 fn sh2_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -100,6 +105,7 @@ fn sh2_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn sh2_hsh_to_monomial(c: array<f32, 4>) -> array<f32, 4> {
@@ -117,6 +123,7 @@ fn sh2_hsh_to_monomial(c: array<f32, 4>) -> array<f32, 4> {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 15 (12 mul, 0 add, 3 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.5e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn sh2_hsh_to_monomial_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -133,6 +140,7 @@ fn sh2_hsh_to_monomial_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-8).
 fn sh2_sh_to_hsh(c: array<f32, 4>) -> array<f32, 4> {
@@ -149,6 +157,7 @@ fn sh2_sh_to_hsh(c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 15 (12 mul, 0 add, 3 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-8).
 fn sh2_sh_to_hsh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -165,6 +174,7 @@ fn sh2_sh_to_hsh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 12 (4 mul, 0 add, 8 fma); 9 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 fn sh2_of_order_4_sh_to_hsh(c: array<f32, 16>) -> array<f32, 4> {
@@ -181,6 +191,7 @@ fn sh2_of_order_4_sh_to_hsh(c: array<f32, 16>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 36 (12 mul, 0 add, 24 fma); 9 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 fn sh2_of_order_4_sh_to_hsh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 4> {
@@ -197,6 +208,7 @@ fn sh2_of_order_4_sh_to_hsh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 4> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 5 (4 mul, 0 add, 1 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.6e-8).
 fn sh2_hsh_to_sh(c: array<f32, 4>) -> array<f32, 4> {
@@ -214,6 +226,7 @@ fn sh2_hsh_to_sh(c: array<f32, 4>) -> array<f32, 4> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 15 (12 mul, 0 add, 3 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.6e-8).
 fn sh2_hsh_to_sh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -231,6 +244,7 @@ fn sh2_hsh_to_sh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 6 (4 mul, 0 add, 2 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 fn sh2_hsh_extend(c: array<f32, 4>) -> array<f32, 4> {
@@ -248,6 +262,7 @@ fn sh2_hsh_extend(c: array<f32, 4>) -> array<f32, 4> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 18 (12 mul, 0 add, 6 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 fn sh2_hsh_extend_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {

@@ -10,6 +10,7 @@
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8; in pieces 8.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh2_to_irradiance(c: array<f32, 4>) -> array<f32, 4> {
@@ -28,6 +29,7 @@ fn sh2_to_irradiance(c: array<f32, 4>) -> array<f32, 4> {
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh2_to_irradiance_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -47,6 +49,7 @@ fn sh2_to_irradiance_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh2_irradiance_prepared(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -61,6 +64,7 @@ fn sh2_irradiance_prepared(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh2_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -74,6 +78,7 @@ fn sh2_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 3 (2 mul, 0 add, 1 fma); 3 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.4e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn h4_basis(dir: vec3<f32>) -> array<f32, 4> {
@@ -93,6 +98,7 @@ fn h4_basis(dir: vec3<f32>) -> array<f32, 4> {
 // Returns H_i(dir).
 // Operations: 9 (5 mul, 0 add, 4 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 2.6e-7; not proven).
 fn h4_basis_normalised(dir: vec3<f32>) -> array<f32, 4> {
@@ -112,6 +118,7 @@ fn h4_basis_normalised(dir: vec3<f32>) -> array<f32, 4> {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 6 (2 mul, 0 add, 4 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 8.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn h4_eval(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -127,6 +134,7 @@ fn h4_eval(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 12 (5 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
 fn h4_eval_normalised(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -142,6 +150,7 @@ fn h4_eval_normalised(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 15 (5 mul, 0 add, 10 fma); 3 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 fn h4_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -157,6 +166,7 @@ fn h4_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 21 (8 mul, 0 add, 13 fma) and 1 inverse square root or reciprocal; 3 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 fn h4_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -170,6 +180,7 @@ fn h4_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 5 (4 mul, 0 add, 1 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn h4_to_monomial(c: array<f32, 4>) -> array<f32, 4> {
@@ -186,6 +197,7 @@ fn h4_to_monomial(c: array<f32, 4>) -> array<f32, 4> {
 // c: the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 15 (12 mul, 0 add, 3 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn h4_to_monomial_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -205,6 +217,7 @@ fn h4_to_monomial_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
 // Operations: 3 (0 mul, 0 add, 3 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn h4_eval_monomial(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -219,6 +232,7 @@ fn h4_eval_monomial(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // c: the coefficients of 1, y, z, x.
 // Returns sum c_i H_i(dir).
 // Operations: 9 (0 mul, 0 add, 9 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn h4_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -233,6 +247,7 @@ fn h4_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 9 (3 mul, 0 add, 6 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn h4_eval_monomial_normalised(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -248,6 +263,7 @@ fn h4_eval_monomial_normalised(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 15 (3 mul, 0 add, 12 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.1e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn h4_eval_monomial_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -263,6 +279,7 @@ fn h4_eval_monomial_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> ve
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns the values of the basis.
 // Operations: 5 (1 mul, 0 add, 4 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.4e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.6e-8).
 fn hl2_basis(dir: vec3<f32>) -> array<f32, 3> {
@@ -284,6 +301,7 @@ fn hl2_basis(dir: vec3<f32>) -> array<f32, 3> {
 // Returns the values of the basis.
 // Operations: 11 (4 mul, 0 add, 7 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 1.2e-7; not proven).
 fn hl2_basis_normalised(dir: vec3<f32>) -> array<f32, 3> {
@@ -306,6 +324,7 @@ fn hl2_basis_normalised(dir: vec3<f32>) -> array<f32, 3> {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
 // Operations: 8 (2 mul, 0 add, 6 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn hl2_eval(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
@@ -322,6 +341,7 @@ fn hl2_eval(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns sum c_i b_i(dir).
 // Operations: 14 (4 mul, 0 add, 10 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn hl2_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
@@ -339,6 +359,7 @@ fn hl2_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
 // Returns sum c_i b_i(dir).
 // Operations: 14 (5 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.5e-7; not proven).
 fn hl2_eval_normalised(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
@@ -359,6 +380,7 @@ fn hl2_eval_normalised(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
 // Returns sum c_i b_i(dir).
 // Operations: 20 (7 mul, 0 add, 13 fma) and 1 inverse square root or reciprocal; 4 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.5e-7; not proven).
 fn hl2_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
@@ -376,6 +398,7 @@ fn hl2_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> 
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 3 add, 1 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn hl2_to_h4_coefficients(c: array<f32, 3>) -> array<f32, 4> {
@@ -394,6 +417,7 @@ fn hl2_to_h4_coefficients(c: array<f32, 3>) -> array<f32, 4> {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 9 add, 3 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn hl2_to_h4_coefficients_rgb(c: array<vec3<f32>, 3>) -> array<vec3<f32>, 4> {
@@ -412,6 +436,7 @@ fn hl2_to_h4_coefficients_rgb(c: array<vec3<f32>, 3>) -> array<vec3<f32>, 4> {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the vector whose scalar product with a normal is the irradiance.
 // Operations: 7 (3 mul, 3 add, 1 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.4e-8).
 fn hl2_to_vector(c: array<f32, 3>) -> array<f32, 3> {
@@ -428,6 +453,7 @@ fn hl2_to_vector(c: array<f32, 3>) -> array<f32, 3> {
 // c: the three coefficients of the Half-Life 2 basis.
 // Returns the vector whose scalar product with a normal is the irradiance.
 // Operations: 21 (9 mul, 9 add, 3 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.4e-8).
 fn hl2_to_vector_rgb(c: array<vec3<f32>, 3>) -> array<vec3<f32>, 3> {
@@ -446,6 +472,7 @@ fn hl2_to_vector_rgb(c: array<vec3<f32>, 3>) -> array<vec3<f32>, 3> {
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
 // Operations: 3 (1 mul, 0 add, 2 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn hl2_eval_vector(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
@@ -459,6 +486,7 @@ fn hl2_eval_vector(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
 // c: the vector whose scalar product with a normal is the irradiance.
 // Returns sum c_i b_i(dir).
 // Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn hl2_eval_vector_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
@@ -473,6 +501,7 @@ fn hl2_eval_vector_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
 // Returns sum c_i b_i(dir).
 // Operations: 9 (4 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 fn hl2_eval_vector_normalised(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
@@ -488,6 +517,7 @@ fn hl2_eval_vector_normalised(dir: vec3<f32>, c: array<f32, 3>) -> f32 {
 // Returns sum c_i b_i(dir).
 // Operations: 15 (6 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.9e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 1.3e-7; not proven).
 fn hl2_eval_vector_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec3<f32> {
@@ -501,6 +531,7 @@ fn hl2_eval_vector_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> vec
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 4 (4 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 7.1e-8; not proven).
 fn sh2_window(mu: f32, c: array<f32, 4>) -> array<f32, 4> {
@@ -519,6 +550,7 @@ fn sh2_window(mu: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 10 (10 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 3 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 7.1e-8; not proven).
 fn sh2_window_rgb(mu: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -540,6 +572,7 @@ fn sh2_window_rgb(mu: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // Returns the irradiance.
 // Operations: 22 (9 mul, 1 add, 9 fma, 3 min, max or select) and 5 special (reciprocal, inverse square
 //     root, logarithm, power of two); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.6e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 2.6e-7; not proven).
 fn eval_geomerics(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -558,6 +591,7 @@ fn eval_geomerics(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns the irradiance.
 // Operations: 17 (6 mul, 0 add, 9 fma, 2 min, max or select) and 2 inverse square roots or
 //     reciprocals; 6 constants, 5 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.4e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 1.2e-7; not proven).
 fn eval_zh3_hallucinated(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
@@ -577,6 +611,7 @@ fn eval_zh3_hallucinated(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // Returns the irradiance.
 // Operations: 12 (4 mul, 0 add, 8 fma) and 1 inverse square root or reciprocal; 4 constants, 3 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.2e-7 of one, for dir of unit length, for c with each band of norm one
 //     (3 times the worst of 256 measured, 1.8e-7; not proven).
 fn eval_zh3_stored(dir: vec3<f32>, c: array<f32, 5>) -> f32 {

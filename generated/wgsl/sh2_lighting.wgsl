@@ -11,6 +11,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 5 (2 mul, 1 add, 1 fma, 1 min, max or select) and 2 special (square root, reciprocal); 3
 //     constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 fn sh2_cap(s: f32) -> array<f32, 2> {
@@ -29,6 +30,7 @@ fn sh2_cap(s: f32) -> array<f32, 2> {
 // Returns the zonal coefficients, one a band.
 // Operations: 57 (29 mul, 3 add, 21 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 fn sh2_gaussian(kappa: f32) -> array<f32, 2> {
@@ -70,6 +72,7 @@ fn sh2_gaussian(kappa: f32) -> array<f32, 2> {
 // Returns the zonal coefficients, one a band.
 // Operations: 45 (23 mul, 1 add, 17 fma, 4 min, max or select) and 2 inverse square roots or
 //     reciprocals; 22 constants, 7 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 fn sh2_gaussian_narrow(kappa: f32) -> array<f32, 2> {
@@ -105,6 +108,7 @@ fn sh2_gaussian_narrow(kappa: f32) -> array<f32, 2> {
 // Returns the zonal coefficients, one a band.
 // Operations: 4 (2 mul, 2 add, 0 fma) and 2 inverse square roots or reciprocals; 4 constants, 2 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 fn sh2_phong(s: f32) -> array<f32, 2> {
@@ -119,6 +123,7 @@ fn sh2_phong(s: f32) -> array<f32, 2> {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 1 (1 mul, 0 add, 0 fma); 2 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-8 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     2.1e-8; not proven).
 fn sh2_henyey_greenstein(g: f32) -> array<f32, 2> {
@@ -134,6 +139,7 @@ fn sh2_henyey_greenstein(g: f32) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 6 (6 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh2_convolve(g: array<f32, 2>, c: array<f32, 4>) -> array<f32, 4> {
@@ -152,6 +158,7 @@ fn sh2_convolve(g: array<f32, 2>, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 14 (14 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh2_convolve_rgb(g: array<f32, 2>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -170,6 +177,7 @@ fn sh2_convolve_rgb(g: array<f32, 2>, c: array<vec3<f32>, 4>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 4 (4 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh2_convolve_cosine(c: array<f32, 4>) -> array<f32, 4> {
@@ -187,6 +195,7 @@ fn sh2_convolve_cosine(c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 12 (12 mul, 0 add, 0 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh2_convolve_cosine_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -205,6 +214,7 @@ fn sh2_convolve_cosine_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 5 (2 mul, 0 add, 3 fma); 2 constants, 1 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 5.2e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
@@ -219,6 +229,7 @@ fn sh2_irradiance(dir: vec3<f32>, c: array<f32, 4>) -> f32 {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 15 (6 mul, 0 add, 9 fma); 2 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.4e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.2e-7).
@@ -234,6 +245,7 @@ fn sh2_irradiance_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> vec3<f32> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (3 mul, 0 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
@@ -253,6 +265,7 @@ fn sh2_light_directional(dir: vec3<f32>, light: f32, c: array<f32, 4>) -> array<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 15 (3 mul, 0 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 8.4e-8).
@@ -274,6 +287,7 @@ fn sh2_light_directional_rgb(dir: vec3<f32>, light: vec3<f32>, c: array<vec3<f32
 // Returns the coefficients with the light added.
 // Operations: 10 (3 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     3 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
@@ -299,6 +313,7 @@ fn sh2_light_sphere(dir: vec3<f32>, s: f32, light: f32, c: array<f32, 4>) -> arr
 // Returns the coefficients with the light added.
 // Operations: 20 (5 mul, 1 add, 13 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     3 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.8e-7;
 //     not proven).
@@ -322,6 +337,7 @@ fn sh2_light_sphere_rgb(dir: vec3<f32>, s: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 10 (4 mul, 2 add, 4 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
@@ -344,6 +360,7 @@ fn sh2_light_cone(dir: vec3<f32>, cos: f32, light: f32, c: array<f32, 4>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 20 (6 mul, 2 add, 12 fma); 3 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 9.2e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.1e-7;
 //     not proven).
@@ -367,6 +384,7 @@ fn sh2_light_cone_rgb(dir: vec3<f32>, cos: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -389,6 +407,7 @@ fn sh2_light_hemisphere(dir: vec3<f32>, top: f32, bottom: f32, c: array<f32, 4>)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -411,6 +430,7 @@ fn sh2_light_hemisphere_rgb(dir: vec3<f32>, top: vec3<f32>, bottom: vec3<f32>, c
 // Returns the coefficients with the light added.
 // Operations: 62 (30 mul, 3 add, 25 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
@@ -459,6 +479,7 @@ fn sh2_light_gaussian(dir: vec3<f32>, kappa: f32, light: f32, c: array<f32, 4>) 
 // Returns the coefficients with the light added.
 // Operations: 72 (32 mul, 3 add, 33 fma, 4 min, max or select) and 3 special (reciprocal, power of
 //     two); 27 constants, 9 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     3.9e-7; not proven).
@@ -505,6 +526,7 @@ fn sh2_light_gaussian_rgb(dir: vec3<f32>, kappa: f32, light: vec3<f32>, c: array
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 fn sh2_dominant(c: array<f32, 4>) -> vec3<f32> {
@@ -524,6 +546,7 @@ fn sh2_dominant(c: array<f32, 4>) -> vec3<f32> {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 18 (10 mul, 0 add, 5 fma, 3 min, max or select) and 1 inverse square root or reciprocal;
 //     7 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.9e-7; not proven).
 fn sh2_light_fit(c: array<f32, 4>) -> array<f32, 5> {
@@ -549,6 +572,7 @@ fn sh2_light_fit(c: array<f32, 4>) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 9 (6 mul, 0 add, 3 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).
@@ -567,6 +591,7 @@ fn sh2_light_fit_along(dir: vec3<f32>, c: array<f32, 4>) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (12 mul, 0 add, 9 fma); 4 constants, 2 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, each band of norm one, for dir of
 //     unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.3e-7).

@@ -8,6 +8,7 @@
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 13 (7 mul, 0 add, 6 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 fn sh2_product(a: array<f32, 4>, b: array<f32, 4>) -> array<f32, 4> {
@@ -27,6 +28,7 @@ fn sh2_product(a: array<f32, 4>, b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 39 (21 mul, 0 add, 18 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 fn sh2_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -45,6 +47,7 @@ fn sh2_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 4>) -> array<vec3
 // a: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 9 (6 mul, 0 add, 3 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.9e-8; not proven).
 fn sh2_square(a: array<f32, 4>) -> array<f32, 4> {
@@ -62,6 +65,7 @@ fn sh2_square(a: array<f32, 4>) -> array<f32, 4> {
 // a: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 27 (18 mul, 0 add, 9 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.5e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.9e-8; not proven).
 fn sh2_square_rgb(a: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -80,6 +84,7 @@ fn sh2_square_rgb(a: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 4 (1 mul, 0 add, 3 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 fn sh2_dot(a: array<f32, 4>, b: array<f32, 4>) -> f32 {
@@ -92,6 +97,7 @@ fn sh2_dot(a: array<f32, 4>, b: array<f32, 4>) -> f32 {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 12 (3 mul, 0 add, 9 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 fn sh2_dot_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 4>) -> vec3<f32> {
@@ -104,6 +110,7 @@ fn sh2_dot_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 4>) -> vec3<f32> {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 4 (4 mul, 0 add, 0 fma); 1 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.2e-8 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-8).
 fn sh2_product_matrix(a: array<f32, 4>) -> array<f32, 7> {
@@ -125,6 +132,7 @@ fn sh2_product_matrix(a: array<f32, 4>) -> array<f32, 7> {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 12 (12 mul, 0 add, 0 fma); 1 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3.2e-8 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3e-8).
 fn sh2_product_matrix_rgb(a: array<vec3<f32>, 4>) -> array<vec3<f32>, 7> {
@@ -146,6 +154,7 @@ fn sh2_product_matrix_rgb(a: array<vec3<f32>, 4>) -> array<vec3<f32>, 7> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 6.5e-8; not proven).
 fn sh2_product_by_matrix(m: array<f32, 7>, b: array<f32, 4>) -> array<f32, 4> {
@@ -163,6 +172,7 @@ fn sh2_product_by_matrix(m: array<f32, 7>, b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 30 (12 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2e-7 of the product of both factors' norms, for every input (3 times the
 //     worst of 256 measured, 6.5e-8; not proven).
 fn sh2_product_by_matrix_rgb(m: array<f32, 7>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -180,6 +190,7 @@ fn sh2_product_by_matrix_rgb(m: array<f32, 7>, b: array<vec3<f32>, 4>) -> array<
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 14 (8 mul, 0 add, 6 fma); 1 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 fn sh2_product_grey(a: array<f32, 4>, b: array<f32, 4>) -> array<f32, 4> {
@@ -201,6 +212,7 @@ fn sh2_product_grey(a: array<f32, 4>, b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 34 (16 mul, 0 add, 18 fma); 1 constants, 6 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 fn sh2_product_grey_rgb(a: array<f32, 4>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -222,6 +234,7 @@ fn sh2_product_grey_rgb(a: array<f32, 4>, b: array<vec3<f32>, 4>) -> array<vec3<
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 9 (7 mul, 0 add, 2 fma); 1 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.1e-8; not proven).
 fn sh2_product_zonal(g: array<f32, 2>, b: array<f32, 4>) -> array<f32, 4> {
@@ -240,6 +253,7 @@ fn sh2_product_zonal(g: array<f32, 2>, b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 27 (21 mul, 0 add, 6 fma); 1 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.1e-8; not proven).
 fn sh2_product_zonal_rgb(g: array<vec3<f32>, 2>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -260,6 +274,7 @@ fn sh2_product_zonal_rgb(g: array<vec3<f32>, 2>, b: array<vec3<f32>, 4>) -> arra
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 31 (19 mul, 1 add, 11 fma) and 1 inverse square root or reciprocal; 1 constants, 8 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.1e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.1e-7; not proven).
 fn sh2_product_zonal_about(dir: vec3<f32>, g: array<f32, 2>, b: array<f32, 4>) -> array<f32, 4> {
@@ -292,6 +307,7 @@ fn sh2_product_zonal_about(dir: vec3<f32>, g: array<f32, 2>, b: array<f32, 4>) -
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 81 (49 mul, 1 add, 31 fma) and 1 inverse square root or reciprocal; 1 constants, 8 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.1e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.1e-7; not proven).
 fn sh2_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 2>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -324,6 +340,7 @@ fn sh2_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 2>, b: array<
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 25 (15 mul, 0 add, 10 fma); 1 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.3e-8; not proven).
 fn sh2_product_zonal_about_angles(cs: array<vec2<f32>, 3>, g: array<f32, 2>, b: array<f32, 4>) -> array<f32, 4> {
@@ -350,6 +367,7 @@ fn sh2_product_zonal_about_angles(cs: array<vec2<f32>, 3>, g: array<f32, 2>, b: 
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 75 (45 mul, 0 add, 30 fma); 1 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.3e-8; not proven).
 fn sh2_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 3>, g: array<vec3<f32>, 2>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -373,6 +391,7 @@ fn sh2_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 3>, g: array<vec3<f32
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 6 (4 mul, 0 add, 2 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.5e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 fn sh2_product_cosine(b: array<f32, 4>) -> array<f32, 4> {
@@ -389,6 +408,7 @@ fn sh2_product_cosine(b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 18 (12 mul, 0 add, 6 fma); 4 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.5e-8 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 fn sh2_product_cosine_rgb(b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -407,6 +427,7 @@ fn sh2_product_cosine_rgb(b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 28 (16 mul, 1 add, 11 fma) and 1 inverse square root or reciprocal; 4 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 1.8e-7; not proven).
 fn sh2_product_cosine_about(dir: vec3<f32>, b: array<f32, 4>) -> array<f32, 4> {
@@ -437,6 +458,7 @@ fn sh2_product_cosine_about(dir: vec3<f32>, b: array<f32, 4>) -> array<f32, 4> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 72 (40 mul, 1 add, 31 fma) and 1 inverse square root or reciprocal; 4 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 1.8e-7; not proven).
 fn sh2_product_cosine_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -467,6 +489,7 @@ fn sh2_product_cosine_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 4>) -> array
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 22 (12 mul, 0 add, 10 fma); 4 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 8.9e-8; not proven).
 fn sh2_product_cosine_about_angles(cs: array<vec2<f32>, 3>, b: array<f32, 4>) -> array<f32, 4> {
@@ -491,6 +514,7 @@ fn sh2_product_cosine_about_angles(cs: array<vec2<f32>, 3>, b: array<f32, 4>) ->
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 66 (36 mul, 0 add, 30 fma); 4 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 8.9e-8; not proven).
 fn sh2_product_cosine_about_angles_rgb(cs: array<vec2<f32>, 3>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -513,6 +537,7 @@ fn sh2_product_cosine_about_angles_rgb(cs: array<vec2<f32>, 3>, b: array<vec3<f3
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 6 (4 mul, 0 add, 2 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 9e-8 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.1e-8).
 fn sh2_product_hemisphere(b: array<f32, 4>) -> array<f32, 4> {
@@ -529,6 +554,7 @@ fn sh2_product_hemisphere(b: array<f32, 4>) -> array<f32, 4> {
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 18 (12 mul, 0 add, 6 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9e-8 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.1e-8).
 fn sh2_product_hemisphere_rgb(b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -547,6 +573,7 @@ fn sh2_product_hemisphere_rgb(b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 28 (16 mul, 1 add, 11 fma) and 1 inverse square root or reciprocal; 2 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.9e-7 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 2.3e-7; not proven).
 fn sh2_product_hemisphere_about(dir: vec3<f32>, b: array<f32, 4>) -> array<f32, 4> {
@@ -577,6 +604,7 @@ fn sh2_product_hemisphere_about(dir: vec3<f32>, b: array<f32, 4>) -> array<f32, 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 72 (40 mul, 1 add, 31 fma) and 1 inverse square root or reciprocal; 2 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.9e-7 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 2.3e-7; not proven).
 fn sh2_product_hemisphere_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -608,6 +636,7 @@ fn sh2_product_hemisphere_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 4>) -> a
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 22 (12 mul, 0 add, 10 fma); 2 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.2e-7; not proven).
 fn sh2_product_hemisphere_about_angles(cs: array<vec2<f32>, 3>, b: array<f32, 4>) -> array<f32, 4> {
@@ -633,6 +662,7 @@ fn sh2_product_hemisphere_about_angles(cs: array<vec2<f32>, 3>, b: array<f32, 4>
 // b: the coefficients of a function of order 2, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 66 (36 mul, 0 add, 30 fma); 2 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.4e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.2e-7; not proven).
 fn sh2_product_hemisphere_about_angles_rgb(cs: array<vec2<f32>, 3>, b: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -657,6 +687,7 @@ fn sh2_product_hemisphere_about_angles_rgb(cs: array<vec2<f32>, 3>, b: array<vec
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 9 (7 mul, 1 add, 1 fma) and 1 inverse square root or reciprocal; 1 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh2_axis_angles(dir: vec3<f32>) -> array<vec2<f32>, 3> {

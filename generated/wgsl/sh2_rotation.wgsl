@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_zyz(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -47,6 +48,7 @@ fn sh2_rotate_zyz(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_zyz_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -84,6 +86,7 @@ fn sh2_rotate_zyz_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 
 // Returns the rotated coefficients.
 // Operations: 38 (23 mul, 7 add, 8 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -171,6 +174,7 @@ fn sh2_rotate_zyz_loop(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // Returns the rotated coefficients.
 // Operations: 74 (47 mul, 7 add, 20 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -256,6 +260,7 @@ fn sh2_rotate_zyz_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh2_rotate(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -279,6 +284,7 @@ fn sh2_rotate(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (12 mul, 0 add, 36 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh2_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -302,6 +308,7 @@ fn sh2_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 9 (3 mul, 0 add, 6 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
 fn sh2_rotate_matrix(m: mat3x3<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -319,6 +326,7 @@ fn sh2_rotate_matrix(m: mat3x3<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 27 (9 mul, 0 add, 18 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-8).
 fn sh2_rotate_matrix_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -335,6 +343,7 @@ fn sh2_rotate_matrix_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh2_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 4>) -> array<f32, 4> {
@@ -354,6 +363,7 @@ fn sh2_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 4>) -> array<f32, 4> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh2_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -375,6 +385,7 @@ fn sh2_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 4>) -> arra
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 21 (12 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 2 constants, 11 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh2_angles(q: vec4<f32>) -> array<vec2<f32>, 4> {
@@ -404,6 +415,7 @@ fn sh2_angles(q: vec4<f32>) -> array<vec2<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh2_rotate_angles(cs: array<vec2<f32>, 4>, c: array<f32, 4>) -> array<f32, 4> {
@@ -424,6 +436,7 @@ fn sh2_rotate_angles(cs: array<vec2<f32>, 4>, c: array<f32, 4>) -> array<f32, 4>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (18 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh2_rotate_angles_rgb(cs: array<vec2<f32>, 4>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -445,6 +458,7 @@ fn sh2_rotate_angles_rgb(cs: array<vec2<f32>, 4>, c: array<vec3<f32>, 4>) -> arr
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_zxzxz(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -482,6 +496,7 @@ fn sh2_rotate_zxzxz(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -518,6 +533,7 @@ fn sh2_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>
 // Returns the rotated coefficients.
 // Operations: 14 (8 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh2_rotate_align(n: vec3<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -543,6 +559,7 @@ fn sh2_rotate_align(n: vec3<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // Returns the rotated coefficients.
 // Operations: 30 (16 mul, 1 add, 13 fma) and 1 inverse square root or reciprocal; 0 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 8.1e-7 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh2_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
@@ -567,6 +584,7 @@ fn sh2_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 3 (3 mul, 0 add, 0 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 fn sh2_rotate_zonal(dir: vec3<f32>, c: array<f32, 2>) -> array<f32, 4> {
@@ -584,6 +602,7 @@ fn sh2_rotate_zonal(dir: vec3<f32>, c: array<f32, 2>) -> array<f32, 4> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 9 (9 mul, 0 add, 0 fma); 0 constants, 3 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.4e-8 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-8).
 fn sh2_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 2>) -> array<vec3<f32>, 4> {

@@ -9,6 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2 (0 mul, 0 add, 2 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16; in pieces 8.
 // Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
@@ -28,6 +29,7 @@ fn sh2_taylor1_y(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 32; in pieces 24.
 // Error: f32 rounding at most 9.3e-8 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-8). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
@@ -47,6 +49,7 @@ fn sh2_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 6 (3 mul, 0 add, 3 fma); 2 constants, 3 live values.
+// Vector registers on RDNA 2: 16; in pieces 8.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -67,6 +70,7 @@ fn sh2_taylor15_y(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 3 live values.
+// Vector registers on RDNA 2: 32; in pieces 24.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -87,6 +91,7 @@ fn sh2_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 5 (1 mul, 0 add, 4 fma); 1 constants, 2 live values.
+// Vector registers on RDNA 2: 16; in pieces 8.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
 //     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
@@ -107,6 +112,7 @@ fn sh2_taylor2_y(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 13 (1 mul, 0 add, 12 fma); 1 constants, 2 live values.
+// Vector registers on RDNA 2: 32; in pieces 24.
 // Error: f32 rounding at most 1.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6e-8). Method error, the worst
 //     band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it grows
@@ -127,6 +133,7 @@ fn sh2_taylor2_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 8 (3 mul, 0 add, 5 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
@@ -150,6 +157,7 @@ fn sh2_lf3_y(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 14 (3 mul, 0 add, 11 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
@@ -173,6 +181,7 @@ fn sh2_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 12 (4 mul, 0 add, 8 fma); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 3.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
@@ -199,6 +208,7 @@ fn sh2_lf5_y(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 22 (4 mul, 0 add, 18 fma); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3.7e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it grows
@@ -225,6 +235,7 @@ fn sh2_lf5_y_rgb(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 0 add, 8 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -254,6 +265,7 @@ fn sh2_taylor15_y_loop(beta: f32, c: array<f32, 4>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 38 (20 mul, 0 add, 18 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.2e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -284,6 +296,7 @@ fn sh2_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 4>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 10 (4 mul, 0 add, 6 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 3.9e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
@@ -307,6 +320,7 @@ fn sh2_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> arra
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 30 (12 mul, 0 add, 18 fma); 0 constants, 4 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3.9e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 3.9e-3 at 5, 1.6e-2 at 10, 3.5e-2 at 15, 9.5e-2 at 25 degrees; it
@@ -330,6 +344,7 @@ fn sh2_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 4
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 14 (7 mul, 0 add, 7 fma); 2 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -354,6 +369,7 @@ fn sh2_taylor15_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 38 (19 mul, 0 add, 19 fma); 2 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -378,6 +394,7 @@ fn sh2_taylor15_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 13 (5 mul, 0 add, 8 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -402,6 +419,7 @@ fn sh2_taylor2_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> arra
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 37 (13 mul, 0 add, 24 fma); 1 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8). Method error, the
 //     worst band's in spectral norm: 1.2e-4 at 5, 8.9e-4 at 10, 3e-3 at 15, 1.4e-2 at 25 degrees; it
@@ -426,6 +444,7 @@ fn sh2_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 4
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (7 mul, 0 add, 9 fma); 4 constants, 5 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
@@ -452,6 +471,7 @@ fn sh2_lf3_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> array<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 38 (15 mul, 0 add, 23 fma); 4 constants, 5 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 4.3e-8 at 5, 1.4e-6 at 10, 1.1e-5 at 15, 1.5e-4 at 25 degrees; it
@@ -478,6 +498,7 @@ fn sh2_lf3_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 4>) -
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 20 (8 mul, 0 add, 12 fma); 6 constants, 6 live values.
+// Vector registers on RDNA 2: 16; in pieces 16.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it
@@ -507,6 +528,7 @@ fn sh2_lf5_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 4>) -> array<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 46 (16 mul, 0 add, 30 fma); 6 constants, 6 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 6.4e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7). Method error, the
 //     worst band's in spectral norm: 6.2e-9 at 5, 2e-7 at 10, 1.5e-6 at 15, 2e-5 at 25 degrees; it
@@ -537,6 +559,7 @@ fn sh2_lf5_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 4>) -
 // Returns the rotated coefficients.
 // Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_small(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
@@ -575,6 +598,7 @@ fn sh2_rotate_small(q: vec4<f32>, c: array<f32, 4>) -> array<f32, 4> {
 // Returns the rotated coefficients.
 // Operations: 54 (27 mul, 3 add, 24 fma) and 1 inverse square root or reciprocal; 1 constants, 12 live
 //     values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh2_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 4> {

@@ -10,6 +10,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 17 (12 mul, 1 add, 3 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     8 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 7.4e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 2.5e-7; not proven).
 fn sh3_hsh_basis(dir: vec3<f32>) -> array<f32, 9> {
@@ -41,6 +42,7 @@ fn sh3_hsh_basis(dir: vec3<f32>) -> array<f32, 9> {
 // Returns sum c_i H_i(dir).
 // Operations: 23 (9 mul, 1 add, 12 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     9 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 3.5e-7; not proven).
 fn sh3_hsh_eval(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
@@ -66,6 +68,7 @@ fn sh3_hsh_eval(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 41 (11 mul, 1 add, 28 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 9 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 3.5e-7; not proven).
 fn sh3_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -93,6 +96,7 @@ fn sh3_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 13 (3 mul, 0 add, 9 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
@@ -114,6 +118,7 @@ fn sh3_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 29 (3 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.6e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -131,6 +136,7 @@ fn sh3_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 14 (8 mul, 0 add, 6 fma); 7 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-7).
 fn sh3_hsh_to_monomial(c: array<f32, 9>) -> array<f32, 9> {
@@ -154,6 +160,7 @@ fn sh3_hsh_to_monomial(c: array<f32, 9>) -> array<f32, 9> {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 42 (24 mul, 0 add, 18 fma); 7 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.3e-7).
 fn sh3_hsh_to_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -176,6 +183,7 @@ fn sh3_hsh_to_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 15 (9 mul, 0 add, 6 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh3_sh_to_hsh(c: array<f32, 9>) -> array<f32, 9> {
@@ -197,6 +205,7 @@ fn sh3_sh_to_hsh(c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 45 (27 mul, 0 add, 18 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh3_sh_to_hsh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -218,6 +227,7 @@ fn sh3_sh_to_hsh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 32 (9 mul, 0 add, 23 fma); 21 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh3_of_order_5_sh_to_hsh(c: array<f32, 25>) -> array<f32, 9> {
@@ -239,6 +249,7 @@ fn sh3_of_order_5_sh_to_hsh(c: array<f32, 25>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 96 (27 mul, 0 add, 69 fma); 21 constants, 9 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh3_of_order_5_sh_to_hsh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 9> {
@@ -260,6 +271,7 @@ fn sh3_of_order_5_sh_to_hsh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 9> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 15 (9 mul, 0 add, 6 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 fn sh3_hsh_to_sh(c: array<f32, 9>) -> array<f32, 9> {
@@ -282,6 +294,7 @@ fn sh3_hsh_to_sh(c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 45 (27 mul, 0 add, 18 fma); 10 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.1e-8).
 fn sh3_hsh_to_sh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -304,6 +317,7 @@ fn sh3_hsh_to_sh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 19 (9 mul, 0 add, 10 fma); 14 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh3_hsh_extend(c: array<f32, 9>) -> array<f32, 9> {
@@ -326,6 +340,7 @@ fn sh3_hsh_extend(c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 57 (27 mul, 0 add, 30 fma); 14 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh3_hsh_extend_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -349,6 +364,7 @@ fn sh3_hsh_extend_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 42 (12 mul, 0 add, 30 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn sh3_hsh_y_lobe(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
@@ -385,6 +401,7 @@ fn sh3_hsh_y_lobe(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 126 (36 mul, 0 add, 90 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.7e-8).
 fn sh3_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -421,6 +438,7 @@ fn sh3_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 152 (59 mul, 1 add, 92 fma); 38 constants, 42 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh3_hsh_y_lobe_sh(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -503,6 +521,7 @@ fn sh3_hsh_y_lobe_sh(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 430 (161 mul, 3 add, 266 fma); 38 constants, 42 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 2.2e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh3_hsh_y_lobe_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -587,6 +606,7 @@ fn sh3_hsh_y_lobe_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f3
 // Returns the rotated hemispherical coefficients.
 // Operations: 25 (12 mul, 2 add, 10 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 fn sh3_hsh_y_lobe_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -620,6 +640,7 @@ fn sh3_hsh_y_lobe_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 55 (24 mul, 4 add, 26 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 fn sh3_hsh_y_lobe_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -652,6 +673,7 @@ fn sh3_hsh_y_lobe_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 42 (12 mul, 0 add, 30 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_hsh_y_record(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
@@ -689,6 +711,7 @@ fn sh3_hsh_y_record(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 126 (36 mul, 0 add, 90 fma); 16 constants, 12 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 4.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -725,6 +748,7 @@ fn sh3_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 158 (60 mul, 1 add, 97 fma); 66 constants, 42 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.4e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_hsh_y_record_sh(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -808,6 +832,7 @@ fn sh3_hsh_y_record_sh(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 448 (164 mul, 3 add, 281 fma); 66 constants, 42 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.4e-6 of the norm of the coefficients, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_hsh_y_record_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -893,6 +918,7 @@ fn sh3_hsh_y_record_sh_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 25 (12 mul, 2 add, 10 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 fn sh3_hsh_y_record_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -926,6 +952,7 @@ fn sh3_hsh_y_record_eq13_form(cs: vec2<f32>, c: array<f32, 9>) -> array<f32, 9> 
 // Returns the rotated hemispherical coefficients.
 // Operations: 55 (24 mul, 4 add, 26 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 5 constants, 10 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every angle (3 times the worst
 //     of 256 measured, 2e-7; not proven).
 fn sh3_hsh_y_record_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -957,6 +984,7 @@ fn sh3_hsh_y_record_eq13_form_rgb(cs: vec2<f32>, c: array<vec3<f32>, 9>) -> arra
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 65 (15 mul, 0 add, 50 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.6e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 fn sh3_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1004,6 +1032,7 @@ fn sh3_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 185 (39 mul, 0 add, 146 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7.6e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1e-7).
 fn sh3_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1053,6 +1082,7 @@ fn sh3_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32
 // Returns the rotated hemispherical coefficients.
 // Operations: 186 (77 mul, 3 add, 106 fma) and 1 inverse square root or reciprocal; 38 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 2.9e-7; not proven).
 fn sh3_hsh_tilt_lobe_sh(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1156,6 +1186,7 @@ fn sh3_hsh_tilt_lobe_sh(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 512 (203 mul, 5 add, 304 fma) and 1 inverse square root or reciprocal; 38 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 8.6e-7 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 2.9e-7; not proven).
 fn sh3_hsh_tilt_lobe_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1259,6 +1290,7 @@ fn sh3_hsh_tilt_lobe_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 44 (13 mul, 3 add, 27 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh3_hsh_tilt_lobe_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1302,6 +1334,7 @@ fn sh3_hsh_tilt_lobe_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> 
 // Returns the rotated hemispherical coefficients.
 // Operations: 114 (29 mul, 5 add, 79 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh3_hsh_tilt_lobe_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1345,6 +1378,7 @@ fn sh3_hsh_tilt_lobe_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> arra
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 65 (15 mul, 0 add, 50 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_hsh_tilt_record(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1394,6 +1428,7 @@ fn sh3_hsh_tilt_record(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 185 (39 mul, 0 add, 146 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7.2e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1442,6 +1477,7 @@ fn sh3_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (78 mul, 3 add, 111 fma) and 1 inverse square root or reciprocal; 66 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 3.5e-7; not proven).
 fn sh3_hsh_tilt_record_sh(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1545,6 +1581,7 @@ fn sh3_hsh_tilt_record_sh(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 530 (206 mul, 5 add, 319 fma) and 1 inverse square root or reciprocal; 66 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every n of unit length with
 //     n.z >= 0 (3 times the worst of 256 measured, 3.5e-7; not proven).
 fn sh3_hsh_tilt_record_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1649,6 +1686,7 @@ fn sh3_hsh_tilt_record_sh_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 44 (13 mul, 3 add, 27 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh3_hsh_tilt_record_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1692,6 +1730,7 @@ fn sh3_hsh_tilt_record_eq13_form(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9
 // Returns the rotated hemispherical coefficients.
 // Operations: 114 (29 mul, 5 add, 79 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 15 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 80 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh3_hsh_tilt_record_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1734,6 +1773,7 @@ fn sh3_hsh_tilt_record_eq13_form_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> ar
 // Returns the rotated hemispherical coefficients.
 // Operations: 94 (39 mul, 4 add, 51 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3e-7; not proven).
 fn sh3_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1797,6 +1837,7 @@ fn sh3_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 226 (87 mul, 4 add, 135 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3e-7; not proven).
 fn sh3_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1860,6 +1901,7 @@ fn sh3_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f
 // Returns the rotated hemispherical coefficients.
 // Operations: 202 (84 mul, 6 add, 112 fma) and 1 inverse square root or reciprocal; 38 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 2.8e-7; not proven).
 fn sh3_hsh_rotate_lobe_sh(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -1975,6 +2017,7 @@ fn sh3_hsh_rotate_lobe_sh(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 528 (210 mul, 8 add, 310 fma) and 1 inverse square root or reciprocal; 38 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 2.8e-7; not proven).
 fn sh3_hsh_rotate_lobe_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2091,6 +2134,7 @@ fn sh3_hsh_rotate_lobe_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec
 // Returns the rotated hemispherical coefficients.
 // Operations: 75 (37 mul, 7 add, 30 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 fn sh3_hsh_rotate_lobe_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -2155,6 +2199,7 @@ fn sh3_hsh_rotate_lobe_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9
 // Returns the rotated hemispherical coefficients.
 // Operations: 153 (73 mul, 9 add, 70 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 fn sh3_hsh_rotate_lobe_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2219,6 +2264,7 @@ fn sh3_hsh_rotate_lobe_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> ar
 // Returns the rotated hemispherical coefficients.
 // Operations: 94 (39 mul, 4 add, 51 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3.4e-7; not proven).
 fn sh3_hsh_rotate_record(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -2283,6 +2329,7 @@ fn sh3_hsh_rotate_record(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 226 (87 mul, 4 add, 135 fma) and 1 inverse square root or reciprocal; 19 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 3.4e-7; not proven).
 fn sh3_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2346,6 +2393,7 @@ fn sh3_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3
 // Returns the rotated hemispherical coefficients.
 // Operations: 208 (85 mul, 6 add, 117 fma) and 1 inverse square root or reciprocal; 66 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 3.4e-7; not proven).
 fn sh3_hsh_rotate_record_sh(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -2462,6 +2510,7 @@ fn sh3_hsh_rotate_record_sh(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 546 (213 mul, 8 add, 325 fma) and 1 inverse square root or reciprocal; 66 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 3.4e-7; not proven).
 fn sh3_hsh_rotate_record_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2579,6 +2628,7 @@ fn sh3_hsh_rotate_record_sh_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<v
 // Returns the rotated hemispherical coefficients.
 // Operations: 75 (37 mul, 7 add, 30 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 fn sh3_hsh_rotate_record_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -2643,6 +2693,7 @@ fn sh3_hsh_rotate_record_eq13_form(q: vec4<f32>, c: array<f32, 9>) -> array<f32,
 // Returns the rotated hemispherical coefficients.
 // Operations: 153 (73 mul, 9 add, 70 fma, 1 min, max or select) and 2 inverse square roots or
 //     reciprocals; 5 constants, 19 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of the coefficients, for every unit q (3 times the
 //     worst of 256 measured, 9.5e-7; not proven).
 fn sh3_hsh_rotate_record_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2707,6 +2758,7 @@ fn sh3_hsh_rotate_record_eq13_form_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 77 (25 mul, 2 add, 50 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 fn sh3_hsh_rotate_table(cs: array<vec2<f32>, 2>, m: array<f32, 45>, c: array<f32, 9>) -> array<f32, 9> {
@@ -2750,6 +2802,7 @@ fn sh3_hsh_rotate_table(cs: array<vec2<f32>, 2>, m: array<f32, 45>, c: array<f32
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 215 (67 mul, 2 add, 146 fma); 0 constants, 16 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.3e-8; not proven).
 fn sh3_hsh_rotate_table_rgb(cs: array<vec2<f32>, 2>, m: array<f32, 45>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -2797,6 +2850,7 @@ fn sh3_hsh_rotate_table_rgb(cs: array<vec2<f32>, 2>, m: array<f32, 45>, c: array
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 79 (48 mul, 7 add, 22 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 11 constants, 16 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.4e-6 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 1.8e-6; not proven).
@@ -2853,6 +2907,7 @@ fn sh3_hsh_gradient(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: f
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 97 (66 mul, 7 add, 22 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 11 constants, 16 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.4e-6 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 1.8e-6; not proven).

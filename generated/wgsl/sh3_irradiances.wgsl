@@ -10,6 +10,7 @@
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 11 (8 mul, 0 add, 3 fma); 6 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.5e-8).
 fn sh3_to_irradiance(c: array<f32, 9>) -> array<f32, 9> {
@@ -34,6 +35,7 @@ fn sh3_to_irradiance(c: array<f32, 9>) -> array<f32, 9> {
 // Returns the coefficients of the monomials by degree d, from index d^2 on: y^d, x y^(d-1), ..., x^d,
 //     then z times those of degree d-1.
 // Operations: 33 (24 mul, 0 add, 9 fma); 6 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.5e-8).
 fn sh3_to_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -59,6 +61,7 @@ fn sh3_to_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 8 (0 mul, 0 add, 8 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_irradiance_prepared(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
@@ -74,6 +77,7 @@ fn sh3_irradiance_prepared(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
 //     z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 24 (0 mul, 0 add, 24 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -88,6 +92,7 @@ fn sh3_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f
 // dir: the normal, or a mean of unit normals, which is taken as it is.
 // Returns H_i(dir).
 // Operations: 8 (6 mul, 0 add, 2 fma); 5 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.6e-7 of one, for every dir of at most unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn h6_basis(dir: vec3<f32>) -> array<f32, 6> {
@@ -109,6 +114,7 @@ fn h6_basis(dir: vec3<f32>) -> array<f32, 6> {
 // Returns H_i(dir).
 // Operations: 14 (9 mul, 0 add, 5 fma) and 1 inverse square root or reciprocal; 5 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.7e-7 of one, for every dir of a length from 0.0625 to 1 (3 times the
 //     worst of 256 measured, 2.6e-7; not proven).
 fn h6_basis_normalised(dir: vec3<f32>) -> array<f32, 6> {
@@ -132,6 +138,7 @@ fn h6_basis_normalised(dir: vec3<f32>) -> array<f32, 6> {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 11 (4 mul, 0 add, 7 fma); 6 constants, 3 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.8e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn h6_eval(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
@@ -148,6 +155,7 @@ fn h6_eval(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 17 (7 mul, 0 add, 10 fma) and 1 inverse square root or reciprocal; 6 constants, 5 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 7.3e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.5e-7; not proven).
 fn h6_eval_normalised(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
@@ -166,6 +174,7 @@ fn h6_eval_normalised(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns sum c_i H_i(dir).
 // Operations: 26 (9 mul, 0 add, 17 fma); 5 constants, 2 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.9e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn h6_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
@@ -182,6 +191,7 @@ fn h6_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 32 (12 mul, 0 add, 20 fma) and 1 inverse square root or reciprocal; 5 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 6.5e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.2e-7; not proven).
 fn h6_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
@@ -197,6 +207,7 @@ fn h6_eval_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 7 (6 mul, 0 add, 1 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn h6_to_monomial(c: array<f32, 6>) -> array<f32, 6> {
@@ -215,6 +226,7 @@ fn h6_to_monomial(c: array<f32, 6>) -> array<f32, 6> {
 // c: the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 21 (18 mul, 0 add, 3 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn h6_to_monomial_rgb(c: array<vec3<f32>, 6>) -> array<vec3<f32>, 6> {
@@ -236,6 +248,7 @@ fn h6_to_monomial_rgb(c: array<vec3<f32>, 6>) -> array<vec3<f32>, 6> {
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
 // Operations: 6 (0 mul, 0 add, 6 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.4e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn h6_eval_monomial(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
@@ -251,6 +264,7 @@ fn h6_eval_monomial(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 12 (3 mul, 0 add, 9 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
 fn h6_eval_monomial_normalised(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
@@ -269,6 +283,7 @@ fn h6_eval_monomial_normalised(dir: vec3<f32>, c: array<f32, 6>) -> f32 {
 // c: the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Returns sum c_i H_i(dir).
 // Operations: 17 (1 mul, 0 add, 16 fma); 0 constants, 2 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.3e-7 of the norm of the coefficients, for every dir of at most unit
 //     length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn h6_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
@@ -284,6 +299,7 @@ fn h6_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 23 (4 mul, 0 add, 19 fma) and 1 inverse square root or reciprocal; 0 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for every dir of a length from
 //     0.0625 to 1 (3 times the worst of 256 measured, 2.8e-7; not proven).
 fn h6_eval_monomial_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> vec3<f32> {
@@ -300,6 +316,7 @@ fn h6_eval_monomial_normalised_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> ve
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 0 add, 4 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_to_h4_coefficients(c: array<f32, 9>) -> array<f32, 4> {
@@ -317,6 +334,7 @@ fn sh3_to_h4_coefficients(c: array<f32, 9>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 0 add, 12 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_to_h4_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 4> {
@@ -334,6 +352,7 @@ fn sh3_to_h4_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh3_to_h4_coefficients_monomial(c: array<f32, 9>) -> array<f32, 4> {
@@ -351,6 +370,7 @@ fn sh3_to_h4_coefficients_monomial(c: array<f32, 9>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh3_to_h4_coefficients_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 4> {
@@ -367,6 +387,7 @@ fn sh3_to_h4_coefficients_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh3_to_h4_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 4> {
@@ -383,6 +404,7 @@ fn sh3_to_h4_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh3_to_h4_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 4> {
@@ -399,6 +421,7 @@ fn sh3_to_h4_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 8 (4 mul, 0 add, 4 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.5e-8).
 fn sh3_to_h4_coefficients_irradiance_monomial(c: array<f32, 9>) -> array<f32, 4> {
@@ -416,6 +439,7 @@ fn sh3_to_h4_coefficients_irradiance_monomial(c: array<f32, 9>) -> array<f32, 4>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 24 (12 mul, 0 add, 12 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.5e-8).
 fn sh3_to_h4_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 4> {
@@ -433,6 +457,7 @@ fn sh3_to_h4_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 9>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_to_h6_coefficients(c: array<f32, 9>) -> array<f32, 6> {
@@ -452,6 +477,7 @@ fn sh3_to_h6_coefficients(c: array<f32, 9>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh3_to_h6_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 6> {
@@ -471,6 +497,7 @@ fn sh3_to_h6_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.9e-8).
 fn sh3_to_h6_coefficients_monomial(c: array<f32, 9>) -> array<f32, 6> {
@@ -490,6 +517,7 @@ fn sh3_to_h6_coefficients_monomial(c: array<f32, 9>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.9e-8).
 fn sh3_to_h6_coefficients_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 6> {
@@ -508,6 +536,7 @@ fn sh3_to_h6_coefficients_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 10 (6 mul, 0 add, 4 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh3_to_h6_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 6> {
@@ -526,6 +555,7 @@ fn sh3_to_h6_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 30 (18 mul, 0 add, 12 fma); 5 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh3_to_h6_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 6> {
@@ -544,6 +574,7 @@ fn sh3_to_h6_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 10 (6 mul, 0 add, 4 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-8).
 fn sh3_to_h6_coefficients_irradiance_monomial(c: array<f32, 9>) -> array<f32, 6> {
@@ -563,6 +594,7 @@ fn sh3_to_h6_coefficients_irradiance_monomial(c: array<f32, 9>) -> array<f32, 6>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 30 (18 mul, 0 add, 12 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-8).
 fn sh3_to_h6_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 6> {
@@ -582,6 +614,7 @@ fn sh3_to_h6_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 9>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 fn sh3_to_hl2_coefficients(c: array<f32, 9>) -> array<f32, 3> {
@@ -602,6 +635,7 @@ fn sh3_to_hl2_coefficients(c: array<f32, 9>) -> array<f32, 3> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 fn sh3_to_hl2_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 3> {
@@ -622,6 +656,7 @@ fn sh3_to_hl2_coefficients_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 3> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh3_to_hl2_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 3> {
@@ -642,6 +677,7 @@ fn sh3_to_hl2_coefficients_irradiance(c: array<f32, 9>) -> array<f32, 3> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the three coefficients of the Half-Life 2 basis.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 5 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.5e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh3_to_hl2_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 3> {
@@ -663,6 +699,7 @@ fn sh3_to_hl2_coefficients_irradiance_rgb(c: array<vec3<f32>, 9>) -> array<vec3<
 // Returns the least value, the direction x, y, z of unit length in which it is, the bound.
 // Operations: 500 (213 mul, 125 add, 129 fma, 33 min, max or select) and 82 special (square root,
 //     reciprocal, inverse square root); 12 constants, 45 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.2e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.4e-6; not proven).
 fn sh3_minimum(c: array<f32, 9>) -> array<f32, 5> {
@@ -973,6 +1010,7 @@ fn sh3_minimum(c: array<f32, 9>) -> array<f32, 5> {
 // Returns the coefficients of the faded function.
 // Operations: 438 (192 mul, 124 add, 95 fma, 27 min, max or select) and 81 special (square root,
 //     reciprocal, inverse square root); 11 constants, 33 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.9e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 6.3e-7; not proven).
 fn sh3_lerp_to_dc(c: array<f32, 9>) -> array<f32, 9> {
@@ -1248,6 +1286,7 @@ fn sh3_lerp_to_dc(c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 11 (11 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 fn sh3_window(mu: f32, c: array<f32, 9>) -> array<f32, 9> {
@@ -1272,6 +1311,7 @@ fn sh3_window(mu: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 27 (27 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 fn sh3_window_rgb(mu: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1297,6 +1337,7 @@ fn sh3_window_rgb(mu: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // Returns the five coefficients.
 // Operations: 18 (8 mul, 2 add, 8 fma) and 1 inverse square root or reciprocal; 2 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 5.5e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.9e-7; not proven).
 fn to_zonal_quadratic(c: array<f32, 9>) -> array<f32, 5> {

@@ -11,6 +11,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 7 (4 mul, 1 add, 1 fma, 1 min, max or select) and 2 special (square root, reciprocal); 4
 //     constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 fn sh3_cap(s: f32) -> array<f32, 3> {
@@ -31,6 +32,7 @@ fn sh3_cap(s: f32) -> array<f32, 3> {
 // Returns the zonal coefficients, one a band.
 // Operations: 64 (34 mul, 3 add, 22 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 30 constants, 9 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 fn sh3_gaussian(kappa: f32) -> array<f32, 3> {
@@ -75,6 +77,7 @@ fn sh3_gaussian(kappa: f32) -> array<f32, 3> {
 // Returns the zonal coefficients, one a band.
 // Operations: 52 (28 mul, 1 add, 18 fma, 5 min, max or select) and 2 inverse square roots or
 //     reciprocals; 25 constants, 8 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 fn sh3_gaussian_narrow(kappa: f32) -> array<f32, 3> {
@@ -113,6 +116,7 @@ fn sh3_gaussian_narrow(kappa: f32) -> array<f32, 3> {
 // Returns the zonal coefficients, one a band.
 // Operations: 8 (5 mul, 3 add, 0 fma) and 3 inverse square roots or reciprocals; 6 constants, 4 live
 //     values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 fn sh3_phong(s: f32) -> array<f32, 3> {
@@ -129,6 +133,7 @@ fn sh3_phong(s: f32) -> array<f32, 3> {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 3 (3 mul, 0 add, 0 fma); 3 constants, 2 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.3e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     4.2e-8; not proven).
 fn sh3_henyey_greenstein(g: f32) -> array<f32, 3> {
@@ -145,6 +150,7 @@ fn sh3_henyey_greenstein(g: f32) -> array<f32, 3> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 12 (12 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 fn sh3_convolve(g: array<f32, 3>, c: array<f32, 9>) -> array<f32, 9> {
@@ -169,6 +175,7 @@ fn sh3_convolve(g: array<f32, 3>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 fn sh3_convolve_rgb(g: array<f32, 3>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -193,6 +200,7 @@ fn sh3_convolve_rgb(g: array<f32, 3>, c: array<vec3<f32>, 9>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 9 (9 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_convolve_cosine(c: array<f32, 9>) -> array<f32, 9> {
@@ -215,6 +223,7 @@ fn sh3_convolve_cosine(c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 27 (27 mul, 0 add, 0 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_convolve_cosine_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -238,6 +247,7 @@ fn sh3_convolve_cosine_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.5e-7).
@@ -255,6 +265,7 @@ fn sh3_irradiance(dir: vec3<f32>, c: array<f32, 9>) -> f32 {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 37 (10 mul, 0 add, 27 fma); 7 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
@@ -274,6 +285,7 @@ fn sh3_irradiance_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> vec3<f32> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 22 (11 mul, 0 add, 11 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -301,6 +313,7 @@ fn sh3_light_directional(dir: vec3<f32>, light: f32, c: array<f32, 9>) -> array<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 40 (11 mul, 0 add, 29 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -330,6 +343,7 @@ fn sh3_light_directional_rgb(dir: vec3<f32>, light: vec3<f32>, c: array<vec3<f32
 // Returns the coefficients with the light added.
 // Operations: 28 (14 mul, 1 add, 12 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 7 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
@@ -363,6 +377,7 @@ fn sh3_light_sphere(dir: vec3<f32>, s: f32, light: f32, c: array<f32, 9>) -> arr
 // Returns the coefficients with the light added.
 // Operations: 50 (18 mul, 1 add, 30 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 7 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 7.8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 2.6e-7;
 //     not proven).
@@ -394,6 +409,7 @@ fn sh3_light_sphere_rgb(dir: vec3<f32>, s: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 28 (15 mul, 2 add, 11 fma); 8 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
@@ -424,6 +440,7 @@ fn sh3_light_cone(dir: vec3<f32>, cos: f32, light: f32, c: array<f32, 9>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 50 (19 mul, 2 add, 29 fma); 8 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 3.2e-7;
 //     not proven).
@@ -455,6 +472,7 @@ fn sh3_light_cone_rgb(dir: vec3<f32>, cos: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
@@ -482,6 +500,7 @@ fn sh3_light_hemisphere(dir: vec3<f32>, top: f32, bottom: f32, c: array<f32, 9>)
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.5e-7).
@@ -509,6 +528,7 @@ fn sh3_light_hemisphere_rgb(dir: vec3<f32>, top: vec3<f32>, bottom: vec3<f32>, c
 // Returns the coefficients with the light added.
 // Operations: 85 (44 mul, 3 add, 33 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 34 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
@@ -566,6 +586,7 @@ fn sh3_light_gaussian(dir: vec3<f32>, kappa: f32, light: f32, c: array<f32, 9>) 
 // Returns the coefficients with the light added.
 // Operations: 107 (48 mul, 3 add, 51 fma, 5 min, max or select) and 3 special (reciprocal, power of
 //     two); 34 constants, 10 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     7.6e-7; not proven).
@@ -621,6 +642,7 @@ fn sh3_light_gaussian_rgb(dir: vec3<f32>, kappa: f32, light: vec3<f32>, c: array
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.7e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 fn sh3_dominant(c: array<f32, 9>) -> vec3<f32> {
@@ -640,6 +662,7 @@ fn sh3_dominant(c: array<f32, 9>) -> vec3<f32> {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 12 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.8e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.7e-7; not proven).
 fn sh3_light_fit(c: array<f32, 9>) -> array<f32, 5> {
@@ -669,6 +692,7 @@ fn sh3_light_fit(c: array<f32, 9>) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (10 mul, 0 add, 11 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
@@ -692,6 +716,7 @@ fn sh3_light_fit_along(dir: vec3<f32>, c: array<f32, 9>) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 43 (16 mul, 0 add, 27 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).

@@ -8,6 +8,7 @@
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 90 (25 mul, 4 add, 61 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 fn sh3_product(a: array<f32, 9>, b: array<f32, 9>) -> array<f32, 9> {
@@ -59,6 +60,7 @@ fn sh3_product(a: array<f32, 9>, b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 270 (75 mul, 12 add, 183 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 fn sh3_product_rgb(a: array<vec3<f32>, 9>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -110,6 +112,7 @@ fn sh3_product_rgb(a: array<vec3<f32>, 9>, b: array<vec3<f32>, 9>) -> array<vec3
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 44 (18 mul, 1 add, 25 fma); 4 constants, 11 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 fn sh3_of_sh2_and_sh3_product(a: array<f32, 4>, b: array<f32, 9>) -> array<f32, 9> {
@@ -141,6 +144,7 @@ fn sh3_of_sh2_and_sh3_product(a: array<f32, 4>, b: array<f32, 9>) -> array<f32, 
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 132 (54 mul, 3 add, 75 fma); 4 constants, 11 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.4e-8; not proven).
 fn sh3_of_sh2_and_sh3_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -171,6 +175,7 @@ fn sh3_of_sh2_and_sh3_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 9>
 // a: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 58 (21 mul, 4 add, 33 fma); 12 constants, 12 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.8e-8; not proven).
 fn sh3_square(a: array<f32, 9>) -> array<f32, 9> {
@@ -207,6 +212,7 @@ fn sh3_square(a: array<f32, 9>) -> array<f32, 9> {
 // a: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 174 (63 mul, 12 add, 99 fma); 12 constants, 12 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.8e-8; not proven).
 fn sh3_square_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -244,6 +250,7 @@ fn sh3_square_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 9 (1 mul, 0 add, 8 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.6e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 fn sh3_dot(a: array<f32, 9>, b: array<f32, 9>) -> f32 {
@@ -257,6 +264,7 @@ fn sh3_dot(a: array<f32, 9>, b: array<f32, 9>) -> f32 {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 27 (3 mul, 0 add, 24 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.6e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 fn sh3_dot_rgb(a: array<vec3<f32>, 9>, b: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -270,6 +278,7 @@ fn sh3_dot_rgb(a: array<vec3<f32>, 9>, b: array<vec3<f32>, 9>) -> vec3<f32> {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 34 (25 mul, 0 add, 9 fma); 7 constants, 34 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
 fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 40> {
@@ -332,6 +341,7 @@ fn sh3_product_matrix(a: array<f32, 9>) -> array<f32, 40> {
 // Returns the entries of the lower triangle of M(a), row by row, without those that are zero for every
 //     a.
 // Operations: 102 (75 mul, 0 add, 27 fma); 7 constants, 34 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 1.1e-7 of the norm of the coefficients, each band of norm one, for every
 //     input (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.9e-8).
 fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 40> {
@@ -394,6 +404,7 @@ fn sh3_product_matrix_rgb(a: array<vec3<f32>, 9>) -> array<vec3<f32>, 40> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (9 mul, 0 add, 62 fma); 0 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 fn sh3_product_by_matrix(m: array<f32, 40>, b: array<f32, 9>) -> array<f32, 9> {
@@ -425,6 +436,7 @@ fn sh3_product_by_matrix(m: array<f32, 40>, b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (27 mul, 0 add, 186 fma); 0 constants, 9 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.1e-8; not proven).
 fn sh3_product_by_matrix_rgb(m: array<f32, 40>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -456,6 +468,7 @@ fn sh3_product_by_matrix_rgb(m: array<f32, 40>, b: array<vec3<f32>, 9>) -> array
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 90 (25 mul, 4 add, 61 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 fn sh3_product_grey(a: array<f32, 9>, b: array<f32, 9>) -> array<f32, 9> {
@@ -507,6 +520,7 @@ fn sh3_product_grey(a: array<f32, 9>, b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 246 (67 mul, 12 add, 167 fma); 7 constants, 14 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4.6e-8; not proven).
 fn sh3_product_grey_rgb(a: array<f32, 9>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -558,6 +572,7 @@ fn sh3_product_grey_rgb(a: array<f32, 9>, b: array<vec3<f32>, 9>) -> array<vec3<
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 29 (14 mul, 0 add, 15 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.7e-8; not proven).
 fn sh3_product_zonal(g: array<f32, 3>, b: array<f32, 9>) -> array<f32, 9> {
@@ -587,6 +602,7 @@ fn sh3_product_zonal(g: array<f32, 3>, b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 87 (42 mul, 0 add, 45 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.7e-8; not proven).
 fn sh3_product_zonal_rgb(g: array<vec3<f32>, 3>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -618,6 +634,7 @@ fn sh3_product_zonal_rgb(g: array<vec3<f32>, 3>, b: array<vec3<f32>, 9>) -> arra
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 96 (47 mul, 3 add, 46 fma) and 1 inverse square root or reciprocal; 10 constants, 23
 //     live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.5e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.9e-7; not proven).
 fn sh3_product_zonal_about(dir: vec3<f32>, g: array<f32, 3>, b: array<f32, 9>) -> array<f32, 9> {
@@ -690,6 +707,7 @@ fn sh3_product_zonal_about(dir: vec3<f32>, g: array<f32, 3>, b: array<f32, 9>) -
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 262 (123 mul, 7 add, 132 fma) and 1 inverse square root or reciprocal; 10 constants, 23
 //     live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.5e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 1.9e-7; not proven).
 fn sh3_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 3>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -762,6 +780,7 @@ fn sh3_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 3>, b: array<
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 83 (38 mul, 2 add, 43 fma); 7 constants, 15 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 6.3e-8; not proven).
 fn sh3_product_zonal_about_angles(cs: array<vec2<f32>, 5>, g: array<f32, 3>, b: array<f32, 9>) -> array<f32, 9> {
@@ -821,6 +840,7 @@ fn sh3_product_zonal_about_angles(cs: array<vec2<f32>, 5>, g: array<f32, 3>, b: 
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 249 (114 mul, 6 add, 129 fma); 7 constants, 15 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.9e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 6.3e-8; not proven).
 fn sh3_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 5>, g: array<vec3<f32>, 3>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -877,6 +897,7 @@ fn sh3_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 5>, g: array<vec3<f32
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 19 (9 mul, 0 add, 10 fma); 9 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-8).
 fn sh3_product_cosine(b: array<f32, 9>) -> array<f32, 9> {
@@ -898,6 +919,7 @@ fn sh3_product_cosine(b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 57 (27 mul, 0 add, 30 fma); 9 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-8).
 fn sh3_product_cosine_rgb(b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -921,6 +943,7 @@ fn sh3_product_cosine_rgb(b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 86 (42 mul, 3 add, 41 fma) and 1 inverse square root or reciprocal; 13 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 3.6e-7; not proven).
 fn sh3_product_cosine_about(dir: vec3<f32>, b: array<f32, 9>) -> array<f32, 9> {
@@ -985,6 +1008,7 @@ fn sh3_product_cosine_about(dir: vec3<f32>, b: array<f32, 9>) -> array<f32, 9> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 232 (108 mul, 7 add, 117 fma) and 1 inverse square root or reciprocal; 13 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 3.6e-7; not proven).
 fn sh3_product_cosine_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1049,6 +1073,7 @@ fn sh3_product_cosine_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 9>) -> array
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 73 (33 mul, 2 add, 38 fma); 10 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.5e-7; not proven).
 fn sh3_product_cosine_about_angles(cs: array<vec2<f32>, 5>, b: array<f32, 9>) -> array<f32, 9> {
@@ -1100,6 +1125,7 @@ fn sh3_product_cosine_about_angles(cs: array<vec2<f32>, 5>, b: array<f32, 9>) ->
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 219 (99 mul, 6 add, 114 fma); 10 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.5e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.5e-7; not proven).
 fn sh3_product_cosine_about_angles_rgb(cs: array<vec2<f32>, 5>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1149,6 +1175,7 @@ fn sh3_product_cosine_about_angles_rgb(cs: array<vec2<f32>, 5>, b: array<vec3<f3
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 17 (9 mul, 0 add, 8 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh3_product_hemisphere(b: array<f32, 9>) -> array<f32, 9> {
@@ -1170,6 +1197,7 @@ fn sh3_product_hemisphere(b: array<f32, 9>) -> array<f32, 9> {
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 51 (27 mul, 0 add, 24 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh3_product_hemisphere_rgb(b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1193,6 +1221,7 @@ fn sh3_product_hemisphere_rgb(b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 84 (42 mul, 3 add, 39 fma) and 1 inverse square root or reciprocal; 7 constants, 24 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 5.4e-7; not proven).
 fn sh3_product_hemisphere_about(dir: vec3<f32>, b: array<f32, 9>) -> array<f32, 9> {
@@ -1257,6 +1286,7 @@ fn sh3_product_hemisphere_about(dir: vec3<f32>, b: array<f32, 9>) -> array<f32, 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 226 (108 mul, 7 add, 111 fma) and 1 inverse square root or reciprocal; 7 constants, 24
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for every dir of unit length (3 times the
 //     worst of 256 measured, 5.4e-7; not proven).
 fn sh3_product_hemisphere_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1322,6 +1352,7 @@ fn sh3_product_hemisphere_about_rgb(dir: vec3<f32>, b: array<vec3<f32>, 9>) -> a
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 71 (33 mul, 2 add, 36 fma); 5 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 fn sh3_product_hemisphere_about_angles(cs: array<vec2<f32>, 5>, b: array<f32, 9>) -> array<f32, 9> {
@@ -1374,6 +1405,7 @@ fn sh3_product_hemisphere_about_angles(cs: array<vec2<f32>, 5>, b: array<f32, 9>
 // b: the coefficients of a function of order 3, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 213 (99 mul, 6 add, 108 fma); 5 constants, 16 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.1e-7 of the norm of a band, for every angle (3 times the worst of 256
 //     measured, 1.4e-7; not proven).
 fn sh3_product_hemisphere_about_angles_rgb(cs: array<vec2<f32>, 5>, b: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -1425,6 +1457,7 @@ fn sh3_product_hemisphere_about_angles_rgb(cs: array<vec2<f32>, 5>, b: array<vec
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 15 (10 mul, 2 add, 3 fma) and 1 inverse square root or reciprocal; 2 constants, 9 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh3_axis_angles(dir: vec3<f32>) -> array<vec2<f32>, 5> {

@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 69 (34 mul, 6 add, 29 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 fn sh3_rotate_zyz(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -70,6 +71,7 @@ fn sh3_rotate_zyz(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated coefficients.
 // Operations: 147 (70 mul, 8 add, 69 fma) and 1 inverse square root or reciprocal; 3 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 fn sh3_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -130,6 +132,7 @@ fn sh3_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // Returns the rotated coefficients.
 // Operations: 88 (51 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -217,6 +220,7 @@ fn sh3_rotate_zyz_loop(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated coefficients.
 // Operations: 200 (119 mul, 7 add, 74 fma) and 1 inverse square root or reciprocal; 10 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -302,6 +306,7 @@ fn sh3_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>,
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 64 (22 mul, 2 add, 40 fma); 5 constants, 20 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 fn sh3_rotate(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -350,6 +355,7 @@ fn sh3_rotate(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 158 (54 mul, 6 add, 98 fma); 5 constants, 20 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 fn sh3_rotate_tensor_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -398,6 +404,7 @@ fn sh3_rotate_tensor_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 47 (16 mul, 2 add, 29 fma); 4 constants, 12 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh3_rotate_matrix(m: mat3x3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -430,6 +437,7 @@ fn sh3_rotate_matrix(m: mat3x3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 141 (48 mul, 6 add, 87 fma); 4 constants, 12 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 2.9e-6 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 fn sh3_rotate_matrix_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -461,6 +469,7 @@ fn sh3_rotate_matrix_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (25 mul, 3 add, 23 fma); 2 constants, 15 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh3_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 9>) -> array<f32, 9> {
@@ -503,6 +512,7 @@ fn sh3_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 9>) -> array<f32, 9> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 129 (61 mul, 5 add, 63 fma); 2 constants, 15 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh3_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -547,6 +557,7 @@ fn sh3_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 9>) -> arra
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 31 (17 mul, 5 add, 9 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.9e-7).
 fn sh3_angles(q: vec4<f32>) -> array<vec2<f32>, 7> {
@@ -587,6 +598,7 @@ fn sh3_angles(q: vec4<f32>) -> array<vec2<f32>, 7> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 39 (18 mul, 1 add, 20 fma); 1 constants, 11 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_angles(cs: array<vec2<f32>, 7>, c: array<f32, 9>) -> array<f32, 9> {
@@ -622,6 +634,7 @@ fn sh3_rotate_angles(cs: array<vec2<f32>, 7>, c: array<f32, 9>) -> array<f32, 9>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 117 (54 mul, 3 add, 60 fma); 1 constants, 11 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 9.5e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_angles_rgb(cs: array<vec2<f32>, 7>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -659,6 +672,7 @@ fn sh3_rotate_angles_rgb(cs: array<vec2<f32>, 7>, c: array<vec3<f32>, 9>) -> arr
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 34 (20 mul, 6 add, 8 fma) and 2 inverse square roots or reciprocals; 3 constants, 16
 //     live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 fn sh3_lifted(q: vec4<f32>) -> array<vec2<f32>, 8> {
@@ -704,6 +718,7 @@ fn sh3_lifted(q: vec4<f32>) -> array<vec2<f32>, 8> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
+// Vector registers on RDNA 2: 40; in pieces 40.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_lifted(cs: array<vec2<f32>, 8>, c: array<f32, 9>) -> array<f32, 9> {
@@ -741,6 +756,7 @@ fn sh3_rotate_lifted(cs: array<vec2<f32>, 8>, c: array<f32, 9>) -> array<f32, 9>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 108 (36 mul, 0 add, 72 fma); 0 constants, 10 live values.
+// Vector registers on RDNA 2: 72; in pieces 64.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_lifted_rgb(cs: array<vec2<f32>, 8>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -777,6 +793,7 @@ fn sh3_rotate_lifted_rgb(cs: array<vec2<f32>, 8>, c: array<vec3<f32>, 9>) -> arr
 // Returns the rotated coefficients.
 // Operations: 74 (37 mul, 6 add, 31 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
 fn sh3_rotate_zxzxz(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -839,6 +856,7 @@ fn sh3_rotate_zxzxz(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated coefficients.
 // Operations: 162 (81 mul, 6 add, 75 fma) and 1 inverse square root or reciprocal; 3 constants, 20
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 3.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-7).
 fn sh3_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -900,6 +918,7 @@ fn sh3_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>
 // Returns the rotated coefficients.
 // Operations: 41 (21 mul, 3 add, 17 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 fn sh3_rotate_align(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -941,6 +960,7 @@ fn sh3_rotate_align(n: vec3<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated coefficients.
 // Operations: 95 (45 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 15 live
 //     values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.6e-7).
 fn sh3_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -981,6 +1001,7 @@ fn sh3_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 18 (16 mul, 0 add, 2 fma); 4 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_rotate_zonal(dir: vec3<f32>, c: array<f32, 3>) -> array<f32, 9> {
@@ -1004,6 +1025,7 @@ fn sh3_rotate_zonal(dir: vec3<f32>, c: array<f32, 3>) -> array<f32, 9> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 34 (32 mul, 0 add, 2 fma); 4 constants, 8 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh3_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 3>) -> array<vec3<f32>, 9> {

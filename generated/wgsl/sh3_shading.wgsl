@@ -9,6 +9,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 34 (8 mul, 0 add, 26 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh3_isd_matrix(lambda: array<f32, 9>) -> array<f32, 9> {
@@ -36,6 +37,7 @@ fn sh3_isd_matrix(lambda: array<f32, 9>) -> array<f32, 9> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 102 (24 mul, 0 add, 78 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh3_isd_matrix_rgb(lambda: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -62,6 +64,7 @@ fn sh3_isd_matrix_rgb(lambda: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 34 (8 mul, 0 add, 26 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh3_isd_weights(c: array<f32, 9>) -> array<f32, 9> {
@@ -88,6 +91,7 @@ fn sh3_isd_weights(c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 102 (24 mul, 0 add, 78 fma); 34 constants, 8 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 6.1e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh3_isd_weights_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -117,6 +121,7 @@ fn sh3_isd_weights_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 155 (70 mul, 0 add, 85 fma); 21 constants, 22 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_isd_shade(q: vec4<f32>, e: array<f32, 9>, lambda: array<f32, 9>) -> f32 {
@@ -176,6 +181,7 @@ fn sh3_isd_shade(q: vec4<f32>, e: array<f32, 9>, lambda: array<f32, 9>) -> f32 {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 241 (88 mul, 0 add, 153 fma); 21 constants, 22 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, lambda: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -237,6 +243,7 @@ fn sh3_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, lambda: array<vec3<f3
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 50 (15 mul, 0 add, 35 fma); 18 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 5.9e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2e-7; not proven).
 fn sh3_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, lambda: array<f32, 9>) -> f32 {
@@ -269,6 +276,7 @@ fn sh3_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, lambda: a
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 72 (21 mul, 0 add, 51 fma); 18 constants, 7 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.9e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2e-7; not proven).
 fn sh3_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, lambda: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -296,6 +304,7 @@ fn sh3_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, lambd
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 73 (9 mul, 0 add, 64 fma); 67 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for every input (3 times the
 //     worst of 256 measured, 6.8e-7; not proven).
 fn sh3_mother_matrix(lambda: array<f32, 9>) -> array<f32, 9> {
@@ -335,6 +344,7 @@ fn sh3_mother_matrix(lambda: array<f32, 9>) -> array<f32, 9> {
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 219 (27 mul, 0 add, 192 fma); 67 constants, 9 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.1e-6 of the norm of the coefficients, for every input (3 times the
 //     worst of 256 measured, 6.8e-7; not proven).
 fn sh3_mother_matrix_rgb(lambda: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -374,6 +384,7 @@ fn sh3_mother_matrix_rgb(lambda: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Operations: 73 (9 mul, 0 add, 64 fma); 73 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, for every input (3 times the worst
 //     of 256 measured, 2.4e-7; not proven).
 fn sh3_mother_weights(c: array<f32, 9>) -> array<f32, 9> {
@@ -404,6 +415,7 @@ fn sh3_mother_weights(c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Operations: 219 (27 mul, 0 add, 192 fma); 73 constants, 9 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 7e-7 of the norm of the coefficients, for every input (3 times the worst
 //     of 256 measured, 2.4e-7; not proven).
 fn sh3_mother_weights_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
@@ -437,6 +449,7 @@ fn sh3_mother_weights_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 285 (138 mul, 0 add, 147 fma); 38 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-6 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 3.7e-7; not proven).
 fn sh3_mother_shade(q: vec4<f32>, e: array<f32, 9>, lambda: array<f32, 9>) -> f32 {
@@ -527,6 +540,7 @@ fn sh3_mother_shade(q: vec4<f32>, e: array<f32, 9>, lambda: array<f32, 9>) -> f3
 // lambda: the weights, 2l+1 for level l from l^2 on, in the order of the level's directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 469 (178 mul, 0 add, 291 fma); 38 constants, 18 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.1e-6 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 3.7e-7; not proven).
 fn sh3_mother_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, lambda: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -616,6 +630,7 @@ fn sh3_mother_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, lambda: array<vec3
 // Returns the integral of the light times the reflectance.
 // Operations: 78 (35 mul, 8 add, 35 fma) and 1 inverse square root or reciprocal; 3 constants, 21 live
 //     values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh3_shade_zyz(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
@@ -668,6 +683,7 @@ fn sh3_shade_zyz(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
 // Returns the integral of the light times the reflectance.
 // Operations: 174 (73 mul, 14 add, 87 fma) and 1 inverse square root or reciprocal; 3 constants, 21
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.4e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh3_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, c: array<vec3<f32>, 9>) -> vec3<f32> {
@@ -720,6 +736,7 @@ fn sh3_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, c: array<vec3<f32>, 9>) -
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 73 (23 mul, 2 add, 48 fma); 5 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 3.5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 fn sh3_shade(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
@@ -764,6 +781,7 @@ fn sh3_shade(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 9>) -> f32 {
 // Returns the integral of the light times the reflectance.
 // Operations: 70 (33 mul, 7 add, 30 fma) and 1 inverse square root or reciprocal; 3 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_shade_isotropic(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 6>) -> f32 {
@@ -810,6 +828,7 @@ fn sh3_shade_isotropic(q: vec4<f32>, e: array<f32, 9>, c: array<f32, 6>) -> f32 
 // Returns the integral of the light times the reflectance.
 // Operations: 150 (67 mul, 11 add, 72 fma) and 1 inverse square root or reciprocal; 3 constants, 20
 //     live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 4.7e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.6e-7; not proven).
 fn sh3_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, c: array<vec3<f32>, 6>) -> vec3<f32> {
@@ -856,6 +875,7 @@ fn sh3_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 9>, c: array<vec3<f
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 42 (19 mul, 0 add, 23 fma); 5 constants, 8 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn sh3_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, c: array<f32, 9>) -> f32 {
@@ -885,6 +905,7 @@ fn sh3_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, c: array<f32,
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 74 (35 mul, 0 add, 39 fma); 5 constants, 8 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 1.4e-7; not proven).
 fn sh3_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 3>, c: array<vec3<f32>, 9>) -> vec3<f32> {

@@ -9,6 +9,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 9 (1 mul, 0 add, 8 fma); 1 constants, 7 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.5e-8). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
@@ -34,6 +35,7 @@ fn sh3_taylor1_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 25 (1 mul, 0 add, 24 fma); 1 constants, 7 live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 6.5e-8). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
@@ -59,6 +61,7 @@ fn sh3_taylor1_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 20 (9 mul, 0 add, 11 fma); 5 constants, 9 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.2e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -86,6 +89,7 @@ fn sh3_taylor15_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 50 (23 mul, 0 add, 27 fma); 5 constants, 9 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 3.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.2e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -113,6 +117,7 @@ fn sh3_taylor15_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 19 (3 mul, 0 add, 16 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 4.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows
@@ -141,6 +146,7 @@ fn sh3_taylor2_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (3 mul, 0 add, 48 fma); 3 constants, 9 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 4.6e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8e-8). Method error, the worst
 //     band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it grows
@@ -169,6 +175,7 @@ fn sh3_taylor2_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 23 (7 mul, 0 add, 16 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 24; in pieces 24.
 // Error: f32 rounding at most 6.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.7e-8). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
@@ -205,6 +212,7 @@ fn sh3_lf3_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 47 (7 mul, 0 add, 40 fma); 6 constants, 10 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 6.8e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.7e-8). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
@@ -241,6 +249,7 @@ fn sh3_lf3_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (10 mul, 0 add, 26 fma); 10 constants, 13 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
@@ -287,6 +296,7 @@ fn sh3_lf5_y(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 76 (10 mul, 0 add, 66 fma); 10 constants, 13 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
@@ -333,6 +343,7 @@ fn sh3_lf5_y_rgb(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 41 (18 mul, 0 add, 23 fma); 18 constants, 9 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -362,6 +373,7 @@ fn sh3_taylor15_y_loop(beta: f32, c: array<f32, 9>) -> array<f32, 9> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 103 (50 mul, 0 add, 53 fma); 18 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.5e-7 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -392,6 +404,7 @@ fn sh3_taylor15_y_rgb_loop(beta: f32, c: array<vec3<f32>, 9>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 41 (17 mul, 2 add, 22 fma); 1 constants, 13 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
@@ -435,6 +448,7 @@ fn sh3_taylor1_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> arra
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 105 (41 mul, 2 add, 62 fma); 1 constants, 13 live values.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 1.6e-2 at 5, 6.1e-2 at 10, 1.4e-1 at 15, 3.8e-1 at 25 degrees; it
@@ -478,6 +492,7 @@ fn sh3_taylor1_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 9
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 52 (25 mul, 2 add, 25 fma); 5 constants, 15 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -523,6 +538,7 @@ fn sh3_taylor15_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> arr
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 130 (63 mul, 2 add, 65 fma); 5 constants, 15 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7). Method error, the
 //     worst band's in spectral norm: 6.7e-3 at 5, 2.8e-2 at 10, 6.5e-2 at 15, 2.1e-1 at 25 degrees; it
@@ -568,6 +584,7 @@ fn sh3_taylor15_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 51 (19 mul, 2 add, 30 fma); 3 constants, 15 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it
@@ -614,6 +631,7 @@ fn sh3_taylor2_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> arra
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 131 (43 mul, 2 add, 86 fma); 3 constants, 15 live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7). Method error, the
 //     worst band's in spectral norm: 8.9e-4 at 5, 7.1e-3 at 10, 2.4e-2 at 15, 1.1e-1 at 25 degrees; it
@@ -660,6 +678,7 @@ fn sh3_taylor2_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 9
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 55 (23 mul, 2 add, 30 fma); 6 constants, 13 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
@@ -709,6 +728,7 @@ fn sh3_lf3_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> array<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 127 (47 mul, 2 add, 78 fma); 6 constants, 13 live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-7). Method error, the
 //     worst band's in spectral norm: 2.3e-4 at 5, 1.8e-3 at 10, 6.1e-3 at 15, 2.9e-2 at 25 degrees; it
@@ -758,6 +778,7 @@ fn sh3_lf3_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 9>) -
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 68 (26 mul, 2 add, 40 fma); 10 constants, 14 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
@@ -817,6 +838,7 @@ fn sh3_lf5_zyz(cs: array<vec2<f32>, 2>, beta: f32, c: array<f32, 9>) -> array<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 156 (50 mul, 2 add, 104 fma); 10 constants, 14 live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, for an angle up to 25 degrees (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7). Method error, the
 //     worst band's in spectral norm: 1.7e-5 at 5, 1.4e-4 at 10, 4.5e-4 at 15, 2.2e-3 at 25 degrees; it
@@ -877,6 +899,7 @@ fn sh3_lf5_zyz_rgb(cs: array<vec2<f32>, 2>, beta: f32, c: array<vec3<f32>, 9>) -
 // Returns the rotated coefficients.
 // Operations: 69 (34 mul, 6 add, 29 fma) and 1 inverse square root or reciprocal; 3 constants, 19 live
 //     values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 fn sh3_rotate_small(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
@@ -938,6 +961,7 @@ fn sh3_rotate_small(q: vec4<f32>, c: array<f32, 9>) -> array<f32, 9> {
 // Returns the rotated coefficients.
 // Operations: 147 (70 mul, 8 add, 69 fma) and 1 inverse square root or reciprocal; 3 constants, 19
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 5.2e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 fn sh3_rotate_small_rgb(q: vec4<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 9> {

@@ -10,6 +10,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 31 (22 mul, 0 add, 8 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     19 constants, 17 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 8.9e-7 of one, for dir of unit length (3 times the worst of 256
 //     measured, 3e-7; not proven).
 fn sh4_hsh_basis(dir: vec3<f32>) -> array<f32, 16> {
@@ -56,6 +57,7 @@ fn sh4_hsh_basis(dir: vec3<f32>) -> array<f32, 16> {
 // Returns sum c_i H_i(dir).
 // Operations: 39 (13 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 18 constants, 8 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 5.5e-7; not proven).
 fn sh4_hsh_eval(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
@@ -85,6 +87,7 @@ fn sh4_hsh_eval(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 71 (15 mul, 0 add, 55 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 18 constants, 8 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 5.5e-7; not proven).
 fn sh4_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
@@ -116,6 +119,7 @@ fn sh4_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 20 (3 mul, 0 add, 16 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.5e-7; not proven).
 fn sh4_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
@@ -137,6 +141,7 @@ fn sh4_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 50 (3 mul, 0 add, 46 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.5e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.5e-7; not proven).
 fn sh4_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
@@ -154,6 +159,7 @@ fn sh4_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f3
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 33 (12 mul, 0 add, 21 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3e-6).
 fn sh4_hsh_to_monomial(c: array<f32, 16>) -> array<f32, 16> {
@@ -187,6 +193,7 @@ fn sh4_hsh_to_monomial(c: array<f32, 16>) -> array<f32, 16> {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 99 (36 mul, 0 add, 63 fma); 18 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 6.2e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3e-6).
 fn sh4_hsh_to_monomial_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -219,6 +226,7 @@ fn sh4_hsh_to_monomial_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 37 (16 mul, 0 add, 21 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh4_sh_to_hsh(c: array<f32, 16>) -> array<f32, 16> {
@@ -247,6 +255,7 @@ fn sh4_sh_to_hsh(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 111 (48 mul, 0 add, 63 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh4_sh_to_hsh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -275,6 +284,7 @@ fn sh4_sh_to_hsh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 68 (16 mul, 0 add, 52 fma); 40 constants, 16 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 fn sh4_of_order_6_sh_to_hsh(c: array<f32, 36>) -> array<f32, 16> {
@@ -310,6 +320,7 @@ fn sh4_of_order_6_sh_to_hsh(c: array<f32, 36>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 204 (48 mul, 0 add, 156 fma); 40 constants, 16 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 3.6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 fn sh4_of_order_6_sh_to_hsh_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 16> {
@@ -345,6 +356,7 @@ fn sh4_of_order_6_sh_to_hsh_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 16>
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 37 (16 mul, 0 add, 21 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh4_hsh_to_sh(c: array<f32, 16>) -> array<f32, 16> {
@@ -374,6 +386,7 @@ fn sh4_hsh_to_sh(c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 111 (48 mul, 0 add, 63 fma); 21 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh4_hsh_to_sh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -402,6 +415,7 @@ fn sh4_hsh_to_sh_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 12 (10 mul, 0 add, 2 fma); 10 constants, 10 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh4_of_order_2_hsh_to_sh(c: array<f32, 4>) -> array<f32, 16> {
@@ -431,6 +445,7 @@ fn sh4_of_order_2_hsh_to_sh(c: array<f32, 4>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 36 (30 mul, 0 add, 6 fma); 10 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.6e-8).
 fn sh4_of_order_2_hsh_to_sh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 16> {
@@ -460,6 +475,7 @@ fn sh4_of_order_2_hsh_to_sh_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 16> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 44 (16 mul, 0 add, 28 fma); 30 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh4_hsh_extend(c: array<f32, 16>) -> array<f32, 16> {
@@ -489,6 +505,7 @@ fn sh4_hsh_extend(c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 132 (48 mul, 0 add, 84 fma); 30 constants, 16 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh4_hsh_extend_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -518,6 +535,7 @@ fn sh4_hsh_extend_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 14 (10 mul, 0 add, 4 fma); 12 constants, 10 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 fn sh4_of_order_2_hsh_extend(c: array<f32, 4>) -> array<f32, 16> {
@@ -547,6 +565,7 @@ fn sh4_of_order_2_hsh_extend(c: array<f32, 4>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 42 (30 mul, 0 add, 12 fma); 12 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.2e-8).
 fn sh4_of_order_2_hsh_extend_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 16> {
@@ -577,6 +596,7 @@ fn sh4_of_order_2_hsh_extend_rgb(c: array<vec3<f32>, 4>) -> array<vec3<f32>, 16>
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 108 (24 mul, 0 add, 84 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh4_hsh_y_lobe(beta: f32, c: array<f32, 16>) -> array<f32, 16> {
@@ -626,6 +646,7 @@ fn sh4_hsh_y_lobe(beta: f32, c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 324 (72 mul, 0 add, 252 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 6.8e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.2e-8).
 fn sh4_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -676,6 +697,7 @@ fn sh4_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 108 (24 mul, 0 add, 84 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 fn sh4_hsh_y_record(beta: f32, c: array<f32, 16>) -> array<f32, 16> {
@@ -726,6 +748,7 @@ fn sh4_hsh_y_record(beta: f32, c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 324 (72 mul, 0 add, 252 fma); 40 constants, 17 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 6.7e-7 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.4e-8).
 fn sh4_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -775,6 +798,7 @@ fn sh4_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 149 (27 mul, 0 add, 122 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh4_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -860,6 +884,7 @@ fn sh4_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 437 (75 mul, 0 add, 362 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh4_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -947,6 +972,7 @@ fn sh4_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 149 (27 mul, 0 add, 122 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_hsh_tilt_record(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1034,6 +1060,7 @@ fn sh4_hsh_tilt_record(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 437 (75 mul, 0 add, 362 fma); 42 constants, 28 live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 1.6e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1120,6 +1147,7 @@ fn sh4_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (67 mul, 4 add, 121 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.4e-7; not proven).
 fn sh4_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1206,6 +1234,7 @@ fn sh4_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 504 (163 mul, 4 add, 337 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.4e-7; not proven).
 fn sh4_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1293,6 +1322,7 @@ fn sh4_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 192 (67 mul, 4 add, 121 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.8e-7; not proven).
 fn sh4_hsh_rotate_record(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1380,6 +1410,7 @@ fn sh4_hsh_rotate_record(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 504 (163 mul, 4 add, 337 fma) and 1 inverse square root or reciprocal; 43 constants, 28
 //     live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.5e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 4.8e-7; not proven).
 fn sh4_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1467,6 +1498,7 @@ fn sh4_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 200 (48 mul, 2 add, 150 fma); 0 constants, 31 live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.2e-8; not proven).
 fn sh4_hsh_rotate_table(cs: array<vec2<f32>, 2>, m: array<f32, 136>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1543,6 +1575,7 @@ fn sh4_hsh_rotate_table(cs: array<vec2<f32>, 2>, m: array<f32, 136>, c: array<f3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 568 (128 mul, 2 add, 438 fma); 0 constants, 31 live values.
+// Vector registers on RDNA 2: 248.
 // Error: f32 rounding at most 1.3e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 4.2e-8; not proven).
 fn sh4_hsh_rotate_table_rgb(cs: array<vec2<f32>, 2>, m: array<f32, 136>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1623,6 +1656,7 @@ fn sh4_hsh_rotate_table_rgb(cs: array<vec2<f32>, 2>, m: array<f32, 136>, c: arra
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 132 (79 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 3.5e-6; not proven).
@@ -1704,6 +1738,7 @@ fn sh4_hsh_gradient(dir: vec3<f32>, e: vec3<f32>, r: f32, m: vec3<f32>, light: f
 // Returns what the sample adds to the derivative along e, index l(l+1)+m.
 // Operations: 164 (111 mul, 9 add, 42 fma, 2 min, max or select) and 4 inverse square roots or
 //     reciprocals; 17 constants, 33 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of the coefficients, for every dir of unit length
 //     with dir.z >= 0, for e of unit length, for r from 1 to 1000, for m of unit length (3 times the
 //     worst of 256 measured, 3.5e-6; not proven).

@@ -11,6 +11,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 9 (5 mul, 1 add, 2 fma, 1 min, max or select) and 2 special (square root, reciprocal); 6
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 4.4e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 fn sh4_cap(s: f32) -> array<f32, 4> {
@@ -32,6 +33,7 @@ fn sh4_cap(s: f32) -> array<f32, 4> {
 // Returns the zonal coefficients, one a band.
 // Operations: 71 (39 mul, 3 add, 23 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 33 constants, 10 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 fn sh4_gaussian(kappa: f32) -> array<f32, 4> {
@@ -80,6 +82,7 @@ fn sh4_gaussian(kappa: f32) -> array<f32, 4> {
 // Returns the zonal coefficients, one a band.
 // Operations: 59 (33 mul, 1 add, 19 fma, 6 min, max or select) and 2 inverse square roots or
 //     reciprocals; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 fn sh4_gaussian_narrow(kappa: f32) -> array<f32, 4> {
@@ -122,6 +125,7 @@ fn sh4_gaussian_narrow(kappa: f32) -> array<f32, 4> {
 // Returns the zonal coefficients, one a band.
 // Operations: 13 (8 mul, 5 add, 0 fma) and 4 inverse square roots or reciprocals; 8 constants, 6 live
 //     values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 fn sh4_phong(s: f32) -> array<f32, 4> {
@@ -140,6 +144,7 @@ fn sh4_phong(s: f32) -> array<f32, 4> {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 5 (5 mul, 0 add, 0 fma); 4 constants, 3 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 1.8e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     5.9e-8; not proven).
 fn sh4_henyey_greenstein(g: f32) -> array<f32, 4> {
@@ -158,6 +163,7 @@ fn sh4_henyey_greenstein(g: f32) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 20 (20 mul, 0 add, 0 fma); 4 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_convolve(g: array<f32, 4>, c: array<f32, 16>) -> array<f32, 16> {
@@ -190,6 +196,7 @@ fn sh4_convolve(g: array<f32, 4>, c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 52 (52 mul, 0 add, 0 fma); 4 constants, 16 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_convolve_rgb(g: array<f32, 4>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -222,6 +229,7 @@ fn sh4_convolve_rgb(g: array<f32, 4>, c: array<vec3<f32>, 16>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 9 (9 mul, 0 add, 0 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh4_convolve_cosine(c: array<f32, 16>) -> array<f32, 16> {
@@ -251,6 +259,7 @@ fn sh4_convolve_cosine(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 27 (27 mul, 0 add, 0 fma); 4 constants, 9 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh4_convolve_cosine_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -281,6 +290,7 @@ fn sh4_convolve_cosine_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 16 (5 mul, 0 add, 11 fma); 6 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.1e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.4e-7).
@@ -298,6 +308,7 @@ fn sh4_irradiance(dir: vec3<f32>, c: array<f32, 16>) -> f32 {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 37 (10 mul, 0 add, 27 fma); 7 constants, 5 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     2.7e-7).
@@ -317,6 +328,7 @@ fn sh4_irradiance_rgb(dir: vec3<f32>, c: array<vec3<f32>, 16>) -> vec3<f32> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 43 (21 mul, 0 add, 22 fma); 12 constants, 21 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -359,6 +371,7 @@ fn sh4_light_directional(dir: vec3<f32>, light: f32, c: array<f32, 16>) -> array
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 75 (21 mul, 0 add, 54 fma); 12 constants, 21 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5.9e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 1.6e-7).
@@ -403,6 +416,7 @@ fn sh4_light_directional_rgb(dir: vec3<f32>, light: vec3<f32>, c: array<vec3<f32
 // Returns the coefficients with the light added.
 // Operations: 52 (26 mul, 1 add, 24 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 14 constants, 20 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -451,6 +465,7 @@ fn sh4_light_sphere(dir: vec3<f32>, s: f32, light: f32, c: array<f32, 16>) -> ar
 // Returns the coefficients with the light added.
 // Operations: 90 (32 mul, 1 add, 56 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 14 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 5.7e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -497,6 +512,7 @@ fn sh4_light_sphere_rgb(dir: vec3<f32>, s: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 52 (27 mul, 2 add, 23 fma); 15 constants, 20 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
@@ -543,6 +559,7 @@ fn sh4_light_cone(dir: vec3<f32>, cos: f32, light: f32, c: array<f32, 16>) -> ar
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 90 (33 mul, 2 add, 55 fma); 15 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.7e-7;
 //     not proven).
@@ -590,6 +607,7 @@ fn sh4_light_cone_rgb(dir: vec3<f32>, cos: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -624,6 +642,7 @@ fn sh4_light_hemisphere(dir: vec3<f32>, top: f32, bottom: f32, c: array<f32, 16>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -658,6 +677,7 @@ fn sh4_light_hemisphere_rgb(dir: vec3<f32>, top: vec3<f32>, bottom: vec3<f32>, c
 // Returns the coefficients with the light added.
 // Operations: 114 (60 mul, 3 add, 45 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 42 constants, 20 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
@@ -733,6 +753,7 @@ fn sh4_light_gaussian(dir: vec3<f32>, kappa: f32, light: f32, c: array<f32, 16>)
 // Returns the coefficients with the light added.
 // Operations: 152 (66 mul, 3 add, 77 fma, 6 min, max or select) and 3 special (reciprocal, power of
 //     two); 42 constants, 20 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6e-7; not proven).
@@ -806,6 +827,7 @@ fn sh4_light_gaussian_rgb(dir: vec3<f32>, kappa: f32, light: vec3<f32>, c: array
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.2e-7; not proven).
 fn sh4_dominant(c: array<f32, 16>) -> vec3<f32> {
@@ -825,6 +847,7 @@ fn sh4_dominant(c: array<f32, 16>) -> vec3<f32> {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 30 (14 mul, 0 add, 13 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 12 constants, 8 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.6e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.1e-7; not proven).
 fn sh4_light_fit(c: array<f32, 16>) -> array<f32, 5> {
@@ -854,6 +877,7 @@ fn sh4_light_fit(c: array<f32, 16>) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 21 (10 mul, 0 add, 11 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).
@@ -877,6 +901,7 @@ fn sh4_light_fit_along(dir: vec3<f32>, c: array<f32, 16>) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 43 (16 mul, 0 add, 27 fma); 9 constants, 5 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.7e-7).

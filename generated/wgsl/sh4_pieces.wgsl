@@ -8,6 +8,7 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 32 (16 mul, 1 add, 15 fma); 0 constants, 14 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.3e-8).
 fn sh4_rotate_z(cs: vec2<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -41,6 +42,7 @@ fn sh4_rotate_z(cs: vec2<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 80 (40 mul, 1 add, 39 fma); 0 constants, 14 live values.
+// Vector registers on RDNA 2: 104; in pieces 64.
 // Error: f32 rounding at most 4e-7 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.3e-8).
 fn sh4_rotate_z_rgb(cs: vec2<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -74,6 +76,7 @@ fn sh4_rotate_z_rgb(cs: vec2<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 52 (18 mul, 1 add, 33 fma); 8 constants, 18 live values.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_rotate_y(cs: vec2<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -124,6 +127,7 @@ fn sh4_rotate_y(cs: vec2<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 138 (42 mul, 3 add, 93 fma); 8 constants, 18 live values.
+// Vector registers on RDNA 2: 104; in pieces 64.
 // Error: f32 rounding at most 9.7e-7 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh4_rotate_y_rgb(cs: vec2<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -173,6 +177,7 @@ fn sh4_rotate_y_rgb(cs: vec2<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_swap_yz(c: array<f32, 16>) -> array<f32, 16> {
@@ -200,6 +205,7 @@ fn sh4_swap_yz(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 96; in pieces 48.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_swap_yz_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -227,6 +233,7 @@ fn sh4_swap_yz_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_rotate_x_plus_90deg(c: array<f32, 16>) -> array<f32, 16> {
@@ -254,6 +261,7 @@ fn sh4_rotate_x_plus_90deg(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 96; in pieces 48.
 // Error: f32 rounding at most 1.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_rotate_x_plus_90deg_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -281,6 +289,7 @@ fn sh4_rotate_x_plus_90deg_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 16 (8 mul, 0 add, 8 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 32; in pieces 32.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_rotate_x_minus_90deg(c: array<f32, 16>) -> array<f32, 16> {
@@ -308,6 +317,7 @@ fn sh4_rotate_x_minus_90deg(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 48 (24 mul, 0 add, 24 fma); 6 constants, 12 live values.
+// Vector registers on RDNA 2: 96; in pieces 48.
 // Error: f32 rounding at most 2e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8.6e-8).
 fn sh4_rotate_x_minus_90deg_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {

@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 134 (59 mul, 6 add, 69 fma) and 1 inverse square root or reciprocal; 8 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 fn sh4_rotate(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -109,6 +110,7 @@ fn sh4_rotate(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated coefficients.
 // Operations: 316 (131 mul, 8 add, 177 fma) and 1 inverse square root or reciprocal; 8 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
 fn sh4_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -208,6 +210,7 @@ fn sh4_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16>
 // Returns the rotated coefficients.
 // Operations: 162 (89 mul, 7 add, 66 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -297,6 +300,7 @@ fn sh4_rotate_loop(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated coefficients.
 // Operations: 398 (221 mul, 7 add, 170 fma) and 1 inverse square root or reciprocal; 23 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 200.
 // Error: f32 rounding at most 5.5e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -384,6 +388,7 @@ fn sh4_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 116 (50 mul, 3 add, 63 fma); 8 constants, 28 live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh4_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 16>) -> array<f32, 16> {
@@ -465,6 +470,7 @@ fn sh4_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 16>) -> array<f32, 16
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 298 (122 mul, 5 add, 171 fma); 8 constants, 28 live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh4_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -548,6 +554,7 @@ fn sh4_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 16>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 43 (23 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 20 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 fn sh4_angles(q: vec4<f32>) -> array<vec2<f32>, 10> {
@@ -597,6 +604,7 @@ fn sh4_angles(q: vec4<f32>) -> array<vec2<f32>, 10> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 91 (36 mul, 1 add, 54 fma); 6 constants, 20 live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 fn sh4_rotate_angles(cs: array<vec2<f32>, 10>, c: array<f32, 16>) -> array<f32, 16> {
@@ -663,6 +671,7 @@ fn sh4_rotate_angles(cs: array<vec2<f32>, 10>, c: array<f32, 16>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 273 (108 mul, 3 add, 162 fma); 6 constants, 20 live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 1.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 fn sh4_rotate_angles_rgb(cs: array<vec2<f32>, 10>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -731,6 +740,7 @@ fn sh4_rotate_angles_rgb(cs: array<vec2<f32>, 10>, c: array<vec3<f32>, 16>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 69 (39 mul, 6 add, 24 fma) and 3 inverse square roots or reciprocals; 13 constants, 32
 //     live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-5 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 6.7e-7).
 fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
@@ -791,6 +801,7 @@ fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
+// Vector registers on RDNA 2: 64; in pieces 64.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh4_rotate_lifted(cs: array<vec2<f32>, 16>, c: array<f32, 16>) -> array<f32, 16> {
@@ -848,6 +859,7 @@ fn sh4_rotate_lifted(cs: array<vec2<f32>, 16>, c: array<f32, 16>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 234 (72 mul, 0 add, 162 fma); 0 constants, 18 live values.
+// Vector registers on RDNA 2: 128; in pieces 80.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh4_rotate_lifted_rgb(cs: array<vec2<f32>, 16>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -904,6 +916,7 @@ fn sh4_rotate_lifted_rgb(cs: array<vec2<f32>, 16>, c: array<vec3<f32>, 16>) -> a
 // Returns the rotated coefficients.
 // Operations: 146 (73 mul, 6 add, 67 fma) and 1 inverse square root or reciprocal; 7 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 56; in pieces 48.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 fn sh4_rotate_zxzxz(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1002,6 +1015,7 @@ fn sh4_rotate_zxzxz(q: vec4<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated coefficients.
 // Operations: 354 (177 mul, 6 add, 171 fma) and 1 inverse square root or reciprocal; 7 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 120; in pieces 80.
 // Error: f32 rounding at most 5.4e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-7).
 fn sh4_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1099,6 +1113,7 @@ fn sh4_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 90 (38 mul, 3 add, 49 fma) and 1 inverse square root or reciprocal; 8 constants, 29 live
 //     values.
+// Vector registers on RDNA 2: 48; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 fn sh4_rotate_align(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
@@ -1172,6 +1187,7 @@ fn sh4_rotate_align(n: vec3<f32>, c: array<f32, 16>) -> array<f32, 16> {
 // Returns the rotated coefficients.
 // Operations: 224 (86 mul, 5 add, 133 fma) and 1 inverse square root or reciprocal; 8 constants, 29
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 80.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every n of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5.4e-7).
 fn sh4_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -1244,6 +1260,7 @@ fn sh4_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 16>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 39 (33 mul, 0 add, 6 fma); 9 constants, 18 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_rotate_zonal(dir: vec3<f32>, c: array<f32, 4>) -> array<f32, 16> {
@@ -1281,6 +1298,7 @@ fn sh4_rotate_zonal(dir: vec3<f32>, c: array<f32, 4>) -> array<f32, 16> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 69 (63 mul, 0 add, 6 fma); 9 constants, 18 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 5.2e-7 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 4>) -> array<vec3<f32>, 16> {

@@ -9,6 +9,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 83 (15 mul, 0 add, 68 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 7.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_isd_matrix(lambda: array<f32, 16>) -> array<f32, 16> {
@@ -50,6 +51,7 @@ fn sh4_isd_matrix(lambda: array<f32, 16>) -> array<f32, 16> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 249 (45 mul, 0 add, 204 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 7.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh4_isd_matrix_rgb(lambda: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -90,6 +92,7 @@ fn sh4_isd_matrix_rgb(lambda: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 83 (15 mul, 0 add, 68 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 fn sh4_isd_weights(c: array<f32, 16>) -> array<f32, 16> {
@@ -130,6 +133,7 @@ fn sh4_isd_weights(c: array<f32, 16>) -> array<f32, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 249 (45 mul, 0 add, 204 fma); 83 constants, 15 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 9.3e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.1e-7).
 fn sh4_isd_weights_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
@@ -173,6 +177,7 @@ fn sh4_isd_weights_rgb(c: array<vec3<f32>, 16>) -> array<vec3<f32>, 16> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 339 (163 mul, 0 add, 176 fma); 32 constants, 45 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh4_isd_shade(q: vec4<f32>, e: array<f32, 16>, lambda: array<f32, 16>) -> f32 {
@@ -299,6 +304,7 @@ fn sh4_isd_shade(q: vec4<f32>, e: array<f32, 16>, lambda: array<f32, 16>) -> f32
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 537 (195 mul, 0 add, 342 fma); 32 constants, 45 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh4_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, lambda: array<vec3<f32>, 16>) -> vec3<f32> {
@@ -427,6 +433,7 @@ fn sh4_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, lambda: array<vec3<f
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 81 (26 mul, 0 add, 55 fma); 26 constants, 16 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.1e-7; not proven).
 fn sh4_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, lambda: array<f32, 16>) -> f32 {
@@ -468,6 +475,7 @@ fn sh4_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, lambda: a
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 119 (34 mul, 0 add, 85 fma); 26 constants, 16 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 6.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.1e-7; not proven).
 fn sh4_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, lambda: array<vec3<f32>, 16>) -> vec3<f32> {
@@ -507,6 +515,7 @@ fn sh4_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, lambd
 // Returns the integral of the light times the reflectance.
 // Operations: 147 (57 mul, 9 add, 81 fma) and 1 inverse square root or reciprocal; 8 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.8e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 2e-7; not proven).
 fn sh4_shade(q: vec4<f32>, e: array<f32, 16>, c: array<f32, 16>) -> f32 {
@@ -592,6 +601,7 @@ fn sh4_shade(q: vec4<f32>, e: array<f32, 16>, c: array<f32, 16>) -> f32 {
 // Returns the integral of the light times the reflectance.
 // Operations: 355 (125 mul, 17 add, 213 fma) and 1 inverse square root or reciprocal; 8 constants, 33
 //     live values.
+// Vector registers on RDNA 2: 136.
 // Error: f32 rounding at most 5.8e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 2e-7; not proven).
 fn sh4_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, c: array<vec3<f32>, 16>) -> vec3<f32> {
@@ -678,6 +688,7 @@ fn sh4_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, c: array<vec3<f32>, 16>)
 // Returns the integral of the light times the reflectance.
 // Operations: 133 (55 mul, 8 add, 70 fma) and 1 inverse square root or reciprocal; 8 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.4e-7; not proven).
 fn sh4_shade_isotropic(q: vec4<f32>, e: array<f32, 16>, c: array<f32, 10>) -> f32 {
@@ -754,6 +765,7 @@ fn sh4_shade_isotropic(q: vec4<f32>, e: array<f32, 16>, c: array<f32, 10>) -> f3
 // Returns the integral of the light times the reflectance.
 // Operations: 313 (119 mul, 14 add, 180 fma) and 1 inverse square root or reciprocal; 8 constants, 31
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4.1e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.4e-7; not proven).
 fn sh4_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, c: array<vec3<f32>, 10>) -> vec3<f32> {
@@ -830,6 +842,7 @@ fn sh4_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 16>, c: array<vec3<
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 63 (28 mul, 0 add, 35 fma); 11 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 6.5e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.2e-7; not proven).
 fn sh4_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, c: array<f32, 16>) -> f32 {
@@ -865,6 +878,7 @@ fn sh4_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, c: array<f32,
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 117 (52 mul, 0 add, 65 fma); 11 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 6.5e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.2e-7; not proven).
 fn sh4_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 4>, c: array<vec3<f32>, 16>) -> vec3<f32> {

@@ -10,6 +10,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 47 (33 mul, 0 add, 13 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 29 constants, 25 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.9e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 6.2e-7; not proven).
 fn sh5_hsh_basis(dir: vec3<f32>) -> array<f32, 25> {
@@ -73,6 +74,7 @@ fn sh5_hsh_basis(dir: vec3<f32>) -> array<f32, 25> {
 // Returns sum c_i H_i(dir).
 // Operations: 58 (18 mul, 0 add, 39 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 4.6e-7; not proven).
 fn sh5_hsh_eval(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
@@ -108,6 +110,7 @@ fn sh5_hsh_eval(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 108 (20 mul, 0 add, 87 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 28 constants, 10 live values.
+// Vector registers on RDNA 2: 96.
 // Error: f32 rounding at most 1.4e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 4.6e-7; not proven).
 fn sh5_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -145,6 +148,7 @@ fn sh5_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 25>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 29 (3 mul, 0 add, 25 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 fn sh5_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
@@ -167,6 +171,7 @@ fn sh5_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 77 (3 mul, 0 add, 73 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 7 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 4.9e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-7; not proven).
 fn sh5_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -185,6 +190,7 @@ fn sh5_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 25>) -> vec3<f3
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 67 (17 mul, 0 add, 50 fma); 36 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-5).
 fn sh5_hsh_to_monomial(c: array<f32, 25>) -> array<f32, 25> {
@@ -234,6 +240,7 @@ fn sh5_hsh_to_monomial(c: array<f32, 25>) -> array<f32, 25> {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 201 (51 mul, 0 add, 150 fma); 36 constants, 25 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 3.7e-5 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-5).
 fn sh5_hsh_to_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -282,6 +289,7 @@ fn sh5_hsh_to_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 71 (25 mul, 0 add, 46 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh5_sh_to_hsh(c: array<f32, 25>) -> array<f32, 25> {
@@ -319,6 +327,7 @@ fn sh5_sh_to_hsh(c: array<f32, 25>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 213 (75 mul, 0 add, 138 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh5_sh_to_hsh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -356,6 +365,7 @@ fn sh5_sh_to_hsh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 120 (25 mul, 0 add, 95 fma); 67 constants, 25 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 fn sh5_of_order_7_sh_to_hsh(c: array<f32, 49>) -> array<f32, 25> {
@@ -407,6 +417,7 @@ fn sh5_of_order_7_sh_to_hsh(c: array<f32, 49>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 360 (75 mul, 0 add, 285 fma); 67 constants, 25 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 4.4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.1e-8).
 fn sh5_of_order_7_sh_to_hsh_rgb(c: array<vec3<f32>, 49>) -> array<vec3<f32>, 25> {
@@ -458,6 +469,7 @@ fn sh5_of_order_7_sh_to_hsh_rgb(c: array<vec3<f32>, 49>) -> array<vec3<f32>, 25>
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 71 (25 mul, 0 add, 46 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.4e-8).
 fn sh5_hsh_to_sh(c: array<f32, 25>) -> array<f32, 25> {
@@ -496,6 +508,7 @@ fn sh5_hsh_to_sh(c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 213 (75 mul, 0 add, 138 fma); 38 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 3.2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.4e-8).
 fn sh5_hsh_to_sh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -533,6 +546,7 @@ fn sh5_hsh_to_sh_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 32 (19 mul, 0 add, 13 fma); 22 constants, 19 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 fn sh5_of_order_3_hsh_to_sh(c: array<f32, 9>) -> array<f32, 25> {
@@ -571,6 +585,7 @@ fn sh5_of_order_3_hsh_to_sh(c: array<f32, 9>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 96 (57 mul, 0 add, 39 fma); 22 constants, 19 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6.8e-8).
 fn sh5_of_order_3_hsh_to_sh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 25> {
@@ -609,6 +624,7 @@ fn sh5_of_order_3_hsh_to_sh_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 25> 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 85 (25 mul, 0 add, 60 fma); 55 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh5_hsh_extend(c: array<f32, 25>) -> array<f32, 25> {
@@ -652,6 +668,7 @@ fn sh5_hsh_extend(c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 255 (75 mul, 0 add, 180 fma); 55 constants, 25 live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 6e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-7).
 fn sh5_hsh_extend_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -695,6 +712,7 @@ fn sh5_hsh_extend_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 37 (19 mul, 0 add, 18 fma); 27 constants, 19 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh5_of_order_3_hsh_extend(c: array<f32, 9>) -> array<f32, 25> {
@@ -733,6 +751,7 @@ fn sh5_of_order_3_hsh_extend(c: array<f32, 9>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 111 (57 mul, 0 add, 54 fma); 27 constants, 19 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 3.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
 fn sh5_of_order_3_hsh_extend_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 25> {
@@ -772,6 +791,7 @@ fn sh5_of_order_3_hsh_extend_rgb(c: array<vec3<f32>, 9>) -> array<vec3<f32>, 25>
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 216 (36 mul, 0 add, 180 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_hsh_y_lobe(beta: f32, c: array<f32, 25>) -> array<f32, 25> {
@@ -876,6 +896,7 @@ fn sh5_hsh_y_lobe(beta: f32, c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 648 (108 mul, 0 add, 540 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -981,6 +1002,7 @@ fn sh5_hsh_y_lobe_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 216 (36 mul, 0 add, 180 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh5_hsh_y_record(beta: f32, c: array<f32, 25>) -> array<f32, 25> {
@@ -1086,6 +1108,7 @@ fn sh5_hsh_y_record(beta: f32, c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 648 (108 mul, 0 add, 540 fma); 80 constants, 37 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh5_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1190,6 +1213,7 @@ fn sh5_hsh_y_record_rgb(beta: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 289 (39 mul, 0 add, 250 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh5_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1329,6 +1353,7 @@ fn sh5_hsh_tilt_lobe(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 857 (111 mul, 0 add, 746 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.3e-7).
 fn sh5_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1470,6 +1495,7 @@ fn sh5_hsh_tilt_lobe_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f3
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 289 (39 mul, 0 add, 250 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh5_hsh_tilt_record(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1611,6 +1637,7 @@ fn sh5_hsh_tilt_record(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the rotated hemispherical coefficients.
 // Operations: 857 (111 mul, 0 add, 746 fma); 82 constants, 46 live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 3e-6 of the norm of the coefficients, for an angle up to 10 degrees
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh5_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1751,6 +1778,7 @@ fn sh5_hsh_tilt_record_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 340 (99 mul, 4 add, 237 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.9e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.3e-7; not proven).
 fn sh5_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1904,6 +1932,7 @@ fn sh5_hsh_rotate_lobe(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 932 (251 mul, 4 add, 677 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.9e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 6.3e-7; not proven).
 fn sh5_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -2058,6 +2087,7 @@ fn sh5_hsh_rotate_lobe_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<
 // Returns the rotated hemispherical coefficients.
 // Operations: 340 (99 mul, 4 add, 237 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh5_hsh_rotate_record(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -2212,6 +2242,7 @@ fn sh5_hsh_rotate_record(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated hemispherical coefficients.
 // Operations: 932 (251 mul, 4 add, 677 fma) and 1 inverse square root or reciprocal; 83 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 1.8e-6 of the norm of the coefficients, for an angle up to 10 degrees (3
 //     times the worst of 256 measured, 5.8e-7; not proven).
 fn sh5_hsh_rotate_record_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {

@@ -10,6 +10,7 @@
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 35 (13 mul, 0 add, 22 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh5_to_irradiance(c: array<f32, 25>) -> array<f32, 18> {
@@ -47,6 +48,7 @@ fn sh5_to_irradiance(c: array<f32, 25>) -> array<f32, 18> {
 // Returns the coefficients of the monomials of the degrees d = 0, 1, 2, 4, one after the other: y^d, x
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Operations: 105 (39 mul, 0 add, 66 fma); 20 constants, 18 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 4e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.3e-8).
 fn sh5_to_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 18> {
@@ -85,6 +87,7 @@ fn sh5_to_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 18> {
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 20 (3 mul, 0 add, 17 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 fn sh5_irradiance_prepared(dir: vec3<f32>, c: array<f32, 18>) -> f32 {
@@ -102,6 +105,7 @@ fn sh5_irradiance_prepared(dir: vec3<f32>, c: array<f32, 18>) -> f32 {
 //     y^(d-1), ..., x^d, then z times those of degree d-1.
 // Returns the irradiance.
 // Operations: 58 (7 mul, 0 add, 51 fma); 0 constants, 5 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 8.2e-7 of the norm of the coefficients, for dir of unit length (proven
 //     for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 fn sh5_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 18>) -> vec3<f32> {
@@ -117,6 +121,7 @@ fn sh5_irradiance_prepared_rgb(dir: vec3<f32>, c: array<vec3<f32>, 18>) -> vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 11 (4 mul, 0 add, 7 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_to_h4_coefficients(c: array<f32, 25>) -> array<f32, 4> {
@@ -134,6 +139,7 @@ fn sh5_to_h4_coefficients(c: array<f32, 25>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 33 (12 mul, 0 add, 21 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_to_h4_coefficients_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 4> {
@@ -152,6 +158,7 @@ fn sh5_to_h4_coefficients_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h4_coefficients_monomial(c: array<f32, 25>) -> array<f32, 4> {
@@ -170,6 +177,7 @@ fn sh5_to_h4_coefficients_monomial(c: array<f32, 25>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h4_coefficients_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 4> {
@@ -187,6 +195,7 @@ fn sh5_to_h4_coefficients_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 11 (4 mul, 0 add, 7 fma); 7 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h4_coefficients_irradiance(c: array<f32, 25>) -> array<f32, 4> {
@@ -204,6 +213,7 @@ fn sh5_to_h4_coefficients_irradiance(c: array<f32, 25>) -> array<f32, 4> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 4 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 33 (12 mul, 0 add, 21 fma); 7 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h4_coefficients_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 4> {
@@ -221,6 +231,7 @@ fn sh5_to_h4_coefficients_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 12 (4 mul, 0 add, 8 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.2e-8).
 fn sh5_to_h4_coefficients_irradiance_monomial(c: array<f32, 25>) -> array<f32, 4> {
@@ -238,6 +249,7 @@ fn sh5_to_h4_coefficients_irradiance_monomial(c: array<f32, 25>) -> array<f32, 4
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x.
 // Operations: 36 (12 mul, 0 add, 24 fma); 8 constants, 4 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.2e-8).
 fn sh5_to_h4_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 4> {
@@ -255,6 +267,7 @@ fn sh5_to_h4_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 25>) -> ar
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 13 (6 mul, 0 add, 7 fma); 9 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_to_h6_coefficients(c: array<f32, 25>) -> array<f32, 6> {
@@ -274,6 +287,7 @@ fn sh5_to_h6_coefficients(c: array<f32, 25>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 39 (18 mul, 0 add, 21 fma); 9 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.7e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh5_to_h6_coefficients_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 6> {
@@ -294,6 +308,7 @@ fn sh5_to_h6_coefficients_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h6_coefficients_monomial(c: array<f32, 25>) -> array<f32, 6> {
@@ -314,6 +329,7 @@ fn sh5_to_h6_coefficients_monomial(c: array<f32, 25>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 42 (18 mul, 0 add, 24 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.9e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h6_coefficients_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 6> {
@@ -333,6 +349,7 @@ fn sh5_to_h6_coefficients_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f3
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 13 (6 mul, 0 add, 7 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h6_coefficients_irradiance(c: array<f32, 25>) -> array<f32, 6> {
@@ -352,6 +369,7 @@ fn sh5_to_h6_coefficients_irradiance(c: array<f32, 25>) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the 6 coefficients of the H-basis, of -y, 2z-1 and -x from index 1 on.
 // Operations: 39 (18 mul, 0 add, 21 fma); 7 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.7e-8).
 fn sh5_to_h6_coefficients_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 6> {
@@ -371,6 +389,7 @@ fn sh5_to_h6_coefficients_irradiance_rgb(c: array<vec3<f32>, 25>) -> array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 14 (6 mul, 0 add, 8 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 fn sh5_to_h6_coefficients_irradiance_monomial(c: array<f32, 25>) -> array<f32, 6> {
@@ -390,6 +409,7 @@ fn sh5_to_h6_coefficients_irradiance_monomial(c: array<f32, 25>) -> array<f32, 6
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of 1, y, z, x, xy, x^2-y^2.
 // Operations: 42 (18 mul, 0 add, 24 fma); 10 constants, 6 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 2.3e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 4.3e-8).
 fn sh5_to_h6_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 6> {
@@ -409,6 +429,7 @@ fn sh5_to_h6_coefficients_irradiance_monomial_rgb(c: array<vec3<f32>, 25>) -> ar
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 9.6e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 3.2e-7; not proven).
 fn sh5_window(mu: f32, c: array<f32, 25>) -> array<f32, 25> {
@@ -451,6 +472,7 @@ fn sh5_window(mu: f32, c: array<f32, 25>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the windowed coefficients.
 // Operations: 78 (78 mul, 0 add, 0 fma) and 1 special (power of two); 1 constants, 24 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 9.6e-7 of the norm of a band, for mu from 0 to 1 (3 times the worst of
 //     256 measured, 3.2e-7; not proven).
 fn sh5_window_rgb(mu: f32, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {

@@ -11,6 +11,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 11 (6 mul, 1 add, 3 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     8 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 fn sh5_cap(s: f32) -> array<f32, 5> {
@@ -34,6 +35,7 @@ fn sh5_cap(s: f32) -> array<f32, 5> {
 // Returns the zonal coefficients, one a band.
 // Operations: 78 (44 mul, 3 add, 24 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 36 constants, 11 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 fn sh5_gaussian(kappa: f32) -> array<f32, 5> {
@@ -85,6 +87,7 @@ fn sh5_gaussian(kappa: f32) -> array<f32, 5> {
 // Returns the zonal coefficients, one a band.
 // Operations: 66 (38 mul, 1 add, 20 fma, 7 min, max or select) and 2 inverse square roots or
 //     reciprocals; 31 constants, 11 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 fn sh5_gaussian_narrow(kappa: f32) -> array<f32, 5> {
@@ -130,6 +133,7 @@ fn sh5_gaussian_narrow(kappa: f32) -> array<f32, 5> {
 // Returns the zonal coefficients, one a band.
 // Operations: 18 (11 mul, 7 add, 0 fma) and 5 inverse square roots or reciprocals; 10 constants, 6
 //     live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 fn sh5_phong(s: f32) -> array<f32, 5> {
@@ -150,6 +154,7 @@ fn sh5_phong(s: f32) -> array<f32, 5> {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 7 (7 mul, 0 add, 0 fma); 5 constants, 4 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 1.8e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     5.9e-8; not proven).
 fn sh5_henyey_greenstein(g: f32) -> array<f32, 5> {
@@ -170,6 +175,7 @@ fn sh5_henyey_greenstein(g: f32) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 30 (30 mul, 0 add, 0 fma); 5 constants, 25 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 fn sh5_convolve(g: array<f32, 5>, c: array<f32, 25>) -> array<f32, 25> {
@@ -212,6 +218,7 @@ fn sh5_convolve(g: array<f32, 5>, c: array<f32, 25>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 80 (80 mul, 0 add, 0 fma); 5 constants, 25 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.2e-7).
 fn sh5_convolve_rgb(g: array<f32, 5>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -254,6 +261,7 @@ fn sh5_convolve_rgb(g: array<f32, 5>, c: array<vec3<f32>, 25>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh5_convolve_cosine(c: array<f32, 25>) -> array<f32, 25> {
@@ -292,6 +300,7 @@ fn sh5_convolve_cosine(c: array<f32, 25>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 54 (54 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh5_convolve_cosine_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -331,6 +340,7 @@ fn sh5_convolve_cosine_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3e-7).
@@ -359,6 +369,7 @@ fn sh5_irradiance(dir: vec3<f32>, c: array<f32, 25>) -> f32 {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 85 (23 mul, 0 add, 62 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3e-7).
@@ -387,6 +398,7 @@ fn sh5_irradiance_rgb(dir: vec3<f32>, c: array<vec3<f32>, 25>) -> vec3<f32> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 68 (32 mul, 0 add, 36 fma); 22 constants, 29 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.7e-7).
@@ -447,6 +459,7 @@ fn sh5_light_directional(dir: vec3<f32>, light: f32, c: array<f32, 25>) -> array
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 118 (32 mul, 0 add, 86 fma); 22 constants, 29 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.7e-7).
@@ -509,6 +522,7 @@ fn sh5_light_directional_rgb(dir: vec3<f32>, light: vec3<f32>, c: array<vec3<f32
 // Returns the coefficients with the light added.
 // Operations: 80 (39 mul, 1 add, 39 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 26 constants, 30 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -577,6 +591,7 @@ fn sh5_light_sphere(dir: vec3<f32>, s: f32, light: f32, c: array<f32, 25>) -> ar
 // Returns the coefficients with the light added.
 // Operations: 138 (47 mul, 1 add, 89 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 26 constants, 30 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 5.5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.9e-7;
 //     not proven).
@@ -643,6 +658,7 @@ fn sh5_light_sphere_rgb(dir: vec3<f32>, s: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 80 (40 mul, 2 add, 38 fma); 27 constants, 30 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.3e-7;
 //     not proven).
@@ -709,6 +725,7 @@ fn sh5_light_cone(dir: vec3<f32>, cos: f32, light: f32, c: array<f32, 25>) -> ar
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 138 (48 mul, 2 add, 88 fma); 27 constants, 30 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.3e-7;
 //     not proven).
@@ -776,6 +793,7 @@ fn sh5_light_cone_rgb(dir: vec3<f32>, cos: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -819,6 +837,7 @@ fn sh5_light_hemisphere(dir: vec3<f32>, top: f32, bottom: f32, c: array<f32, 25>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -862,6 +881,7 @@ fn sh5_light_hemisphere_rgb(dir: vec3<f32>, top: vec3<f32>, bottom: vec3<f32>, c
 // Returns the coefficients with the light added.
 // Operations: 147 (77 mul, 3 add, 60 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 55 constants, 32 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     4.5e-7; not proven).
@@ -958,6 +978,7 @@ fn sh5_light_gaussian(dir: vec3<f32>, kappa: f32, light: f32, c: array<f32, 25>)
 // Returns the coefficients with the light added.
 // Operations: 205 (85 mul, 3 add, 110 fma, 7 min, max or select) and 3 special (reciprocal, power of
 //     two); 55 constants, 32 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 1.4e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     4.5e-7; not proven).
@@ -1052,6 +1073,7 @@ fn sh5_light_gaussian_rgb(dir: vec3<f32>, kappa: f32, light: vec3<f32>, c: array
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.6e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.2e-7; not proven).
 fn sh5_dominant(c: array<f32, 25>) -> vec3<f32> {
@@ -1071,6 +1093,7 @@ fn sh5_dominant(c: array<f32, 25>) -> vec3<f32> {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 56 (23 mul, 0 add, 30 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 24 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.5e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 4.9e-7; not proven).
 fn sh5_light_fit(c: array<f32, 25>) -> array<f32, 5> {
@@ -1110,6 +1133,7 @@ fn sh5_light_fit(c: array<f32, 25>) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.4e-7).
@@ -1142,6 +1166,7 @@ fn sh5_light_fit_along(dir: vec3<f32>, c: array<f32, 25>) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 91 (29 mul, 0 add, 62 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.4e-7).

@@ -8,6 +8,7 @@
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 751 (131 mul, 7 add, 613 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 fn sh5_product(a: array<f32, 25>, b: array<f32, 25>) -> array<f32, 25> {
@@ -277,6 +278,7 @@ fn sh5_product(a: array<f32, 25>, b: array<f32, 25>) -> array<f32, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2253 (393 mul, 21 add, 1839 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 256 and memory for 205 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 fn sh5_product_rgb(a: array<vec3<f32>, 25>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -546,6 +548,7 @@ fn sh5_product_rgb(a: array<vec3<f32>, 25>, b: array<vec3<f32>, 25>) -> array<ve
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 174 (60 mul, 3 add, 111 fma); 22 constants, 28 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 1.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.5e-8; not proven).
 fn sh5_of_sh2_and_sh5_product(a: array<f32, 4>, b: array<f32, 25>) -> array<f32, 25> {
@@ -626,6 +629,7 @@ fn sh5_of_sh2_and_sh5_product(a: array<f32, 4>, b: array<f32, 25>) -> array<f32,
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 522 (180 mul, 9 add, 333 fma); 22 constants, 28 live values.
+// Vector registers on RDNA 2: 256 and memory for 20 more.
 // Error: f32 rounding at most 1.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.5e-8; not proven).
 fn sh5_of_sh2_and_sh5_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -705,6 +709,7 @@ fn sh5_of_sh2_and_sh5_product_rgb(a: array<vec3<f32>, 4>, b: array<vec3<f32>, 25
 // a: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 467 (106 mul, 10 add, 351 fma); 111 constants, 48 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 fn sh5_square(a: array<f32, 25>) -> array<f32, 25> {
@@ -888,6 +893,7 @@ fn sh5_square(a: array<f32, 25>) -> array<f32, 25> {
 // a: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1401 (318 mul, 30 add, 1053 fma); 111 constants, 48 live values.
+// Vector registers on RDNA 2: 256 and memory for 92 more.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 6.9e-8; not proven).
 fn sh5_square_rgb(a: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1072,6 +1078,7 @@ fn sh5_square_rgb(a: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 25 (1 mul, 0 add, 24 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 3.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 fn sh5_dot(a: array<f32, 25>, b: array<f32, 25>) -> f32 {
@@ -1088,6 +1095,7 @@ fn sh5_dot(a: array<f32, 25>, b: array<f32, 25>) -> f32 {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 75 (3 mul, 0 add, 72 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 3.4e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 1.2e-7; not proven).
 fn sh5_dot_rgb(a: array<vec3<f32>, 25>, b: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -1104,6 +1112,7 @@ fn sh5_dot_rgb(a: array<vec3<f32>, 25>, b: array<vec3<f32>, 25>) -> vec3<f32> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 751 (131 mul, 7 add, 613 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 fn sh5_product_grey(a: array<f32, 25>, b: array<f32, 25>) -> array<f32, 25> {
@@ -1373,6 +1382,7 @@ fn sh5_product_grey(a: array<f32, 25>, b: array<f32, 25>) -> array<f32, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2049 (329 mul, 21 add, 1699 fma); 97 constants, 60 live values.
+// Vector registers on RDNA 2: 256 and memory for 104 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 5.5e-8; not proven).
 fn sh5_product_grey_rgb(a: array<f32, 25>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1642,6 +1652,7 @@ fn sh5_product_grey_rgb(a: array<f32, 25>, b: array<vec3<f32>, 25>) -> array<vec
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 143 (44 mul, 0 add, 99 fma); 45 constants, 26 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 9.8e-8 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.3e-8; not proven).
 fn sh5_product_zonal(g: array<f32, 5>, b: array<f32, 25>) -> array<f32, 25> {
@@ -1711,6 +1722,7 @@ fn sh5_product_zonal(g: array<f32, 5>, b: array<f32, 25>) -> array<f32, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 429 (132 mul, 0 add, 297 fma); 45 constants, 26 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 9.8e-8 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.3e-8; not proven).
 fn sh5_product_zonal_rgb(g: array<vec3<f32>, 5>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1782,6 +1794,7 @@ fn sh5_product_zonal_rgb(g: array<vec3<f32>, 5>, b: array<vec3<f32>, 25>) -> arr
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 429 (142 mul, 3 add, 284 fma) and 1 inverse square root or reciprocal; 62 constants, 54
 //     live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 9.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 3.3e-7; not proven).
 fn sh5_product_zonal_about(dir: vec3<f32>, g: array<f32, 5>, b: array<f32, 25>) -> array<f32, 25> {
@@ -2017,6 +2030,7 @@ fn sh5_product_zonal_about(dir: vec3<f32>, g: array<f32, 5>, b: array<f32, 25>) 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1231 (390 mul, 7 add, 834 fma) and 1 inverse square root or reciprocal; 62 constants, 54
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more.
 // Error: f32 rounding at most 9.9e-7 of the product of both factors' norms, for every dir of unit
 //     length (3 times the worst of 256 measured, 3.3e-7; not proven).
 fn sh5_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 5>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -2252,6 +2266,7 @@ fn sh5_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 5>, b: array<
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 401 (124 mul, 2 add, 275 fma); 59 constants, 37 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.6e-8; not proven).
 fn sh5_product_zonal_about_angles(cs: array<vec2<f32>, 9>, g: array<f32, 5>, b: array<f32, 25>) -> array<f32, 25> {
@@ -2463,6 +2478,7 @@ fn sh5_product_zonal_about_angles(cs: array<vec2<f32>, 9>, g: array<f32, 5>, b: 
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1203 (372 mul, 6 add, 825 fma); 59 constants, 37 live values.
+// Vector registers on RDNA 2: 256 and memory for 8 more.
 // Error: f32 rounding at most 1.7e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 5.6e-8; not proven).
 fn sh5_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 9>, g: array<vec3<f32>, 5>, b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -2671,6 +2687,7 @@ fn sh5_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 9>, g: array<vec3<f32
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 77 (25 mul, 0 add, 52 fma); 30 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 fn sh5_product_cosine(b: array<f32, 25>) -> array<f32, 25> {
@@ -2709,6 +2726,7 @@ fn sh5_product_cosine(b: array<f32, 25>) -> array<f32, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 231 (75 mul, 0 add, 156 fma); 30 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 2.7e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.1e-8).
 fn sh5_product_cosine_rgb(b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -2747,6 +2765,7 @@ fn sh5_product_cosine_rgb(b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 65 (25 mul, 0 add, 40 fma); 14 constants, 25 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh5_product_hemisphere(b: array<f32, 25>) -> array<f32, 25> {
@@ -2784,6 +2803,7 @@ fn sh5_product_hemisphere(b: array<f32, 25>) -> array<f32, 25> {
 // b: the coefficients of a function of order 5, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 195 (75 mul, 0 add, 120 fma); 14 constants, 25 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-8).
 fn sh5_product_hemisphere_rgb(b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -2823,6 +2843,7 @@ fn sh5_product_hemisphere_rgb(b: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 31 (18 mul, 2 add, 11 fma) and 1 inverse square root or reciprocal; 2 constants, 17 live
 //     values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.4e-7).
 fn sh5_axis_angles(dir: vec3<f32>) -> array<vec2<f32>, 9> {

@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 224 (89 mul, 6 add, 129 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
 fn sh5_rotate(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -156,6 +157,7 @@ fn sh5_rotate(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated coefficients.
 // Operations: 562 (209 mul, 8 add, 345 fma) and 1 inverse square root or reciprocal; 15 constants, 46
 //     live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 8.1e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
 fn sh5_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -302,6 +304,7 @@ fn sh5_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25>
 // Returns the rotated coefficients.
 // Operations: 264 (137 mul, 7 add, 120 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 //     live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -393,6 +396,7 @@ fn sh5_rotate_loop(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated coefficients.
 // Operations: 680 (353 mul, 7 add, 320 fma) and 1 inverse square root or reciprocal; 44 constants, 64
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -482,6 +486,7 @@ fn sh5_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 206 (80 mul, 3 add, 123 fma); 15 constants, 42 live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh5_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 25>) -> array<f32, 25> {
@@ -610,6 +615,7 @@ fn sh5_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 25>) -> array<f32, 25
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 544 (200 mul, 5 add, 339 fma); 15 constants, 42 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh5_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -740,6 +746,7 @@ fn sh5_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 25>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 26 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 6.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.5e-7).
 fn sh5_angles(q: vec4<f32>) -> array<vec2<f32>, 13> {
@@ -798,6 +805,7 @@ fn sh5_angles(q: vec4<f32>) -> array<vec2<f32>, 13> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
+// Vector registers on RDNA 2: 80; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 fn sh5_rotate_angles(cs: array<vec2<f32>, 13>, c: array<f32, 25>) -> array<f32, 25> {
@@ -905,6 +913,7 @@ fn sh5_rotate_angles(cs: array<vec2<f32>, 13>, c: array<f32, 25>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 507 (180 mul, 3 add, 324 fma); 14 constants, 30 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 fn sh5_rotate_angles_rgb(cs: array<vec2<f32>, 13>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1014,6 +1023,7 @@ fn sh5_rotate_angles_rgb(cs: array<vec2<f32>, 13>, c: array<vec3<f32>, 25>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 122 (66 mul, 6 add, 50 fma) and 4 inverse square roots or reciprocals; 27 constants, 57
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.7e-5 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 8.9e-7).
 fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
@@ -1093,6 +1103,7 @@ fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
+// Vector registers on RDNA 2: 112; in pieces 112.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh5_rotate_lifted(cs: array<vec2<f32>, 28>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1176,6 +1187,7 @@ fn sh5_rotate_lifted(cs: array<vec2<f32>, 28>, c: array<f32, 25>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 420 (120 mul, 0 add, 300 fma); 0 constants, 28 live values.
+// Vector registers on RDNA 2: 208; in pieces 128.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh5_rotate_lifted_rgb(cs: array<vec2<f32>, 28>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1258,6 +1270,7 @@ fn sh5_rotate_lifted_rgb(cs: array<vec2<f32>, 28>, c: array<vec3<f32>, 25>) -> a
 // Returns the rotated coefficients.
 // Operations: 248 (121 mul, 6 add, 121 fma) and 1 inverse square root or reciprocal; 15 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 fn sh5_rotate_zxzxz(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1404,6 +1417,7 @@ fn sh5_rotate_zxzxz(q: vec4<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated coefficients.
 // Operations: 636 (309 mul, 6 add, 321 fma) and 1 inverse square root or reciprocal; 15 constants, 47
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 7.3e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.3e-7).
 fn sh5_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1549,6 +1563,7 @@ fn sh5_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 160 (58 mul, 3 add, 99 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
+// Vector registers on RDNA 2: 72; in pieces 48.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 fn sh5_rotate_align(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1662,6 +1677,7 @@ fn sh5_rotate_align(n: vec3<f32>, c: array<f32, 25>) -> array<f32, 25> {
 // Returns the rotated coefficients.
 // Operations: 418 (138 mul, 5 add, 275 fma) and 1 inverse square root or reciprocal; 15 constants, 44
 //     live values.
+// Vector registers on RDNA 2: 176; in pieces 128.
 // Error: f32 rounding at most 4.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 4.7e-7).
 fn sh5_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -1774,6 +1790,7 @@ fn sh5_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 25>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 64 (53 mul, 0 add, 11 fma); 19 constants, 28 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh5_rotate_zonal(dir: vec3<f32>, c: array<f32, 5>) -> array<f32, 25> {
@@ -1829,6 +1846,7 @@ fn sh5_rotate_zonal(dir: vec3<f32>, c: array<f32, 5>) -> array<f32, 25> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 112 (101 mul, 0 add, 11 fma); 19 constants, 28 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh5_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 5>) -> array<vec3<f32>, 25> {

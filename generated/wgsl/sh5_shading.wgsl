@@ -9,6 +9,7 @@
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 164 (24 mul, 0 add, 140 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh5_isd_matrix(lambda: array<f32, 25>) -> array<f32, 25> {
@@ -77,6 +78,7 @@ fn sh5_isd_matrix(lambda: array<f32, 25>) -> array<f32, 25> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the coefficients, index l(l+1)+m.
 // Operations: 492 (72 mul, 0 add, 420 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 9.9e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-7).
 fn sh5_isd_matrix_rgb(lambda: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -144,6 +146,7 @@ fn sh5_isd_matrix_rgb(lambda: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 164 (24 mul, 0 add, 140 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 56.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh5_isd_weights(c: array<f32, 25>) -> array<f32, 25> {
@@ -202,6 +205,7 @@ fn sh5_isd_weights(c: array<f32, 25>) -> array<f32, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Operations: 492 (72 mul, 0 add, 420 fma); 164 constants, 24 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 1.3e-6 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh5_isd_weights_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
@@ -263,6 +267,7 @@ fn sh5_isd_weights_rgb(c: array<vec3<f32>, 25>) -> array<vec3<f32>, 25> {
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 631 (307 mul, 0 add, 324 fma); 48 constants, 83 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.7e-7; not proven).
 fn sh5_isd_shade(q: vec4<f32>, e: array<f32, 25>, lambda: array<f32, 25>) -> f32 {
@@ -496,6 +501,7 @@ fn sh5_isd_shade(q: vec4<f32>, e: array<f32, 25>, lambda: array<f32, 25>) -> f32
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 1009 (357 mul, 0 add, 652 fma); 48 constants, 83 live values.
+// Vector registers on RDNA 2: 192.
 // Error: f32 rounding at most 5e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.7e-7; not proven).
 fn sh5_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, lambda: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -731,6 +737,7 @@ fn sh5_isd_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, lambda: array<vec3<f
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 122 (41 mul, 0 add, 81 fma); 34 constants, 27 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 8.6e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.9e-7; not proven).
 fn sh5_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, lambda: array<f32, 25>) -> f32 {
@@ -787,6 +794,7 @@ fn sh5_isd_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, lambda: a
 // lambda: the weights, 2l+1 for band l from l^2 on, in the order of the directions.
 // Returns the integral of the light times the reflectance.
 // Operations: 180 (51 mul, 0 add, 129 fma); 34 constants, 27 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 8.6e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.9e-7; not proven).
 fn sh5_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, lambda: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -841,6 +849,7 @@ fn sh5_isd_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, lambd
 // Returns the integral of the light times the reflectance.
 // Operations: 241 (82 mul, 10 add, 149 fma) and 1 inverse square root or reciprocal; 15 constants, 48
 //     live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh5_shade(q: vec4<f32>, e: array<f32, 25>, c: array<f32, 25>) -> f32 {
@@ -967,6 +976,7 @@ fn sh5_shade(q: vec4<f32>, e: array<f32, 25>, c: array<f32, 25>) -> f32 {
 // Returns the integral of the light times the reflectance.
 // Operations: 613 (188 mul, 20 add, 405 fma) and 1 inverse square root or reciprocal; 15 constants, 48
 //     live values.
+// Vector registers on RDNA 2: 216.
 // Error: f32 rounding at most 4.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.5e-7; not proven).
 fn sh5_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, c: array<vec3<f32>, 25>) -> vec3<f32> {
@@ -1094,6 +1104,7 @@ fn sh5_shade_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, c: array<vec3<f32>, 25>)
 // Returns the integral of the light times the reflectance.
 // Operations: 219 (80 mul, 9 add, 130 fma) and 1 inverse square root or reciprocal; 15 constants, 43
 //     live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 5.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.8e-7; not proven).
 fn sh5_shade_isotropic(q: vec4<f32>, e: array<f32, 25>, c: array<f32, 15>) -> f32 {
@@ -1206,6 +1217,7 @@ fn sh5_shade_isotropic(q: vec4<f32>, e: array<f32, 25>, c: array<f32, 15>) -> f3
 // Returns the integral of the light times the reflectance.
 // Operations: 547 (182 mul, 17 add, 348 fma) and 1 inverse square root or reciprocal; 15 constants, 43
 //     live values.
+// Vector registers on RDNA 2: 184.
 // Error: f32 rounding at most 5.3e-7 of the product of both factors' norms, for every unit q (3 times
 //     the worst of 256 measured, 1.8e-7; not proven).
 fn sh5_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, c: array<vec3<f32>, 15>) -> vec3<f32> {
@@ -1318,6 +1330,7 @@ fn sh5_shade_isotropic_rgb(q: vec4<f32>, e: array<vec3<f32>, 25>, c: array<vec3<
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 89 (40 mul, 0 add, 49 fma); 21 constants, 11 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 7.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.4e-7; not proven).
 fn sh5_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, c: array<f32, 25>) -> f32 {
@@ -1359,6 +1372,7 @@ fn sh5_shade_zonal(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, c: array<f32,
 // c: the coefficients of the reflectance times the cosine in the local frame, index l(l+1)+m.
 // Returns the integral of the light times the reflectance.
 // Operations: 169 (72 mul, 0 add, 97 fma); 21 constants, 11 live values.
+// Vector registers on RDNA 2: 104.
 // Error: f32 rounding at most 7.1e-7 of the product of both factors' norms, for every unit q, for dir
 //     of unit length (3 times the worst of 256 measured, 2.4e-7; not proven).
 fn sh5_shade_zonal_rgb(q: vec4<f32>, dir: vec3<f32>, g: array<f32, 5>, c: array<vec3<f32>, 25>) -> vec3<f32> {

@@ -11,6 +11,7 @@
 // Returns the zonal coefficients, one a band.
 // Operations: 14 (7 mul, 1 add, 5 fma, 1 min, max or select) and 2 special (square root, reciprocal);
 //     11 constants, 7 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 4.5e-7 of one, for s from 0 to 1.25 (3 times the worst of 256 measured,
 //     1.5e-7; not proven).
 fn sh6_cap(s: f32) -> array<f32, 6> {
@@ -36,6 +37,7 @@ fn sh6_cap(s: f32) -> array<f32, 6> {
 // Returns the zonal coefficients, one a band.
 // Operations: 85 (49 mul, 3 add, 25 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 39 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1.4e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 4.5e-7; not proven).
 fn sh6_gaussian(kappa: f32) -> array<f32, 6> {
@@ -90,6 +92,7 @@ fn sh6_gaussian(kappa: f32) -> array<f32, 6> {
 // Returns the zonal coefficients, one a band.
 // Operations: 73 (43 mul, 1 add, 21 fma, 8 min, max or select) and 2 inverse square roots or
 //     reciprocals; 34 constants, 12 live values.
+// Vector registers on RDNA 2: 24.
 // Error: f32 rounding at most 1e-6 of one, for kappa from 0 to 100000 (3 times the worst of 256
 //     measured, 3.4e-7; not proven).
 fn sh6_gaussian_narrow(kappa: f32) -> array<f32, 6> {
@@ -138,6 +141,7 @@ fn sh6_gaussian_narrow(kappa: f32) -> array<f32, 6> {
 // Returns the zonal coefficients, one a band.
 // Operations: 23 (14 mul, 9 add, 0 fma) and 6 inverse square roots or reciprocals; 12 constants, 7
 //     live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 6.3e-7 of one, for s from 0 to 10000 (3 times the worst of 256 measured,
 //     2.1e-7; not proven).
 fn sh6_phong(s: f32) -> array<f32, 6> {
@@ -160,6 +164,7 @@ fn sh6_phong(s: f32) -> array<f32, 6> {
 // g: the mean cosine, from -1 (all backward) to 1 (all forward).
 // Returns the zonal coefficients, one a band.
 // Operations: 9 (9 mul, 0 add, 0 fma); 6 constants, 5 live values.
+// Vector registers on RDNA 2: 16.
 // Error: f32 rounding at most 2.2e-7 of one, for g from -1 to 1 (3 times the worst of 256 measured,
 //     7.3e-8; not proven).
 fn sh6_henyey_greenstein(g: f32) -> array<f32, 6> {
@@ -182,6 +187,7 @@ fn sh6_henyey_greenstein(g: f32) -> array<f32, 6> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 42 (42 mul, 0 add, 0 fma); 6 constants, 36 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 fn sh6_convolve(g: array<f32, 6>, c: array<f32, 36>) -> array<f32, 36> {
@@ -236,6 +242,7 @@ fn sh6_convolve(g: array<f32, 6>, c: array<f32, 36>) -> array<f32, 36> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the convolved coefficients.
 // Operations: 114 (114 mul, 0 add, 0 fma); 6 constants, 36 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 5.4e-7 of the norm of a band, for g of at most one each (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 fn sh6_convolve_rgb(g: array<f32, 6>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -290,6 +297,7 @@ fn sh6_convolve_rgb(g: array<f32, 6>, c: array<vec3<f32>, 36>) -> array<vec3<f32
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 18 (18 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh6_convolve_cosine(c: array<f32, 36>) -> array<f32, 36> {
@@ -339,6 +347,7 @@ fn sh6_convolve_cosine(c: array<f32, 36>) -> array<f32, 36> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients of the irradiance.
 // Operations: 54 (54 mul, 0 add, 0 fma); 5 constants, 18 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.8e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh6_convolve_cosine_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -389,6 +398,7 @@ fn sh6_convolve_cosine_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 45 (17 mul, 0 add, 28 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
@@ -417,6 +427,7 @@ fn sh6_irradiance(dir: vec3<f32>, c: array<f32, 36>) -> f32 {
 // c: the coefficients, index l(l+1)+m.
 // Returns the irradiance.
 // Operations: 85 (23 mul, 0 add, 62 fma); 19 constants, 7 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.3e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     4.2e-7).
@@ -445,6 +456,7 @@ fn sh6_irradiance_rgb(dir: vec3<f32>, c: array<vec3<f32>, 36>) -> vec3<f32> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 101 (46 mul, 0 add, 55 fma); 34 constants, 45 live values.
+// Vector registers on RDNA 2: 112.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
@@ -527,6 +539,7 @@ fn sh6_light_directional(dir: vec3<f32>, light: f32, c: array<f32, 36>) -> array
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 173 (46 mul, 0 add, 127 fma); 34 constants, 45 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 1.7e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 3.1e-7).
@@ -611,6 +624,7 @@ fn sh6_light_directional_rgb(dir: vec3<f32>, light: vec3<f32>, c: array<vec3<f32
 // Returns the coefficients with the light added.
 // Operations: 117 (55 mul, 1 add, 60 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 41 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
@@ -703,6 +717,7 @@ fn sh6_light_sphere(dir: vec3<f32>, s: f32, light: f32, c: array<f32, 36>) -> ar
 // Returns the coefficients with the light added.
 // Operations: 199 (65 mul, 1 add, 132 fma, 1 min, max or select) and 2 special (square root,
 //     reciprocal); 41 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 6 more.
 // Error: f32 rounding at most 5e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for s from 0 to 1.25 (3 times the worst of 256 measured, 1.7e-7;
 //     not proven).
@@ -793,6 +808,7 @@ fn sh6_light_sphere_rgb(dir: vec3<f32>, s: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 117 (56 mul, 2 add, 59 fma); 42 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
@@ -883,6 +899,7 @@ fn sh6_light_cone(dir: vec3<f32>, cos: f32, light: f32, c: array<f32, 36>) -> ar
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 199 (66 mul, 2 add, 131 fma); 42 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 5 more.
 // Error: f32 rounding at most 1.5e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for cos from -1 to 1 (3 times the worst of 256 measured, 4.8e-7;
 //     not proven).
@@ -974,6 +991,7 @@ fn sh6_light_cone_rgb(dir: vec3<f32>, cos: f32, light: vec3<f32>, c: array<vec3<
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 7 (1 mul, 2 add, 4 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -1028,6 +1046,7 @@ fn sh6_light_hemisphere(dir: vec3<f32>, top: f32, bottom: f32, c: array<f32, 36>
 // c: the coefficients, index l(l+1)+m.
 // Returns the coefficients with the light added.
 // Operations: 21 (3 mul, 6 add, 12 fma); 2 constants, 4 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 8e-7 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256
 //     measured is 2.6e-7).
@@ -1082,6 +1101,7 @@ fn sh6_light_hemisphere_rgb(dir: vec3<f32>, top: vec3<f32>, bottom: vec3<f32>, c
 // Returns the coefficients with the light added.
 // Operations: 188 (97 mul, 3 add, 80 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 69 constants, 43 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
@@ -1203,6 +1223,7 @@ fn sh6_light_gaussian(dir: vec3<f32>, kappa: f32, light: f32, c: array<f32, 36>)
 // Returns the coefficients with the light added.
 // Operations: 270 (107 mul, 3 add, 152 fma, 8 min, max or select) and 3 special (reciprocal, power of
 //     two); 69 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 7 more.
 // Error: f32 rounding at most 1.9e-6 of the norm of a band, which is one, as is the size of what is
 //     added, for dir of unit length, for kappa from 0 to 100000 (3 times the worst of 256 measured,
 //     6.1e-7; not proven).
@@ -1322,6 +1343,7 @@ fn sh6_light_gaussian_rgb(dir: vec3<f32>, kappa: f32, light: vec3<f32>, c: array
 // Returns the direction, of unit length.
 // Operations: 9 (4 mul, 0 add, 2 fma, 3 min, max or select) and 1 inverse square root or reciprocal; 3
 //     constants, 4 live values.
+// Vector registers on RDNA 2: 8.
 // Error: f32 rounding at most 3.8e-7 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 1.3e-7; not proven).
 fn sh6_dominant(c: array<f32, 36>) -> vec3<f32> {
@@ -1341,6 +1363,7 @@ fn sh6_dominant(c: array<f32, 36>) -> vec3<f32> {
 // Returns the direction x, y, z of unit length, the light's irradiance, the ambient radiance.
 // Operations: 56 (23 mul, 0 add, 30 fma, 3 min, max or select) and 1 inverse square root or
 //     reciprocal; 24 constants, 10 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of one, for c with each band of norm one (3 times the worst of
 //     256 measured, 5.4e-7; not proven).
 fn sh6_light_fit(c: array<f32, 36>) -> array<f32, 5> {
@@ -1380,6 +1403,7 @@ fn sh6_light_fit(c: array<f32, 36>) -> array<f32, 5> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 47 (19 mul, 0 add, 28 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 40.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).
@@ -1412,6 +1436,7 @@ fn sh6_light_fit_along(dir: vec3<f32>, c: array<f32, 36>) -> array<f32, 2> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the light's irradiance, the ambient radiance.
 // Operations: 91 (29 mul, 0 add, 62 fma); 21 constants, 7 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 1.7e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 //     3.1e-7).

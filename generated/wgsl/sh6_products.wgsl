@@ -8,6 +8,7 @@
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 1370 (189 mul, 14 add, 1167 fma); 219 constants, 93 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4e-8; not proven).
 fn sh6_product(a: array<f32, 36>, b: array<f32, 36>) -> array<f32, 36> {
@@ -508,6 +509,7 @@ fn sh6_product(a: array<f32, 36>, b: array<f32, 36>) -> array<f32, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 4110 (567 mul, 42 add, 3501 fma); 219 constants, 93 live values.
+// Vector registers on RDNA 2: 256 and memory for 554 more.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 4e-8; not proven).
 fn sh6_product_rgb(a: array<vec3<f32>, 36>, b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1007,6 +1009,7 @@ fn sh6_product_rgb(a: array<vec3<f32>, 36>, b: array<vec3<f32>, 36>) -> array<ve
 // a: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 854 (156 mul, 20 add, 678 fma); 175 constants, 64 live values.
+// Vector registers on RDNA 2: 176.
 // Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 7.3e-8; not proven).
 fn sh6_square(a: array<f32, 36>) -> array<f32, 36> {
@@ -1305,6 +1308,7 @@ fn sh6_square(a: array<f32, 36>) -> array<f32, 36> {
 // a: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2562 (468 mul, 60 add, 2034 fma); 175 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 209 more.
 // Error: f32 rounding at most 2.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 7.3e-8; not proven).
 fn sh6_square_rgb(a: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1604,6 +1608,7 @@ fn sh6_square_rgb(a: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 36 (1 mul, 0 add, 35 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 6.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 2.3e-7; not proven).
 fn sh6_dot(a: array<f32, 36>, b: array<f32, 36>) -> f32 {
@@ -1621,6 +1626,7 @@ fn sh6_dot(a: array<f32, 36>, b: array<f32, 36>) -> f32 {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the integral of the product.
 // Operations: 108 (3 mul, 0 add, 105 fma); 0 constants, 1 live values.
+// Vector registers on RDNA 2: 224.
 // Error: f32 rounding at most 6.8e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 2.3e-7; not proven).
 fn sh6_dot_rgb(a: array<vec3<f32>, 36>, b: array<vec3<f32>, 36>) -> vec3<f32> {
@@ -1638,6 +1644,7 @@ fn sh6_dot_rgb(a: array<vec3<f32>, 36>, b: array<vec3<f32>, 36>) -> vec3<f32> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 256 (69 mul, 0 add, 187 fma); 82 constants, 37 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 fn sh6_product_zonal(g: array<f32, 6>, b: array<f32, 36>) -> array<f32, 36> {
@@ -1740,6 +1747,7 @@ fn sh6_product_zonal(g: array<f32, 6>, b: array<f32, 36>) -> array<f32, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 768 (207 mul, 0 add, 561 fma); 82 constants, 37 live values.
+// Vector registers on RDNA 2: 256 and memory for 119 more.
 // Error: f32 rounding at most 1.2e-7 of the product of both factors' norms, for every input (3 times
 //     the worst of 256 measured, 3.9e-8; not proven).
 fn sh6_product_zonal_rgb(g: array<vec3<f32>, 6>, b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1844,6 +1852,7 @@ fn sh6_product_zonal_rgb(g: array<vec3<f32>, 6>, b: array<vec3<f32>, 36>) -> arr
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 722 (211 mul, 3 add, 508 fma) and 1 inverse square root or reciprocal; 117 constants, 72
 //     live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 8e-7 of the product of both factors' norms, for every dir of unit length
 //     (3 times the worst of 256 measured, 2.7e-7; not proven).
 fn sh6_product_zonal_about(dir: vec3<f32>, g: array<f32, 6>, b: array<f32, 36>) -> array<f32, 36> {
@@ -2213,6 +2222,7 @@ fn sh6_product_zonal_about(dir: vec3<f32>, g: array<f32, 6>, b: array<f32, 36>) 
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2094 (589 mul, 7 add, 1498 fma) and 1 inverse square root or reciprocal; 117 constants,
 //     72 live values.
+// Vector registers on RDNA 2: 256 and memory for 150 more.
 // Error: f32 rounding at most 8e-7 of the product of both factors' norms, for every dir of unit length
 //     (3 times the worst of 256 measured, 2.7e-7; not proven).
 fn sh6_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 6>, b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -2582,6 +2592,7 @@ fn sh6_product_zonal_about_rgb(dir: vec3<f32>, g: array<vec3<f32>, 6>, b: array<
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 686 (189 mul, 2 add, 495 fma); 114 constants, 51 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 7e-8; not proven).
 fn sh6_product_zonal_about_angles(cs: array<vec2<f32>, 11>, g: array<f32, 6>, b: array<f32, 36>) -> array<f32, 36> {
@@ -2923,6 +2934,7 @@ fn sh6_product_zonal_about_angles(cs: array<vec2<f32>, 11>, g: array<f32, 6>, b:
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 2058 (567 mul, 6 add, 1485 fma); 114 constants, 51 live values.
+// Vector registers on RDNA 2: 256 and memory for 150 more.
 // Error: f32 rounding at most 2.1e-7 of the product of both factors' norms, for every angle (3 times
 //     the worst of 256 measured, 7e-8; not proven).
 fn sh6_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 11>, g: array<vec3<f32>, 6>, b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -3261,6 +3273,7 @@ fn sh6_product_zonal_about_angles_rgb(cs: array<vec2<f32>, 11>, g: array<vec3<f3
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 126 (36 mul, 0 add, 90 fma); 45 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh6_product_cosine(b: array<f32, 36>) -> array<f32, 36> {
@@ -3315,6 +3328,7 @@ fn sh6_product_cosine(b: array<f32, 36>) -> array<f32, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 378 (108 mul, 0 add, 270 fma); 45 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 17 more.
 // Error: f32 rounding at most 3e-7 of the norm of a band, for every input (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh6_product_cosine_rgb(b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -3369,6 +3383,7 @@ fn sh6_product_cosine_rgb(b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 106 (36 mul, 0 add, 70 fma); 23 constants, 36 live values.
+// Vector registers on RDNA 2: 88.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
 fn sh6_product_hemisphere(b: array<f32, 36>) -> array<f32, 36> {
@@ -3417,6 +3432,7 @@ fn sh6_product_hemisphere(b: array<f32, 36>) -> array<f32, 36> {
 // b: the coefficients of a function of order 6, index l(l+1)+m.
 // Returns the coefficients of the product, index l(l+1)+m.
 // Operations: 318 (108 mul, 0 add, 210 fma); 23 constants, 36 live values.
+// Vector registers on RDNA 2: 256 and memory for 14 more.
 // Error: f32 rounding at most 3.2e-7 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.6e-8).
 fn sh6_product_hemisphere_rgb(b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -3467,6 +3483,7 @@ fn sh6_product_hemisphere_rgb(b: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
 //     phi, sin ? sin phi, cos ?); last the pair (sin^2? / 2, sin ? cos ?).
 // Operations: 39 (22 mul, 2 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 21 live
 //     values.
+// Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 3.8e-6 of the norm of a band, for every dir of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 5.7e-7).
 fn sh6_axis_angles(dir: vec3<f32>) -> array<vec2<f32>, 11> {

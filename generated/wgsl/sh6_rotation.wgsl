@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 342 (125 mul, 6 add, 211 fma) and 1 inverse square root or reciprocal; 33 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 fn sh6_rotate(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
@@ -220,6 +221,7 @@ fn sh6_rotate(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
 // Returns the rotated coefficients.
 // Operations: 892 (305 mul, 8 add, 579 fma) and 1 inverse square root or reciprocal; 33 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 9.9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 fn sh6_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -430,6 +432,7 @@ fn sh6_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36>
 // Returns the rotated coefficients.
 // Operations: 398 (195 mul, 7 add, 196 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -525,6 +528,7 @@ fn sh6_rotate_loop(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
 // Returns the rotated coefficients.
 // Operations: 1058 (515 mul, 7 add, 536 fma) and 1 inverse square root or reciprocal; 75 constants, 83
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 34 more.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -618,6 +622,7 @@ fn sh6_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 324 (116 mul, 3 add, 205 fma); 33 constants, 59 live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh6_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 36>) -> array<f32, 36> {
@@ -810,6 +815,7 @@ fn sh6_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 36>) -> array<f32, 36
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 874 (296 mul, 5 add, 573 fma); 33 constants, 59 live values.
+// Vector registers on RDNA 2: 256 and memory for 26 more; in pieces 128.
 // Error: f32 rounding at most 3.6e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh6_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1004,6 +1010,7 @@ fn sh6_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 36>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 32 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 8e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
 fn sh6_angles(q: vec4<f32>) -> array<vec2<f32>, 16> {
@@ -1071,6 +1078,7 @@ fn sh6_angles(q: vec4<f32>) -> array<vec2<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
+// Vector registers on RDNA 2: 112; in pieces 80.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh6_rotate_angles(cs: array<vec2<f32>, 16>, c: array<f32, 36>) -> array<f32, 36> {
@@ -1236,6 +1244,7 @@ fn sh6_rotate_angles(cs: array<vec2<f32>, 16>, c: array<f32, 36>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 825 (270 mul, 3 add, 552 fma); 32 constants, 43 live values.
+// Vector registers on RDNA 2: 256 and memory for 29 more; in pieces 128.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh6_rotate_angles_rgb(cs: array<vec2<f32>, 16>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1403,6 +1412,7 @@ fn sh6_rotate_angles_rgb(cs: array<vec2<f32>, 16>, c: array<vec3<f32>, 36>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 215 (103 mul, 6 add, 106 fma) and 5 inverse square roots or reciprocals; 72 constants,
 //     92 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 2.2e-5 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 fn sh6_lifted(q: vec4<f32>) -> array<vec2<f32>, 45> {
@@ -1506,6 +1516,7 @@ fn sh6_lifted(q: vec4<f32>) -> array<vec2<f32>, 45> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
+// Vector registers on RDNA 2: 168; in pieces 168.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh6_rotate_lifted(cs: array<vec2<f32>, 45>, c: array<f32, 36>) -> array<f32, 36> {
@@ -1621,6 +1632,7 @@ fn sh6_rotate_lifted(cs: array<vec2<f32>, 45>, c: array<f32, 36>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 675 (180 mul, 0 add, 495 fma); 0 constants, 40 live values.
+// Vector registers on RDNA 2: 256 and memory for 55 more; in pieces 256.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh6_rotate_lifted_rgb(cs: array<vec2<f32>, 45>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -1735,6 +1747,7 @@ fn sh6_rotate_lifted_rgb(cs: array<vec2<f32>, 45>, c: array<vec3<f32>, 36>) -> a
 // Returns the rotated coefficients.
 // Operations: 382 (179 mul, 6 add, 197 fma) and 1 inverse square root or reciprocal; 28 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 fn sh6_rotate_zxzxz(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
@@ -1939,6 +1952,7 @@ fn sh6_rotate_zxzxz(q: vec4<f32>, c: array<f32, 36>) -> array<f32, 36> {
 // Returns the rotated coefficients.
 // Operations: 1014 (471 mul, 6 add, 537 fma) and 1 inverse square root or reciprocal; 28 constants, 63
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 28 more; in pieces 128.
 // Error: f32 rounding at most 9e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.2e-7).
 fn sh6_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -2142,6 +2156,7 @@ fn sh6_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 254 (82 mul, 3 add, 169 fma) and 1 inverse square root or reciprocal; 33 constants, 60
 //     live values.
+// Vector registers on RDNA 2: 96; in pieces 64.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 fn sh6_rotate_align(n: vec3<f32>, c: array<f32, 36>) -> array<f32, 36> {
@@ -2310,6 +2325,7 @@ fn sh6_rotate_align(n: vec3<f32>, c: array<f32, 36>) -> array<f32, 36> {
 // Returns the rotated coefficients.
 // Operations: 684 (202 mul, 5 add, 477 fma) and 1 inverse square root or reciprocal; 33 constants, 60
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 13 more; in pieces 128.
 // Error: f32 rounding at most 5.6e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7e-7).
 fn sh6_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32>, 36> {
@@ -2477,6 +2493,7 @@ fn sh6_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 36>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 97 (78 mul, 0 add, 19 fma); 31 constants, 41 live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 fn sh6_rotate_zonal(dir: vec3<f32>, c: array<f32, 6>) -> array<f32, 36> {
@@ -2554,6 +2571,7 @@ fn sh6_rotate_zonal(dir: vec3<f32>, c: array<f32, 6>) -> array<f32, 36> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 167 (148 mul, 0 add, 19 fma); 31 constants, 41 live values.
+// Vector registers on RDNA 2: 168.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 fn sh6_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 6>) -> array<vec3<f32>, 36> {

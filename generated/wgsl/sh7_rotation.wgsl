@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 490 (167 mul, 6 add, 317 fma) and 1 inverse square root or reciprocal; 53 constants, 80
 //     live values.
+// Vector registers on RDNA 2: 152; in pieces 80.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 fn sh7_rotate(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
@@ -301,6 +302,7 @@ fn sh7_rotate(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
 // Returns the rotated coefficients.
 // Operations: 1312 (419 mul, 8 add, 885 fma) and 1 inverse square root or reciprocal; 53 constants, 80
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 116 more; in pieces 256.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 fn sh7_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -592,6 +594,7 @@ fn sh7_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49>
 // Returns the rotated coefficients.
 // Operations: 568 (263 mul, 7 add, 298 fma) and 1 inverse square root or reciprocal; 118 constants,
 //     104 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -692,6 +695,7 @@ fn sh7_rotate_loop(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
 // Returns the rotated coefficients.
 // Operations: 1544 (707 mul, 7 add, 830 fma) and 1 inverse square root or reciprocal; 118 constants,
 //     104 live values.
+// Vector registers on RDNA 2: 256 and memory for 124 more.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -790,6 +794,7 @@ fn sh7_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 472 (158 mul, 3 add, 311 fma); 53 constants, 76 live values.
+// Vector registers on RDNA 2: 144; in pieces 80.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh7_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 49>) -> array<f32, 49> {
@@ -1063,6 +1068,7 @@ fn sh7_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 49>) -> array<f32, 49
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1294 (410 mul, 5 add, 879 fma); 53 constants, 76 live values.
+// Vector registers on RDNA 2: 256 and memory for 116 more; in pieces 256.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh7_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -1338,6 +1344,7 @@ fn sh7_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 49>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 79 (41 mul, 5 add, 33 fma) and 1 inverse square root or reciprocal; 2 constants, 38 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 9.7e-6 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.3e-6).
 fn sh7_angles(q: vec4<f32>) -> array<vec2<f32>, 19> {
@@ -1414,6 +1421,7 @@ fn sh7_angles(q: vec4<f32>) -> array<vec2<f32>, 19> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 411 (126 mul, 1 add, 284 fma); 52 constants, 56 live values.
+// Vector registers on RDNA 2: 144; in pieces 128.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 fn sh7_rotate_angles(cs: array<vec2<f32>, 19>, c: array<f32, 49>) -> array<f32, 49> {
@@ -1654,6 +1662,7 @@ fn sh7_rotate_angles(cs: array<vec2<f32>, 19>, c: array<f32, 49>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1233 (378 mul, 3 add, 852 fma); 52 constants, 56 live values.
+// Vector registers on RDNA 2: 256 and memory for 119 more; in pieces 256.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 fn sh7_rotate_angles_rgb(cs: array<vec2<f32>, 19>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -1896,6 +1905,7 @@ fn sh7_rotate_angles_rgb(cs: array<vec2<f32>, 19>, c: array<vec3<f32>, 49>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 350 (148 mul, 6 add, 196 fma) and 6 inverse square roots or reciprocals; 136 constants,
 //     139 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2.6e-5 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-6).
 fn sh7_lifted(q: vec4<f32>) -> array<vec2<f32>, 68> {
@@ -2033,6 +2043,7 @@ fn sh7_lifted(q: vec4<f32>) -> array<vec2<f32>, 68> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 336 (84 mul, 0 add, 252 fma); 0 constants, 54 live values.
+// Vector registers on RDNA 2: 240; in pieces 240.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh7_rotate_lifted(cs: array<vec2<f32>, 68>, c: array<f32, 49>) -> array<f32, 49> {
@@ -2186,6 +2197,7 @@ fn sh7_rotate_lifted(cs: array<vec2<f32>, 68>, c: array<f32, 49>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1008 (252 mul, 0 add, 756 fma); 0 constants, 54 live values.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 26 more.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh7_rotate_lifted_rgb(cs: array<vec2<f32>, 68>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -2338,6 +2350,7 @@ fn sh7_rotate_lifted_rgb(cs: array<vec2<f32>, 68>, c: array<vec3<f32>, 49>) -> a
 // Returns the rotated coefficients.
 // Operations: 552 (247 mul, 6 add, 299 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
+// Vector registers on RDNA 2: 152; in pieces 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 fn sh7_rotate_zxzxz(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
@@ -2610,6 +2623,7 @@ fn sh7_rotate_zxzxz(q: vec4<f32>, c: array<f32, 49>) -> array<f32, 49> {
 // Returns the rotated coefficients.
 // Operations: 1500 (663 mul, 6 add, 831 fma) and 1 inverse square root or reciprocal; 47 constants, 81
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 127 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-6).
 fn sh7_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -2881,6 +2895,7 @@ fn sh7_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 374 (110 mul, 3 add, 261 fma) and 1 inverse square root or reciprocal; 53 constants, 79
 //     live values.
+// Vector registers on RDNA 2: 128; in pieces 64.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
 fn sh7_rotate_align(n: vec3<f32>, c: array<f32, 49>) -> array<f32, 49> {
@@ -3122,6 +3137,7 @@ fn sh7_rotate_align(n: vec3<f32>, c: array<f32, 49>) -> array<f32, 49> {
 // Returns the rotated coefficients.
 // Operations: 1028 (278 mul, 5 add, 745 fma) and 1 inverse square root or reciprocal; 53 constants, 79
 //     live values.
+// Vector registers on RDNA 2: 256 and memory for 98 more; in pieces 128.
 // Error: f32 rounding at most 6.8e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 8.1e-7).
 fn sh7_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {
@@ -3362,6 +3378,7 @@ fn sh7_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 135 (107 mul, 0 add, 28 fma); 47 constants, 57 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 fn sh7_rotate_zonal(dir: vec3<f32>, c: array<f32, 7>) -> array<f32, 49> {
@@ -3462,6 +3479,7 @@ fn sh7_rotate_zonal(dir: vec3<f32>, c: array<f32, 7>) -> array<f32, 49> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 231 (203 mul, 0 add, 28 fma); 47 constants, 57 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 2.5e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 fn sh7_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 7>) -> array<vec3<f32>, 49> {

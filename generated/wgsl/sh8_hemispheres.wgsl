@@ -10,6 +10,7 @@
 // Returns H_lm(dir), bands ascending, m from -l to l.
 // Operations: 126 (83 mul, 0 add, 42 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 75 constants, 70 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 2.7e-6 of one, for dir of unit length (3 times the worst of 256
 //     measured, 9e-7; not proven).
 fn sh8_hsh_basis(dir: vec3<f32>) -> array<f32, 64> {
@@ -146,6 +147,7 @@ fn sh8_hsh_basis(dir: vec3<f32>) -> array<f32, 64> {
 // Returns sum c_i H_i(dir).
 // Operations: 144 (36 mul, 0 add, 107 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 74 constants, 14 live values.
+// Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 4.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-6; not proven).
 fn sh8_hsh_eval(dir: vec3<f32>, c: array<f32, 64>) -> f32 {
@@ -215,6 +217,7 @@ fn sh8_hsh_eval(dir: vec3<f32>, c: array<f32, 64>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 272 (38 mul, 0 add, 233 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 74 constants, 14 live values.
+// Vector registers on RDNA 2: 208.
 // Error: f32 rounding at most 4.9e-6 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.7e-6; not proven).
 fn sh8_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 64>) -> vec3<f32> {
@@ -286,6 +289,7 @@ fn sh8_hsh_eval_rgb(dir: vec3<f32>, c: array<vec3<f32>, 64>) -> vec3<f32> {
 // Returns sum c_i H_i(dir).
 // Operations: 68 (3 mul, 0 add, 64 fma, 1 min, max or select) and 1 inverse square root or reciprocal;
 //     1 constants, 10 live values.
+// Vector registers on RDNA 2: 72.
 // Error: f32 rounding at most 5.7e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.9e-7; not proven).
 fn sh8_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 64>) -> f32 {
@@ -313,6 +317,7 @@ fn sh8_hsh_eval_monomial(dir: vec3<f32>, c: array<f32, 64>) -> f32 {
 // Returns sum c_i H_i(dir).
 // Operations: 194 (3 mul, 0 add, 190 fma, 1 min, max or select) and 1 inverse square root or
 //     reciprocal; 1 constants, 10 live values.
+// Vector registers on RDNA 2: 200.
 // Error: f32 rounding at most 5.7e-7 of the norm of the coefficients, each band of norm one, for dir
 //     of unit length (3 times the worst of 256 measured, 1.9e-7; not proven).
 fn sh8_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 64>) -> vec3<f32> {
@@ -336,6 +341,7 @@ fn sh8_hsh_eval_monomial_rgb(dir: vec3<f32>, c: array<vec3<f32>, 64>) -> vec3<f3
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 358 (41 mul, 4 add, 313 fma); 163 constants, 64 live values.
+// Vector registers on RDNA 2: 144.
 // Error: f32 rounding at most 1.1e-2 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-3).
 fn sh8_hsh_to_monomial(c: array<f32, 64>) -> array<f32, 64> {
@@ -469,6 +475,7 @@ fn sh8_hsh_to_monomial(c: array<f32, 64>) -> array<f32, 64> {
 // Returns the coefficients of the monomials by degree d from d^2 on: Y^d, X Y^(d-1), ..., X^d, then z
 //     times those of degree d-1, where (X, Y) = (x, y) sqrt(z/(1+z)).
 // Operations: 1074 (123 mul, 12 add, 939 fma); 163 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 173 more.
 // Error: f32 rounding at most 1.1e-2 of the norm of a band, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2e-3).
 fn sh8_hsh_to_monomial_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -601,6 +608,7 @@ fn sh8_hsh_to_monomial_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 301 (64 mul, 0 add, 237 fma); 161 constants, 64 live values.
+// Vector registers on RDNA 2: 152.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.9e-8).
 fn sh8_sh_to_hsh(c: array<f32, 64>) -> array<f32, 64> {
@@ -713,6 +721,7 @@ fn sh8_sh_to_hsh(c: array<f32, 64>) -> array<f32, 64> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the hemispherical coefficients, index l(l+1)+m.
 // Operations: 903 (192 mul, 0 add, 711 fma); 161 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 200 more.
 // Error: f32 rounding at most 5.1e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 9.9e-8).
 fn sh8_sh_to_hsh_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -826,6 +835,7 @@ fn sh8_sh_to_hsh_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 344 (64 mul, 0 add, 280 fma); 204 constants, 64 live values.
+// Vector registers on RDNA 2: 160.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh8_hsh_extend(c: array<f32, 64>) -> array<f32, 64> {
@@ -947,6 +957,7 @@ fn sh8_hsh_extend(c: array<f32, 64>) -> array<f32, 64> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 1032 (192 mul, 0 add, 840 fma); 204 constants, 64 live values.
+// Vector registers on RDNA 2: 256 and memory for 239 more.
 // Error: f32 rounding at most 1.3e-6 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh8_hsh_extend_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -1068,6 +1079,7 @@ fn sh8_hsh_extend_rgb(c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 218 (58 mul, 0 add, 160 fma); 134 constants, 58 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 7.8e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh8_of_order_6_hsh_extend(c: array<f32, 36>) -> array<f32, 64> {
@@ -1167,6 +1179,7 @@ fn sh8_of_order_6_hsh_extend(c: array<f32, 36>) -> array<f32, 64> {
 // c: the hemispherical coefficients, index l(l+1)+m.
 // Returns the spherical coefficients, index l(l+1)+m.
 // Operations: 654 (174 mul, 0 add, 480 fma); 134 constants, 58 live values.
+// Vector registers on RDNA 2: 256 and memory for 65 more.
 // Error: f32 rounding at most 7.8e-7 of the norm of the coefficients, for every input (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.2e-7).
 fn sh8_of_order_6_hsh_extend_rgb(c: array<vec3<f32>, 36>) -> array<vec3<f32>, 64> {

@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 676 (215 mul, 6 add, 455 fma) and 1 inverse square root or reciprocal; 96 constants, 102
 //     live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 fn sh8_rotate(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
@@ -392,6 +393,7 @@ fn sh8_rotate(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
 // Returns the rotated coefficients.
 // Operations: 1846 (551 mul, 8 add, 1287 fma) and 1 inverse square root or reciprocal; 96 constants,
 //     102 live values.
+// Vector registers on RDNA 2: 256 and memory for 221 more; in pieces 256.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 fn sh8_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -774,6 +776,7 @@ fn sh8_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64>
 // Returns the rotated coefficients.
 // Operations: 778 (341 mul, 7 add, 430 fma) and 1 inverse square root or reciprocal; 175 constants,
 //     127 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -881,6 +884,7 @@ fn sh8_rotate_loop(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
 // Returns the rotated coefficients.
 // Operations: 2150 (929 mul, 7 add, 1214 fma) and 1 inverse square root or reciprocal; 175 constants,
 //     127 live values.
+// Vector registers on RDNA 2: 256 and memory for 406 more.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -986,6 +990,7 @@ fn sh8_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 658 (206 mul, 3 add, 449 fma); 96 constants, 98 live values.
+// Vector registers on RDNA 2: 184; in pieces 128.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 fn sh8_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 64>) -> array<f32, 64> {
@@ -1350,6 +1355,7 @@ fn sh8_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 64>) -> array<f32, 64
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1828 (542 mul, 5 add, 1281 fma); 96 constants, 98 live values.
+// Vector registers on RDNA 2: 256 and memory for 221 more; in pieces 256.
 // Error: f32 rounding at most 5.9e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 fn sh8_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -1716,6 +1722,7 @@ fn sh8_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 64>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 91 (47 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 2 constants, 44 live
 //     values.
+// Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.2e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 fn sh8_angles(q: vec4<f32>) -> array<vec2<f32>, 22> {
@@ -1801,6 +1808,7 @@ fn sh8_angles(q: vec4<f32>) -> array<vec2<f32>, 22> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 585 (168 mul, 1 add, 416 fma); 95 constants, 74 live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 fn sh8_rotate_angles(cs: array<vec2<f32>, 22>, c: array<f32, 64>) -> array<f32, 64> {
@@ -2126,6 +2134,7 @@ fn sh8_rotate_angles(cs: array<vec2<f32>, 22>, c: array<f32, 64>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1755 (504 mul, 3 add, 1248 fma); 95 constants, 74 live values.
+// Vector registers on RDNA 2: 256 and memory for 224 more; in pieces 256.
 // Error: f32 rounding at most 3.5e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.4e-7).
 fn sh8_rotate_angles_rgb(cs: array<vec2<f32>, 22>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -2453,6 +2462,7 @@ fn sh8_rotate_angles_rgb(cs: array<vec2<f32>, 22>, c: array<vec3<f32>, 64>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 565 (211 mul, 6 add, 348 fma) and 7 inverse square roots or reciprocals; 250 constants,
 //     200 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 3e-5 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 fn sh8_lifted(q: vec4<f32>) -> array<vec2<f32>, 98> {
@@ -2627,6 +2637,7 @@ fn sh8_lifted(q: vec4<f32>) -> array<vec2<f32>, 98> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
+// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 256 and memory for 7 more.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh8_rotate_lifted(cs: array<vec2<f32>, 98>, c: array<f32, 64>) -> array<f32, 64> {
@@ -2824,6 +2835,7 @@ fn sh8_rotate_lifted(cs: array<vec2<f32>, 98>, c: array<f32, 64>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
+// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256 and memory for 141 more.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh8_rotate_lifted_rgb(cs: array<vec2<f32>, 98>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -3020,6 +3032,7 @@ fn sh8_rotate_lifted_rgb(cs: array<vec2<f32>, 98>, c: array<vec3<f32>, 64>) -> a
 // Returns the rotated coefficients.
 // Operations: 762 (325 mul, 6 add, 431 fma) and 1 inverse square root or reciprocal; 76 constants, 101
 //     live values.
+// Vector registers on RDNA 2: 192; in pieces 128.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 fn sh8_rotate_zxzxz(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
@@ -3370,6 +3383,7 @@ fn sh8_rotate_zxzxz(q: vec4<f32>, c: array<f32, 64>) -> array<f32, 64> {
 // Returns the rotated coefficients.
 // Operations: 2106 (885 mul, 6 add, 1215 fma) and 1 inverse square root or reciprocal; 76 constants,
 //     101 live values.
+// Vector registers on RDNA 2: 256 and memory for 238 more; in pieces 256.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 fn sh8_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -3719,6 +3733,7 @@ fn sh8_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 528 (142 mul, 3 add, 383 fma) and 1 inverse square root or reciprocal; 96 constants, 98
 //     live values.
+// Vector registers on RDNA 2: 168; in pieces 80.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
 fn sh8_rotate_align(n: vec3<f32>, c: array<f32, 64>) -> array<f32, 64> {
@@ -4040,6 +4055,7 @@ fn sh8_rotate_align(n: vec3<f32>, c: array<f32, 64>) -> array<f32, 64> {
 // Returns the rotated coefficients.
 // Operations: 1474 (366 mul, 5 add, 1103 fma) and 1 inverse square root or reciprocal; 96 constants,
 //     98 live values.
+// Vector registers on RDNA 2: 256 and memory for 201 more; in pieces 256.
 // Error: f32 rounding at most 8.7e-6 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 7.9e-7).
 fn sh8_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {
@@ -4360,6 +4376,7 @@ fn sh8_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 182 (142 mul, 0 add, 40 fma); 65 constants, 73 live values.
+// Vector registers on RDNA 2: 120.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh8_rotate_zonal(dir: vec3<f32>, c: array<f32, 8>) -> array<f32, 64> {
@@ -4488,6 +4505,7 @@ fn sh8_rotate_zonal(dir: vec3<f32>, c: array<f32, 8>) -> array<f32, 64> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 308 (268 mul, 0 add, 40 fma); 65 constants, 73 live values.
+// Vector registers on RDNA 2: 256.
 // Error: f32 rounding at most 3.2e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh8_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 8>) -> array<vec3<f32>, 64> {

@@ -10,6 +10,7 @@
 // Returns the rotated coefficients.
 // Operations: 902 (269 mul, 6 add, 627 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     122 live values.
+// Vector registers on RDNA 2: 232; in pieces 128.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 fn sh9_rotate(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
@@ -509,6 +510,7 @@ fn sh9_rotate(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
 // Returns the rotated coefficients.
 // Operations: 2500 (701 mul, 8 add, 1791 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     122 live values.
+// Vector registers on RDNA 2: 256 and memory for 350 more; in pieces 256.
 // Error: f32 rounding at most 1.8e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 fn sh9_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -1008,6 +1010,7 @@ fn sh9_rotate_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81>
 // Returns the rotated coefficients.
 // Operations: 1032 (429 mul, 7 add, 596 fma) and 1 inverse square root or reciprocal; 248 constants,
 //     152 live values.
+// Vector registers on RDNA 2: 232.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1124,6 +1127,7 @@ fn sh9_rotate_loop(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
 // Returns the rotated coefficients.
 // Operations: 2888 (1181 mul, 7 add, 1700 fma) and 1 inverse square root or reciprocal; 248 constants,
 //     152 live values.
+// Vector registers on RDNA 2: 256 and memory for 742 more.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 // J, which exchanges y and z, by band and row from 0: in even rows the columns from l, in odd rows those
@@ -1238,6 +1242,7 @@ fn sh9_rotate_rgb_loop(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 884 (260 mul, 3 add, 621 fma); 135 constants, 118 live values.
+// Vector registers on RDNA 2: 232; in pieces 128.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh9_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 81>) -> array<f32, 81> {
@@ -1719,6 +1724,7 @@ fn sh9_rotate_euler(cs: array<vec2<f32>, 3>, c: array<f32, 81>) -> array<f32, 81
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2482 (692 mul, 5 add, 1785 fma); 135 constants, 118 live values.
+// Vector registers on RDNA 2: 256 and memory for 350 more; in pieces 256.
 // Error: f32 rounding at most 7.1e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.1e-7).
 fn sh9_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -2202,6 +2208,7 @@ fn sh9_rotate_euler_rgb(cs: array<vec2<f32>, 3>, c: array<vec3<f32>, 81>) -> arr
 //     Ry(beta) Rz(gamma); last the pair (sin^2beta / 2, sin beta cos beta).
 // Operations: 103 (53 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 50
 //     live values.
+// Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 1.3e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 fn sh9_angles(q: vec4<f32>) -> array<vec2<f32>, 25> {
@@ -2296,6 +2303,7 @@ fn sh9_angles(q: vec4<f32>) -> array<vec2<f32>, 25> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 799 (216 mul, 1 add, 582 fma); 134 constants, 90 live values.
+// Vector registers on RDNA 2: 224; in pieces 128.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 fn sh9_rotate_angles(cs: array<vec2<f32>, 25>, c: array<f32, 81>) -> array<f32, 81> {
@@ -2732,6 +2740,7 @@ fn sh9_rotate_angles(cs: array<vec2<f32>, 25>, c: array<f32, 81>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2397 (648 mul, 3 add, 1746 fma); 134 constants, 90 live values.
+// Vector registers on RDNA 2: 256 and memory for 369 more; in pieces 256.
 // Error: f32 rounding at most 4.3e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.9e-7).
 fn sh9_rotate_angles_rgb(cs: array<vec2<f32>, 25>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -3170,6 +3179,7 @@ fn sh9_rotate_angles_rgb(cs: array<vec2<f32>, 25>, c: array<vec3<f32>, 81>) -> a
 //     them in the outer and in the inner shear of Ry(beta), the sums of tan(kbeta/2) and of sin kbeta.
 // Operations: 850 (290 mul, 6 add, 554 fma) and 8 inverse square roots or reciprocals; 386 constants,
 //     277 live values.
+// Vector registers on RDNA 2: 256 and memory for 25 more.
 // Error: f32 rounding at most 3.3e-5 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.5e-6).
 fn sh9_lifted(q: vec4<f32>) -> array<vec2<f32>, 136> {
@@ -3389,6 +3399,7 @@ fn sh9_lifted(q: vec4<f32>) -> array<vec2<f32>, 136> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 100 more.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh9_rotate_lifted(cs: array<vec2<f32>, 136>, c: array<f32, 81>) -> array<f32, 81> {
@@ -3644,6 +3655,7 @@ fn sh9_rotate_lifted(cs: array<vec2<f32>, 136>, c: array<f32, 81>) -> array<f32,
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1944 (432 mul, 0 add, 1512 fma); 0 constants, 88 live values.
+// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256 and memory for 268 more.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh9_rotate_lifted_rgb(cs: array<vec2<f32>, 136>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -3898,6 +3910,7 @@ fn sh9_rotate_lifted_rgb(cs: array<vec2<f32>, 136>, c: array<vec3<f32>, 81>) -> 
 // Returns the rotated coefficients.
 // Operations: 1012 (413 mul, 6 add, 593 fma) and 1 inverse square root or reciprocal; 108 constants,
 //     125 live values.
+// Vector registers on RDNA 2: 240; in pieces 128.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 fn sh9_rotate_zxzxz(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
@@ -4337,6 +4350,7 @@ fn sh9_rotate_zxzxz(q: vec4<f32>, c: array<f32, 81>) -> array<f32, 81> {
 // Returns the rotated coefficients.
 // Operations: 2832 (1137 mul, 6 add, 1689 fma) and 1 inverse square root or reciprocal; 108 constants,
 //     125 live values.
+// Vector registers on RDNA 2: 256 and memory for 388 more; in pieces 256.
 // Error: f32 rounding at most 1.5e-5 of the norm of a band, for every unit q (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
 fn sh9_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -4775,6 +4789,7 @@ fn sh9_rotate_zxzxz_rgb(q: vec4<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32
 // Returns the rotated coefficients.
 // Operations: 718 (178 mul, 3 add, 537 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     121 live values.
+// Vector registers on RDNA 2: 208; in pieces 80.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 fn sh9_rotate_align(n: vec3<f32>, c: array<f32, 81>) -> array<f32, 81> {
@@ -5201,6 +5216,7 @@ fn sh9_rotate_align(n: vec3<f32>, c: array<f32, 81>) -> array<f32, 81> {
 // Returns the rotated coefficients.
 // Operations: 2028 (466 mul, 5 add, 1557 fma) and 1 inverse square root or reciprocal; 135 constants,
 //     121 live values.
+// Vector registers on RDNA 2: 256 and memory for 325 more; in pieces 256.
 // Error: f32 rounding at most 1.1e-5 of the norm of a band, for every n of unit length (proven for
 //     IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
 fn sh9_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {
@@ -5626,6 +5642,7 @@ fn sh9_rotate_align_rgb(n: vec3<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 234 (181 mul, 0 add, 53 fma); 87 constants, 93 live values.
+// Vector registers on RDNA 2: 128.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
 fn sh9_rotate_zonal(dir: vec3<f32>, c: array<f32, 9>) -> array<f32, 81> {
@@ -5784,6 +5801,7 @@ fn sh9_rotate_zonal(dir: vec3<f32>, c: array<f32, 9>) -> array<f32, 81> {
 // c: the zonal coefficients, one a band.
 // Returns the rotated coefficients.
 // Operations: 394 (341 mul, 0 add, 53 fma); 87 constants, 93 live values.
+// Vector registers on RDNA 2: 256 and memory for 16 more.
 // Error: f32 rounding at most 4.4e-6 of the norm of a band, for dir of unit length (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 5e-7).
 fn sh9_rotate_zonal_rgb(dir: vec3<f32>, c: array<vec3<f32>, 9>) -> array<vec3<f32>, 81> {

@@ -9,6 +9,7 @@ use crate::ir::kernel::Param;
 use crate::ir::op::{Op, Price};
 use crate::promise::accuracy::{Accuracy, MARGIN};
 use crate::promise::built::Built;
+use crate::promise::registers::{Called, measured};
 
 const WIDTH: usize = 100;
 
@@ -165,7 +166,7 @@ fn sentences(built: &Built, spec: &Spec, arrays: Arrays) -> (String, Vec<String>
     let what = (spec.family.what)(spec);
     let what = match spec.form {
         Form::Unrolled | Form::Loop => what,
-        Form::SetUp => format!("The numbers that every band of `{}` takes, once for all of them. {what}", spec.whole()),
+        Form::SetUp => format!("The numbers that bands of `{}` take, once for all of them. {what}", spec.whole()),
         Form::Band(l) => format!(
             "Band {l} of `{}` alone, so that a band is loaded, changed and stored at a time. {what}",
             spec.whole()
@@ -174,15 +175,31 @@ fn sentences(built: &Built, spec: &Spec, arrays: Arrays) -> (String, Vec<String>
     (format!("`{spec}`: {what}"), rest)
 }
 
-/// All that stands above a function, a sentence a line.
+/// How many registers a kernel takes on a GPU, as a sentence, if it was measured.
+fn on_gpu(spec: &Spec) -> Option<String> {
+    let of = |called| {
+        measured(spec, called).map(|found| match found.spilled {
+            0 => found.registers.to_string(),
+            spilled => format!("{} and memory for {spilled} more", found.registers),
+        })
+    };
+    let whole = of(Called::Whole)?;
+    let pieces = of(Called::Pieces).map_or_else(String::new, |pieces| format!("; in pieces {pieces}"));
+    Some(format!("Vector registers on RDNA 2: {whole}{pieces}."))
+}
+
+/// All that stands above a function of a shader, a sentence a line.
 pub fn function(built: &Built, spec: &Spec, arrays: Arrays) -> Vec<String> {
-    let (what, rest) = sentences(built, spec, arrays);
+    let (what, mut rest) = sentences(built, spec, arrays);
+    // After what it costs, which the error ends.
+    let place = rest.len() - 1;
+    rest.splice(place..place, on_gpu(spec));
     let mut lines = wrap(&what, 0);
     lines.extend(rest.iter().flat_map(|sentence| wrap(sentence, 4)));
     lines.iter().map(|line| ascii(line)).collect()
 }
 
-/// The same as Markdown whose first paragraph stands alone, as an index of functions shows it.
+/// Returns it as Markdown whose first paragraph stands alone, as an index of functions shows it.
 pub fn listed(built: &Built, spec: &Spec, arrays: Arrays) -> Vec<String> {
     let (what, rest) = sentences(built, spec, arrays);
     let mut lines = wrap(&what, 0);

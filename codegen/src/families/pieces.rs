@@ -35,6 +35,15 @@ impl Spec {
         set_up.into_iter().chain(bands).collect()
     }
 
+    /// What it is called where the kernel that it is a piece of is called `name`.
+    pub fn named(&self, name: &str) -> String {
+        match self.form {
+            Form::SetUp => format!("{name}_setup"),
+            Form::Band(l) => format!("band_{l}_{name}"),
+            Form::Unrolled | Form::Loop => name.to_owned(),
+        }
+    }
+
     /// The spec of the kernel that it is a piece of; of what is none, itself.
     #[must_use]
     pub fn whole(&self) -> Self {

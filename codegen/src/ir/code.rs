@@ -66,6 +66,11 @@ impl Code {
         }
     }
 
+    /// How many numbers it is given besides the signal, each of which a caller has to bring, from memory as a rule.
+    pub fn reads(&self) -> usize {
+        self.params().iter().filter(|param| param.kind.is_scalar()).map(|param| param.shape.len()).sum()
+    }
+
     /// The names of the operations of a price that it does, each once, in the order in which they are first done.
     pub fn names(&self, price: Price) -> Vec<&'static str> {
         let of = |listing: &Listing| -> Vec<&'static str> {
@@ -96,6 +101,18 @@ impl Code {
             }
             Self::Branch(branch) => branch.footprint(),
         }
+    }
+
+    /// The most numbers that it holds at once for a signal of so many channels: all that it is given, and what is alive of
+    /// what it computes.
+    pub fn held(&self, channels: usize) -> usize {
+        let given: usize = self.params().iter().map(|param| param.shape.len() * param.kind.numbers(channels)).sum();
+        let alive = match self {
+            Self::Straight(listing) => listing.alive(channels),
+            Self::Loop(_) => self.footprint().live * channels,
+            Self::Branch(branch) => branch.below.alive(channels).max(branch.above.alive(channels)),
+        };
+        given + alive
     }
 
     /// The operations with constants rounded to `T`, ready to run.

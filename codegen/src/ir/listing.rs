@@ -197,6 +197,11 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// The products of a kernel that vanish in the sums that use them.
+pub(crate) fn fused_products(kernel: &Kernel) -> HashSet<Id> {
+    Layout::new(kernel).fuse(&kernel.outputs).into_values().collect()
+}
+
 impl Listing {
     /// Lays a kernel out.
     pub fn new(kernel: &Kernel) -> Self {
@@ -306,37 +311,48 @@ impl Listing {
 
     /// What it needs besides operations.
     pub fn footprint(&self) -> Footprint {
-        let mut last = vec![0; self.steps.len()];
+        let passing = self.most_alive(&self.last_uses(), 1);
+        Footprint { constants: self.constants.len(), live: self.alive(1), passing }
+    }
+
+    /// The most numbers that are alive at once for a signal of so many channels, inputs not counted.
+    pub fn alive(&self, channels: usize) -> usize {
+        let mut last = self.last_uses();
+        for operand in &self.outputs {
+            if let Operand::Step(used) = *operand {
+                last[used] = self.steps.len();
+            }
+        }
+        self.most_alive(&last, channels)
+    }
+
+    /// The step that uses each last, or it itself.
+    fn last_uses(&self) -> Vec<usize> {
+        let mut last: Vec<usize> = (0..self.steps.len()).collect();
         for (place, step) in self.steps.iter().enumerate() {
-            last[place] = place;
             for operand in step.op.operands() {
                 if let Operand::Step(used) = operand {
                     last[used] = place;
                 }
             }
         }
-        let passing = most_alive(&last);
-        for operand in &self.outputs {
-            if let Operand::Step(used) = *operand {
-                last[used] = self.steps.len();
+        last
+    }
+
+    /// How many numbers are alive at once, at the most, of steps that are each last used at a place.
+    fn most_alive(&self, last: &[usize], channels: usize) -> usize {
+        let mut ends = vec![0; self.steps.len() + 1];
+        let (mut alive, mut most) = (0, 0);
+        for (place, (&end, step)) in last.iter().zip(&self.steps).enumerate() {
+            let numbers = step.kind.numbers(channels);
+            alive -= ends[place];
+            alive += numbers;
+            most = most.max(alive);
+            match end > place {
+                true => ends[end] += numbers,
+                false => alive -= numbers,
             }
         }
-        Footprint { constants: self.constants.len(), live: most_alive(&last), passing }
+        most
     }
-}
-
-/// How many values are alive at once, at the most, of steps that are each last used at a place.
-fn most_alive(last: &[usize]) -> usize {
-    let mut ends = vec![0usize; last.len() + 1];
-    let (mut alive, mut most) = (0usize, 0usize);
-    for (place, &end) in last.iter().enumerate() {
-        alive -= ends[place];
-        alive += 1;
-        most = most.max(alive);
-        match end > place {
-            true => ends[end] += 1,
-            false => alive -= 1,
-        }
-    }
-    most
 }

@@ -1,10 +1,13 @@
-//! A kernel that leaves bands apart, in pieces: a set-up of the numbers that all bands are made with, and a kernel a band.
-//! Their operations together are the kernel's, and so are their results, bit for bit; but what lives at once is one band,
-//! so that registers suffice where those of the whole spill (docs/measure says by how much).
+//! A kernel that leaves bands apart, in pieces: a set-up of the numbers that several bands are made with, and a kernel a
+//! band, which makes what it alone takes. Their operations together are the kernel's, and so are their results, bit for
+//! bit; but what lives at once is one band, so that registers suffice where those of the whole spill (docs/GPU.md says by
+//! how much).
 
-use crate::ir::graph::{Graph, Id, Kind, Node};
+use crate::ir::graph::{Id, Kind, Node};
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
-use std::collections::{BTreeSet, HashMap};
+use crate::ir::listing::fused_products;
+use crate::ir::op::Op;
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;
 
 /// What the set-up's result is called where a band takes it.
@@ -15,8 +18,8 @@ const SET_UP: &str = "s";
 pub struct Pieces {
     kernel: Kernel,
     order: usize,
-    /// What bands take that depends on no signal, in the order in which the whole meets it, so that the set-up is laid out, and
-    /// its products are fused, as they are there.
+    /// What several bands take that depends on no signal, and parameters, in the order in which the whole meets it, so that
+    /// the set-up is laid out, and its products are fused, as they are there.
     shared: Vec<Id>,
 }
 
@@ -36,17 +39,19 @@ impl Pieces {
             return None;
         }
         let graph = &kernel.graph;
-        let mut shared = BTreeSet::new();
-        for l in 0..order {
-            for id in graph.linear(&kernel.outputs[band(l)]) {
-                match graph.node(id) {
-                    Node::Input { index, .. } if !band(l).contains(&(*index as usize)) => return None,
-                    Node::Op(op) => shared.extend(op.operands().filter(|&id| is_shared(graph, id))),
-                    _ => {}
-                }
-            }
+        let takes_another = |l: usize| {
+            let inputs = graph.linear(&kernel.outputs[band(l)]).into_iter();
+            inputs
+                .filter_map(|id| match graph.node(id) {
+                    Node::Input { index, .. } => Some(*index as usize),
+                    _ => None,
+                })
+                .any(|index| !band(l).contains(&index))
+        };
+        if (0..order).any(takes_another) {
+            return None;
         }
-        let shared = graph.met(&kernel.outputs).into_iter().filter(|id| shared.contains(id)).collect();
+        let shared = shared(&kernel, order);
         Some(Self { kernel, order, shared })
     }
 
@@ -57,7 +62,7 @@ impl Pieces {
         (0..self.order).filter(is_changed).collect()
     }
 
-    /// Returns the kernel that makes what every band takes; none if the bands take the coefficients alone.
+    /// Returns the kernel that makes what bands take; none if the bands take the coefficients alone.
     pub fn set_up(&self) -> Option<Kernel> {
         let mut params = self.kernel.params.clone();
         params.pop();
@@ -99,35 +104,71 @@ impl Pieces {
     }
 }
 
-/// Whether it is a number that a band cannot write itself.
-fn is_shared(graph: &Graph, id: Id) -> bool {
-    graph.kind(id).is_scalar() && !matches!(graph.node(id), Node::Const(_) | Node::Tiny)
+/// What the set-up makes: numbers that several bands need, as far as a band uses them, and parameters that any does. A
+/// product that vanishes in the sums that use it vanishes in each band too, so that its factors are what is shared.
+fn shared(kernel: &Kernel, order: usize) -> Vec<Id> {
+    let graph = &kernel.graph;
+    let vanishing = fused_products(kernel);
+    let mut bands: HashMap<Id, usize> = HashMap::new();
+    for l in 0..order {
+        graph.met(&kernel.outputs[band(l)]).into_iter().for_each(|id| *bands.entry(id).or_default() += 1);
+    }
+    let is_made_in_bands = |id: Id| matches!(graph.node(id), Node::Op(Op::Neg(_))) || vanishing.contains(&id);
+    let is_shared = |id: Id| match graph.node(id) {
+        Node::Const(_) | Node::Tiny => false,
+        _ if !graph.kind(id).is_scalar() => false,
+        Node::Input { .. } => true,
+        Node::Op(_) => bands[&id] > 1 && !is_made_in_bands(id),
+    };
+    let (mut shared, mut seen) = (BTreeSet::new(), HashSet::new());
+    let mut stack = kernel.outputs.clone();
+    while let Some(id) = stack.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        if is_shared(id) {
+            shared.insert(id);
+        } else if let Node::Op(op) = graph.node(id) {
+            stack.extend(op.operands());
+        }
+    }
+    graph.met(&kernel.outputs).into_iter().filter(|id| shared.contains(id)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ir::listing::Listing;
 
-    /// Two bands, of which the second is turned by a square that both halves share.
+    /// Three bands, of which two are turned by a square, and the last by its square too.
     fn kernel(mixes: bool) -> Kernel {
         let mut builder = Builder::new();
         let x = builder.param("x", Shape::Scalar, Domain::Between(0.0, 1.0), "a number")[0];
-        let c = builder.param("c", Shape::Array(4), Domain::Signal, "the coefficients");
+        let c = builder.param("c", Shape::Array(9), Domain::Signal, "the coefficients");
         let g = &mut builder.graph;
         let square = g.mul(x, x);
+        let fourth = g.mul(square, square);
         let last = g.mul(c[3], square);
         let sum = g.add(if mixes { c[0] } else { c[1] }, last);
-        builder.finish(vec![c[0], sum, c[2], last], Shape::Array(4), "the result")
+        let (higher, highest) = (g.mul(c[4], square), g.mul(c[8], fourth));
+        let out = vec![c[0], sum, c[2], last, higher, c[5], c[6], c[7], highest];
+        builder.finish(out, Shape::Array(9), "the result")
     }
 
     #[test]
-    fn what_no_signal_reaches_is_set_up() {
-        let pieces = Pieces::new(kernel(false), 2).expect("it leaves bands apart");
-        assert_eq!(pieces.changed(), [1]);
+    fn what_several_bands_take_is_set_up() {
+        let pieces = Pieces::new(kernel(false), 3).expect("it leaves bands apart");
+        assert_eq!(pieces.changed(), [1, 2]);
         let set_up = pieces.set_up().expect("the square");
         assert_eq!((set_up.params.len(), set_up.result), (1, Shape::Array(1)));
         let band = pieces.band(1);
         assert_eq!((band.params.len(), band.params[1].shape, band.result), (2, Shape::Array(3), Shape::Array(3)));
-        assert!(Pieces::new(kernel(true), 2).is_none(), "band 1 takes from band 0");
+        let products = |kernel: Kernel| Listing::new(&kernel).cost(1).mul;
+        assert_eq!(
+            [products(set_up), products(band), products(pieces.band(2))],
+            [1, 1, 3],
+            "its square is band 2's own"
+        );
+        assert!(Pieces::new(kernel(true), 3).is_none(), "band 1 takes from band 0");
     }
 }

@@ -6,15 +6,18 @@ use crate::emit::Function;
 use crate::families::family::Spec;
 use crate::families::hemisphere::rotate;
 use crate::generate::{self, Row};
+use crate::ir::code::Code;
 use crate::ir::graph::Kind;
 use crate::ir::listing::Cost;
 use crate::math::hemisphere::Below;
+use crate::plan::fit;
 use crate::plan::mixtures::{self, Budget, candidates, set_up};
 use crate::plan::text::short;
 use crate::promise::built::Built;
 use crate::promise::hemisphere::Trials;
+use crate::promise::registers::MOST;
 use crate::scene::diagnostic::Diagnostic;
-use crate::scene::{Hemisphere, Job, Norm, Precision, Rotation};
+use crate::scene::{Hemisphere, Job, Located, Norm, Precision, Rotation};
 use serde::Serialize;
 
 /// What an inverse square root or a reciprocal weighs against a multiply-add when methods are compared. GPUs have a
@@ -25,9 +28,29 @@ pub const SPECIAL_WEIGHT: usize = 4;
 /// How many f16 operations a GPU does while it does one in f32, where it packs two (AMD's RDNA, Apple's, Arm's Mali).
 pub const HALF_SHARE: usize = 2;
 
-/// What a kernel weighs when methods are compared.
-pub fn price(cost: Cost) -> usize {
-    cost.total + SPECIAL_WEIGHT * cost.special
+/// What a number weighs that a kernel is given besides its signal. It takes a read and a register; with this weight the
+/// order of methods agrees best with the cycles that AMD's compiler counts (docs/GPU.md), and without it the lifted
+/// rotation, which is given twice as many numbers as it turns, comes before others that take fewer cycles.
+pub const READ_WEIGHT: usize = 1;
+
+/// What a number weighs that a kernel holds beyond the registers that a thread has, [`MOST`]: it is written to memory and
+/// read again, of which each takes the time of two operations.
+pub const SPILL_WEIGHT: usize = 4;
+
+/// What a kernel weighs when methods are compared, for so many channels.
+pub fn price(code: &Code, channels: usize) -> usize {
+    let cost = code.cost(channels);
+    weigh(cost.total, cost.special, code.reads()) + spill(code.held(channels))
+}
+
+/// What operations, special ones and numbers that are read besides the signal weigh together.
+pub fn weigh(total: usize, special: usize, reads: usize) -> usize {
+    total + SPECIAL_WEIGHT * special + READ_WEIGHT * reads
+}
+
+/// What the numbers weigh that a kernel holds at once, and that registers do not.
+pub fn spill(held: usize) -> usize {
+    SPILL_WEIGHT * held.saturating_sub(MOST)
 }
 
 /// A method that was weighed for a rotation.
@@ -44,12 +67,20 @@ pub struct Rival {
     pub total: usize,
     /// Inverse square roots and reciprocals.
     pub special: usize,
-    /// total + [`SPECIAL_WEIGHT`] · special.
+    /// Numbers that are read besides the signals.
+    pub reads: usize,
+    /// The numbers that it holds at once.
+    pub held: usize,
+    /// total + [`SPECIAL_WEIGHT`] · special + [`READ_WEIGHT`] · reads, and for each signal [`SPILL_WEIGHT`] for each number
+    /// that is held beyond the registers, unless the scene says how many may be taken: then it is printed in pieces.
     pub price: usize,
     /// The method's error at the largest angle, by its law, in the norm that the scene asks for.
     pub method_error: f64,
     /// The error of f32 rounding.
     pub rounding_f32: f64,
+    /// How many registers it takes at least, if that is more than the scene allows.
+    #[serde(skip)]
+    pub least_registers: Option<usize>,
     /// Why it does not do what is asked, if so.
     #[serde(skip)]
     pub barred: Option<&'static str>,
@@ -99,13 +130,15 @@ pub(super) struct Contest<'a> {
     rotation: &'a Rotation,
     order: usize,
     budget: Budget,
+    /// The most registers that a kernel may take.
+    registers: Option<&'a Located<usize>>,
     /// What methods on the hemisphere are tried on.
     trials: Option<Trials>,
     entries: Vec<Entry>,
 }
 
 impl<'a> Contest<'a> {
-    pub fn new(rotation: &'a Rotation, order: usize, energy: &[f64]) -> Self {
+    pub fn new(rotation: &'a Rotation, order: usize, energy: &[f64], registers: Option<&'a Located<usize>>) -> Self {
         let budget = Budget {
             max_angle: rotation.max_angle.value.to_radians(),
             error: rotation.max_error.value,
@@ -114,7 +147,7 @@ impl<'a> Contest<'a> {
         };
         let below = rotation.hemisphere.as_ref().map(|hemisphere| hemisphere.value.below());
         let trials = below.map(|below| Trials::new(order, below, budget.max_angle));
-        let mut contest = Self { rotation, order, budget, trials, entries: vec![] };
+        let mut contest = Self { rotation, order, budget, registers, trials, entries: vec![] };
         match below {
             Some(below) => contest.enter_hemispherical(below),
             None => contest.enter_spherical(),
@@ -173,14 +206,26 @@ impl<'a> Contest<'a> {
         let own = built.code.cost(spec.channels());
         let once = set_up.as_ref().map_or_else(Cost::default, |set_up| set_up.built.code.cost(1));
         let all = |of: fn(Cost) -> usize| self.rotation.signals * of(own) + of(once);
+        let read_once = set_up.as_ref().map_or(0, |set_up| set_up.built.code.reads());
+        let reads = self.rotation.signals * built.code.reads() + read_once;
+        let held = built.code.held(spec.channels());
+        // What a scene's registers do not suffice for is in pieces, which hold less.
+        let spilled = if self.registers.is_some() { 0 } else { self.rotation.signals * spill(held) };
+        let price = weigh(all(|cost| cost.total), all(|cost| cost.special), reads) + spilled;
         let method_error = self.method_error(spec);
         let rounding = |built: &Built| built.rounding_within(self.budget.max_angle);
         let rounding_f32 = rounding(built) + set_up.as_ref().map_or(0.0, |set_up| rounding(&set_up.built));
         let beyond = spec.max_angle().is_some_and(|limit| degrees.to_radians() > limit);
+        let keeps = why.is_none() && !beyond && method_error + rounding_f32 <= max_error;
+        let beyond_registers = |most: &Located<usize>| {
+            let specs = [Some(spec), set_up.as_ref().map(|set_up| &set_up.spec)];
+            specs.into_iter().flatten().filter_map(|spec| fit::least_beyond(spec, most.value)).max()
+        };
+        let least_registers = self.registers.filter(|_| keeps).and_then(beyond_registers);
         let refused = match (why, beyond) {
             (Some(why), _) => Some(why.to_owned()),
             (None, true) => Some(format!("takes up to {} degrees only", spec.max_degrees().unwrap_or_default())),
-            (None, false) if method_error + rounding_f32 <= max_error => None,
+            (None, false) if keeps => least_registers.map(|least| format!("takes {least} registers at least")),
             (None, false) => Some(format!("errs by more than {max_error}")),
         };
         let given = set_up.as_ref().unwrap_or(&function).built.code.params();
@@ -190,9 +235,12 @@ impl<'a> Contest<'a> {
             takes: given.iter().filter(|param| param.kind == Kind::Scalar).map(|param| param.name).collect(),
             total: all(|cost| cost.total),
             special: all(|cost| cost.special),
-            price: if spec.half { all(price).div_ceil(HALF_SHARE) } else { all(price) },
+            reads,
+            held,
+            price: if spec.half { price.div_ceil(HALF_SHARE) } else { price },
             method_error,
             rounding_f32,
+            least_registers,
             barred: why,
             admissible: refused.is_none(),
             verdict: refused.unwrap_or_else(|| "keeps the error".to_owned()),
@@ -238,6 +286,14 @@ impl<'a> Contest<'a> {
                 let help = "take `auto` or `f32`, or the kind `tilt`, `y` or `zyz`";
                 let place = &self.rotation.precision.place;
                 return Err(Diagnostic::at(place, "no kernel of this kind works in f16", help));
+            }
+            let least =
+                rivals().filter_map(|rival| Some((rival.least_registers?, rival))).min_by_key(|(least, _)| *least);
+            if let (Some((least, rival)), Some(most)) = (least, self.registers) {
+                let message =
+                    format!("no method that keeps an error of {} takes {} registers", max_error.value, most.value);
+                let help = format!("allow {least} at least: so many takes `{}`, in its best form", rival.spec);
+                return Err(Diagnostic::at(&most.place, message, help));
             }
             let message = format!("no method keeps an error of {}", max_error.value);
             let help = exact.map_or_else(String::new, |rival| {

@@ -6,13 +6,14 @@ mod check;
 pub mod contest;
 mod direct;
 pub mod environment;
+mod fit;
 pub mod light;
 pub mod mixtures;
 pub mod order;
 mod report;
 pub mod text;
 
-pub use crate::plan::contest::{Chosen, HALF_SHARE, Rival, SPECIAL_WEIGHT, price};
+pub use crate::plan::contest::{Chosen, HALF_SHARE, READ_WEIGHT, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT, price};
 
 use crate::emit::language::Target;
 use crate::emit::names::Use;
@@ -184,7 +185,8 @@ impl Plan {
                 },
                 rivals: vec![],
             };
-            self.push(function, chosen, wanted.name.as_ref().map_or(&wanted.spec.place, |name| &name.place));
+            let place = wanted.name.as_ref().map_or(&wanted.spec.place, |name| &name.place);
+            self.push_within(function, chosen, place, scene)?;
         }
         Ok(())
     }
@@ -205,7 +207,8 @@ impl Plan {
                 }
                 (_, environment) => environment.map_or(&[][..], |environment| &environment.energy),
             };
-            let (function, set_up, mut chosen) = Contest::new(rotation, order, energy).decide()?;
+            let (function, set_up, mut chosen) =
+                Contest::new(rotation, order, energy, scene.registers.as_ref()).decide()?;
             if let (Order::Environment, Some(environment)) = (rotation.order.value, &self.environment) {
                 chosen.seen_error = Some(environment.added_by(&function.spec, rotation.max_angle.value.to_radians()));
             }
@@ -224,11 +227,11 @@ impl Plan {
                 self.kernels.push(chosen);
                 continue;
             }
-            self.push(function, chosen, place);
+            self.push_within(function, chosen, place, scene)?;
         }
         for (function, chosen, place) in set_ups {
             if !self.has(&function) {
-                self.push(function, chosen, place);
+                self.push_within(function, chosen, place, scene)?;
             }
         }
         Ok(())
@@ -236,6 +239,35 @@ impl Plan {
 
     fn has(&self, function: &Function) -> bool {
         self.module.functions.iter().any(|known| (&known.spec, &known.name) == (&function.spec, &function.name))
+    }
+
+    /// Takes a kernel, in pieces if the scene allows too few registers for the whole.
+    fn push_within(
+        &mut self,
+        function: Function,
+        mut chosen: Chosen,
+        place: &Place,
+        scene: &Scene,
+    ) -> Result<(), Diagnostic> {
+        let Some(most) = &scene.registers else {
+            chosen.reason.extend(fit::spilled(&function.spec).map(|text| format!("; {text}")));
+            self.push(function, chosen, place);
+            return Ok(());
+        };
+        let (specs, why) = fit::fitted(&function.spec, most)?;
+        let Some(why) = why else {
+            self.push(function, chosen, place);
+            return Ok(());
+        };
+        chosen.reason = format!("{why}; it is {}", chosen.reason);
+        for mut piece in generate::build(&specs) {
+            piece.name = function.name.as_ref().map(|name| piece.spec.named(name));
+            if !self.has(&piece) {
+                let rivals = std::mem::take(&mut chosen.rivals);
+                self.push(piece.clone(), Chosen { row: Row::of(&piece), rivals, ..chosen.clone() }, place);
+            }
+        }
+        Ok(())
     }
 
     fn push(&mut self, function: Function, chosen: Chosen, place: &Place) {

@@ -1,8 +1,9 @@
 //! A plan as people read it: what each kernel costs and why it was chosen.
 
 use crate::plan::Plan;
-use crate::plan::contest::{HALF_SHARE, SPECIAL_WEIGHT};
+use crate::plan::contest::{HALF_SHARE, READ_WEIGHT, SPECIAL_WEIGHT, SPILL_WEIGHT};
 use crate::plan::text::{row, short, table};
+use crate::promise::registers::MOST;
 use crate::scene::Hemisphere;
 use std::fmt;
 
@@ -23,6 +24,7 @@ impl fmt::Display for Plan {
             "special",
             "constants",
             "live",
+            "registers",
             "f32 rounding",
             "method error",
             "why",
@@ -35,6 +37,7 @@ impl fmt::Display for Plan {
                 chosen.row.cost.special.to_string(),
                 chosen.row.footprint.constants.to_string(),
                 chosen.row.footprint.live.to_string(),
+                chosen.row.registers.to_string(),
                 short(chosen.row.accuracy.rounding_f32),
                 match (chosen.method_error, chosen.max_angle) {
                     (Some(error), Some(angle)) if error > 1e-12 => format!("{} at {angle} degrees", short(error)),
@@ -48,12 +51,23 @@ impl fmt::Display for Plan {
         f.write_str(&table(&rows))?;
         writeln!(
             f,
-            "\nTotal: multiplications, additions and multiply-adds, one each. Special: inverse square roots and reciprocals."
+            "\nTotal: multiplications, additions and multiply-adds, one each. Special: inverse square roots and reciprocals. \
+             Registers: vector registers on RDNA 2, as measured, `+` those that memory stands in for; `about` as counted."
         )?;
         for chosen in self.kernels.iter().filter(|chosen| !chosen.rivals.is_empty()) {
             writeln!(f, "\n## Why `{}`\n\nIt is {}.\n", chosen.row.spec, chosen.reason)?;
-            let mut rows =
-                vec![row(["method", "takes", "total", "special", "price", "method error", "f32 rounding", "verdict"])];
+            let mut rows = vec![row([
+                "method",
+                "takes",
+                "total",
+                "special",
+                "reads",
+                "held",
+                "price",
+                "method error",
+                "f32 rounding",
+                "verdict",
+            ])];
             for rival in &chosen.rivals {
                 rows.push(vec![
                     match &rival.set_up {
@@ -63,6 +77,8 @@ impl fmt::Display for Plan {
                     rival.takes.join(", "),
                     rival.total.to_string(),
                     rival.special.to_string(),
+                    rival.reads.to_string(),
+                    rival.held.to_string(),
                     rival.price.to_string(),
                     short(rival.method_error),
                     short(rival.rounding_f32),
@@ -72,7 +88,7 @@ impl fmt::Display for Plan {
             f.write_str(&table(&rows))?;
             writeln!(
                 f,
-                "\nThe price is the total plus {SPECIAL_WEIGHT} for each special, in f16 by {HALF_SHARE}; errors are {}, at the largest angle.",
+                "\nThe price is the total, {SPECIAL_WEIGHT} for each special, {READ_WEIGHT} for each number that is read besides the signal and {SPILL_WEIGHT} for each that is held at once beyond {MOST}, unless the scene says how many registers may be taken; in f16 by {HALF_SHARE}. Errors are {}, at the largest angle.",
                 chosen.hemisphere.map_or_else(|| chosen.norm.unwrap_or_default().meaning(), Hemisphere::meaning)
             )?;
         }

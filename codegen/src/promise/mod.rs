@@ -7,4 +7,5 @@ pub mod built;
 pub mod hemisphere;
 pub mod law;
 pub mod proofs;
+pub mod registers;
 pub mod samples;

@@ -1,6 +1,7 @@
 //! Values of a scene and where they were written, as serde finds them.
 
 use crate::families::family::{MAX_ORDER, MIN_ORDER};
+use crate::promise::registers::MOST;
 use crate::scene::diagnostic::{Diagnostic, Place, Source};
 use serde::Deserialize;
 use serde::de::{Deserializer, Visitor};
@@ -145,6 +146,17 @@ impl Locator {
             let message = format!("{} signals are out of range", located.value);
             Diagnostic::at(&located.place, message, format!("write a number from 1 to {MAX_SIGNALS}"))
         })
+    }
+
+    pub(super) fn registers(&self, spanned: Placed<i64>) -> Result<Located<usize>, Diagnostic> {
+        let located = self.at(spanned);
+        match usize::try_from(located.value).ok().filter(|count| (1..=MOST).contains(count)) {
+            Some(value) => Ok(Located { value, place: located.place }),
+            None => {
+                let message = format!("{} registers are out of range", located.value);
+                Err(Diagnostic::at(&located.place, message, format!("write a number from 1 to {MOST}")))
+            }
+        }
     }
 
     pub(super) fn angle(&self, spanned: Placed<f64>) -> Result<Located<f64>, Diagnostic> {

@@ -40,6 +40,10 @@ struct Manifest {
     /// own if it is left out, and in languages that do not know it.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::FormName>"))]
     form: Option<Placed<String>>,
+    /// The most vector registers that a kernel may take on AMD's RDNA 2, where a thread has 256 and half as many let twice as
+    /// many waves run. A kernel that needs more is printed in pieces, a set-up and a function a band; without a limit none is.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 256)))]
+    registers: Option<Placed<i64>>,
     /// The folder to write to, relative to the folder that zonal runs in, which it may not leave; `zonal-out/` and the name
     /// if it is left out.
     output: Option<Placed<String>>,
@@ -264,6 +268,7 @@ fn read(text: &str, source: Arc<Source>, maps: Maps) -> Result<Scene, Diagnostic
     if let Some(text) = manifest.form {
         scene.form = Some(form(&locate.at(text), &scene.targets)?);
     }
+    scene.registers = manifest.registers.map(|registers| locate.registers(registers)).transpose()?;
     if let Some(output) = manifest.output {
         let output = locate.at(output);
         let path = Path::new(&output.value);

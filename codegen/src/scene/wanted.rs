@@ -100,6 +100,8 @@ pub struct Scene {
     pub arrays: Option<Arrays>,
     /// The form of the files, if it is not each language's own; a target knows it at least.
     pub form: Option<&'static str>,
+    /// The most vector registers that a kernel may take, if it is said.
+    pub registers: Option<Located<usize>>,
     /// The output folder, relative.
     pub output: String,
     /// The environment.
@@ -127,6 +129,7 @@ impl Scene {
             targets: language::ALL.to_vec(),
             arrays: None,
             form: None,
+            registers: None,
             environment: None,
             kernels: vec![],
             rotations: vec![],

@@ -3,6 +3,7 @@
 
 use crate::device::{Compiler, Counted};
 use crate::kernels::{Called, Kernel};
+use crate::loops;
 use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -35,6 +36,10 @@ pub struct Row {
     pub operations: usize,
     /// Its roots and reciprocals.
     pub special: usize,
+    /// Numbers that it is given besides the signal.
+    pub reads: usize,
+    /// Numbers that it holds at once.
+    pub held: usize,
     /// What was counted.
     pub gpus: [Counted; GPUS.len()],
 }
@@ -46,6 +51,8 @@ pub struct Report {
     pub driver: String,
     /// The kernels.
     pub rows: Vec<Row>,
+    /// Loops over memory, beside others.
+    pub loops: Vec<loops::Row>,
 }
 
 /// What a child prints.
@@ -127,7 +134,9 @@ pub fn compile(program: &Path, kernels: &[Kernel], step: impl Fn()) -> Result<Re
         called: kernel.called,
         operations: kernel.operations,
         special: kernel.special,
+        reads: kernel.reads,
+        held: kernel.held,
         gpus: std::array::from_fn(|gpu| columns[gpu][place]),
     };
-    Ok(Report { driver, rows: kernels.iter().enumerate().map(row).collect() })
+    Ok(Report { driver, rows: kernels.iter().enumerate().map(row).collect(), loops: vec![] })
 }

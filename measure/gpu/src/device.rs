@@ -39,8 +39,8 @@ impl From<Counted> for [u64; 6] {
 
 /// AMD, as Vulkan numbers vendors.
 const AMD: u32 = 0x1002;
-/// Buffers of a shader: parameters, coefficients, results.
-const BUFFERS: u32 = 3;
+/// Buffers of a shader: parameters, coefficients, results, tables of loops.
+const BUFFERS: u32 = 4;
 
 /// A device that compiles.
 pub struct Compiler {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use zonal_codegen::emit::Function;
-use zonal_codegen::families::Spec;
+use zonal_codegen::families::{Form, Spec};
 use zonal_codegen::generate;
 
 /// How a kernel is called.
@@ -21,6 +21,7 @@ pub enum Called {
 }
 
 /// A kernel to compile.
+#[derive(Clone)]
 pub struct Kernel {
     /// The spec.
     pub spec: String,
@@ -30,6 +31,10 @@ pub struct Kernel {
     pub operations: usize,
     /// Its roots and reciprocals.
     pub special: usize,
+    /// Numbers that it is given besides the signal.
+    pub reads: usize,
+    /// Numbers that it holds at once.
+    pub held: usize,
     /// It, as SPIR-V.
     pub spirv: Vec<u32>,
 }
@@ -37,23 +42,30 @@ pub struct Kernel {
 fn kernels_of(spec: &Spec, functions: &BTreeMap<Spec, Function>) -> Vec<Kernel> {
     let function = &functions[spec];
     let cost = function.built.code.cost(spec.channels());
-    let kernel = |called, text: String| Kernel {
+    let held = |pieces: &[Function]| {
+        let bands = pieces.iter().filter(|piece| piece.spec.form != Form::SetUp);
+        bands.map(|piece| piece.built.code.held(piece.spec.channels())).max().unwrap_or_default()
+    };
+    let kernel = |called, held: usize, text: String| Kernel {
         spec: spec.to_string(),
         called,
         operations: cost.total,
         special: cost.special,
+        reads: function.built.code.reads(),
+        held,
         spirv: shader::spirv(&text),
     };
-    let mut all = vec![kernel(Called::Whole, shader::whole(function))];
+    let whole = std::slice::from_ref(function);
+    let mut all = vec![kernel(Called::Whole, held(whole), shader::whole(function))];
     let pieces: Vec<Function> = spec.in_pieces().iter().map(|piece| functions[piece].clone()).collect();
     if !pieces.is_empty() {
-        all.push(kernel(Called::Pieces, shader::in_pieces(&pieces, spec.order, 1)));
+        all.push(kernel(Called::Pieces, held(&pieces), shader::in_pieces(&pieces, spec.order, 1)));
     }
     // A kernel that channels share operations in is another one for a single channel.
     let single: Vec<Spec> = spec.base().in_pieces();
     if spec.rgb && !single.is_empty() {
         let pieces: Vec<Function> = single.iter().map(|piece| functions[piece].clone()).collect();
-        all.push(kernel(Called::Channels, shader::in_pieces(&pieces, spec.order, spec.channels())));
+        all.push(kernel(Called::Channels, held(&pieces), shader::in_pieces(&pieces, spec.order, spec.channels())));
     }
     all
 }

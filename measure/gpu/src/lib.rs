@@ -5,5 +5,8 @@
 pub mod compile;
 pub mod device;
 pub mod kernels;
+pub mod loops;
 pub mod page;
+pub mod price;
+pub mod registers;
 pub mod shader;

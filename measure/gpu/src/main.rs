@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 use zonal_codegen::catalog;
-use zonal_measure_gpu::compile::{self, GPUS};
+use zonal_measure_gpu::compile::{self, GPUS, Report};
 use zonal_measure_gpu::kernels::shaders;
-use zonal_measure_gpu::page;
+use zonal_measure_gpu::{loops, page, registers};
 
 /// Compile every kernel of the catalogue for AMD's GPUs, by the driver's own compiler, and write what it counts.
 #[derive(Parser)]
@@ -19,6 +19,12 @@ struct Arguments {
     /// The folder of the page and its figures.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs"))]
     output: PathBuf,
+    /// The table of registers that the planner goes by.
+    #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen/data/registers.tsv"))]
+    table: PathBuf,
+    /// Write the page and the table of the figures that are there, and compile nothing.
+    #[arg(long)]
+    page: bool,
     /// Compile a folder of shaders and print what is counted: how the program calls itself.
     #[arg(long, hide = true)]
     child: Option<PathBuf>,
@@ -31,17 +37,29 @@ fn bar(what: &'static str, steps: usize) -> ProgressBar {
     bar
 }
 
-fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
-    if let Some(folder) = &arguments.child {
-        return compile::child(folder);
-    }
+fn measured() -> Result<Report, Box<dyn Error>> {
     let building = bar("building", 1);
     let kernels = shaders(&catalog::standard());
     building.finish();
     let compiling = bar("compiling", GPUS.len());
-    let report = compile::compile(&std::env::current_exe()?, &kernels, || compiling.inc(1))?;
+    let program = std::env::current_exe()?;
+    let mut report = compile::compile(&program, &kernels, || compiling.inc(1))?;
+    report.loops = loops::measured(&program)?;
     compiling.finish();
-    std::fs::write(arguments.output.join(page::JSON), page::json(&report)?)?;
+    Ok(report)
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    if let Some(folder) = &arguments.child {
+        return compile::child(folder);
+    }
+    let figures = arguments.output.join(page::JSON);
+    let report = match arguments.page {
+        true => serde_json::from_str(&std::fs::read_to_string(&figures)?)?,
+        false => measured()?,
+    };
+    std::fs::write(&figures, page::json(&report)?)?;
+    std::fs::write(&arguments.table, registers::tsv(&report))?;
     std::fs::write(arguments.output.join(page::PAGE), page::markdown(&report))?;
     Ok(())
 }

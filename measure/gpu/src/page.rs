@@ -3,8 +3,9 @@
 use crate::compile::{GPUS, Report, Row};
 use crate::device::Counted;
 use crate::kernels::Called;
+use crate::{loops, price, registers};
 use std::collections::BTreeMap;
-use zonal_codegen::families::{Form, Group, Spec};
+use zonal_codegen::families::Spec;
 use zonal_codegen::plan::contest::SPECIAL_WEIGHT;
 
 /// The page.
@@ -13,7 +14,7 @@ pub const PAGE: &str = "GPU.md";
 pub const JSON: &str = "gpu.json";
 
 /// The GPUs that the page shows: the others are in the figures.
-const SHOWN: [usize; 2] = [1, 2];
+pub(crate) const SHOWN: [usize; 2] = [1, 2];
 /// Orders of the tables.
 const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
 
@@ -24,7 +25,9 @@ const ORDERS: std::ops::RangeInclusive<usize> = 3..=10;
 /// None that a report gives rise to.
 pub fn json(report: &Report) -> Result<String, serde_json::Error> {
     let rows: Result<Vec<String>, _> = report.rows.iter().map(serde_json::to_string).collect();
-    Ok(format!("{{\"driver\": {},\n\"rows\": [\n{}\n]}}\n", serde_json::to_string(&report.driver)?, rows?.join(",\n")))
+    let loops: Result<Vec<String>, _> = report.loops.iter().map(serde_json::to_string).collect();
+    let (driver, rows, loops) = (serde_json::to_string(&report.driver)?, rows?.join(",\n"), loops?.join(",\n"));
+    Ok(format!("{{\"driver\": {driver},\n\"rows\": [\n{rows}\n],\n\"loops\": [\n{loops}\n]}}\n"))
 }
 
 /// Rows by their spec and how they are called.
@@ -40,7 +43,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-fn table(columns: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+pub(crate) fn table(columns: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut text = format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()));
     rows.into_iter().for_each(|row| text += &format!("| {} |\n", row.join(" | ")));
     text
@@ -95,59 +98,6 @@ fn looped(rows: &Rows<'_>, row: &Row) -> Option<Vec<String>> {
     Some(cells)
 }
 
-/// How well what the planner counts says what a GPU needs: of the pairs of an order's rotations and tilts of one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Agreement {
-    /// The order.
-    pub order: usize,
-    /// How many kernels.
-    pub kernels: usize,
-    /// The share of the pairs of which the planner's cheaper one takes no more cycles.
-    pub share: f64,
-    /// Pairs that are told apart wrongly, the worse first: the one that the planner holds for cheaper, the other, and how
-    /// many times the cycles of the other it takes.
-    pub wrong: Vec<(String, String, f64)>,
-}
-
-/// Returns the agreement at each order on a GPU, with kernels called in one way.
-pub fn agreement(report: &Report, gpu: usize, called: Called) -> Vec<Agreement> {
-    let turning: Vec<(usize, &Row)> = report
-        .rows
-        .iter()
-        .filter(|row| row.called == called)
-        .filter_map(|row| {
-            let spec: Spec = row.spec.parse().ok()?;
-            let is_turn = matches!(spec.family.group, Group::Rotate | Group::Tilt | Group::SmallAngle);
-            (is_turn && !spec.rgb && spec.form == Form::Unrolled).then_some((spec.order, row))
-        })
-        .collect();
-    ORDERS
-        .map(|order| {
-            let price = |row: &Row| row.operations + SPECIAL_WEIGHT * row.special;
-            let rows: Vec<(&Row, usize)> =
-                turning.iter().filter(|(of, _)| *of == order).map(|(_, row)| (*row, price(row))).collect();
-            let (mut right, mut all, mut wrong) = (0, 0, vec![]);
-            for (i, (a, cheap)) in rows.iter().enumerate() {
-                for (b, dear) in &rows[i + 1..] {
-                    let ((a, cheap), (b, dear)) =
-                        if cheap <= dear { ((a, cheap), (b, dear)) } else { ((b, dear), (a, cheap)) };
-                    if cheap == dear {
-                        continue;
-                    }
-                    all += 1;
-                    let [own, other] = [a, b].map(|row| row.gpus[gpu].cycles);
-                    match own <= other {
-                        true => right += 1,
-                        false => wrong.push((a.spec.clone(), b.spec.clone(), own as f64 / other as f64)),
-                    }
-                }
-            }
-            wrong.sort_by(|a, b| b.2.total_cmp(&a.2));
-            Agreement { order, kernels: rows.len(), share: f64::from(right) / f64::from(all.max(1)), wrong }
-        })
-        .collect()
-}
-
 /// The least and the largest of cycles an operation, of kernels that spill nothing.
 fn per_operation(report: &Report, gpu: usize) -> [f64; 3] {
     let is_counted = |row: &&Row| row.called == Called::Whole && row.operations >= 100 && row.gpus[gpu].spilled == 0;
@@ -181,7 +131,7 @@ pub fn markdown(report: &Report) -> String {
         let all = ORDERS.filter_map(|order| compared(&rows, &format!("{name}:{order}{suffix}"), ways));
         table(&heads(ways), all)
     };
-    let loops = report.rows.iter().filter(|row| row.spec.ends_with(":loop") && row.called == Called::Whole);
+    let looping = report.rows.iter().filter(|row| row.spec.ends_with(":loop") && row.called == Called::Whole);
     let mut loop_heads = vec!["loop".to_owned(), "operations".to_owned()];
     for gpu in SHOWN {
         loop_heads.extend(
@@ -189,25 +139,6 @@ pub fn markdown(report: &Report) -> String {
                 .map(|what| format!("{}: {what}", GPUS[gpu].family)),
         );
     }
-    let agreed = |called: Called| -> Vec<Vec<String>> {
-        let by_gpu: Vec<Vec<Agreement>> = (0..GPUS.len()).map(|gpu| agreement(report, gpu, called)).collect();
-        let row = |place: usize| {
-            let first = &by_gpu[0][place];
-            let share = |all: &Vec<Agreement>| format!("{:.1} %", 100.0 * all[place].share);
-            let worst = |all: &Vec<Agreement>| match all[place].wrong.first() {
-                Some((a, b, times)) => format!("`{a}` before `{b}`: {times:.2}"),
-                None => "none".to_owned(),
-            };
-            let head = [first.order.to_string(), first.kernels.to_string()];
-            head.into_iter().chain(by_gpu.iter().map(share)).chain([worst(&by_gpu[SHOWN[0]])]).collect()
-        };
-        (0..by_gpu[0].len()).map(row).collect()
-    };
-    let agreed_heads: Vec<String> = ["order".to_owned(), "kernels".to_owned()]
-        .into_iter()
-        .chain(GPUS.map(|gpu| gpu.family.to_owned()))
-        .chain([format!("worst on {}, times the cycles", GPUS[SHOWN[0]].family)])
-        .collect();
     let cycles: Vec<Vec<String>> = GPUS
         .iter()
         .enumerate()
@@ -260,22 +191,21 @@ pub fn markdown(report: &Report) -> String {
         format!(
             "A loop over a local array indexes registers by chains of moves. It saves text and time to compile: from order 4 on \
              the loops of the catalogue take {least:.1} to {most:.0} times the cycles of their straight lines on {}, where \
-             those spill nothing. Where they do, it is pieces that help.",
+             those spill nothing, if a loop runs eight times, one in it four times and one in that twice, as the driver \
+             takes it, which does not know. That is too little for `taylor15`, whose loop runs once a coefficient, and for the \
+             rotations beyond order 6. Where straight lines spill, it is pieces that help.",
             GPUS[SHOWN[0]].family
         ),
-        table(&loop_heads, loops.filter_map(|row| looped(&rows, row))),
+        table(&loop_heads, looping.filter_map(|row| looped(&rows, row))),
+        loops::section(report).join("\n\n"),
         "## Operations and cycles".to_owned(),
         format!(
-            "Cycles by what the planner counts (operations, and {SPECIAL_WEIGHT} for a root or a reciprocal), over whole kernels \
+            "Cycles by operations (and {SPECIAL_WEIGHT} for a root or a reciprocal), over whole kernels \
              of 100 operations or more that spill nothing: the least, the middle, the largest. Two cycles an operation are \
              what RDNA takes for a wave of 64; the rest is loads and stores."
         ),
         table(&["GPU", "which", "least", "middle", "largest"].map(str::to_owned), cycles),
-        "Of the pairs of rotations, small ones among them, and tilts of an order, one channel, the share in which the one that \
-         the planner holds for cheaper takes no more cycles; first whole, then in pieces."
-            .to_owned(),
-        table(&agreed_heads, agreed(Called::Whole)),
-        table(&agreed_heads, agreed(Called::Pieces)),
     ];
+    let parts = parts.into_iter().chain(price::section(report)).chain(registers::section(report)).collect::<Vec<_>>();
     parts.join("\n\n").replace("\n\n\n", "\n\n")
 }

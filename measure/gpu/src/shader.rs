@@ -10,9 +10,9 @@ use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Param, Shape};
 
 /// Threads of a group: a wave of the GPUs before RDNA, two of those since.
-const GROUP: usize = 64;
+pub(crate) const GROUP: usize = 64;
 /// Signals that lie beside each other.
-const ROW: usize = 1 << 16;
+pub(crate) const ROW: usize = 1 << 16;
 
 /// A buffer, and the place of its next number.
 struct Buffer {
@@ -154,6 +154,11 @@ pub fn spirv(wgsl: &str) -> Vec<u32> {
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
         .unwrap_or_else(|error| panic!("{error:?}\n{wgsl}"));
-    let options = spv::Options { flags: spv::WriterFlags::empty(), force_loop_bounding: false, ..Default::default() };
+    let options = spv::Options {
+        flags: spv::WriterFlags::empty(),
+        force_loop_bounding: false,
+        zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
+        ..Default::default()
+    };
     spv::write_vec(&module, &info, &options, None).unwrap_or_else(|error| panic!("{error}\n{wgsl}"))
 }

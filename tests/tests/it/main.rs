@@ -45,6 +45,7 @@ mod projects;
 mod proofs;
 mod properties;
 mod readme;
+mod registers;
 mod requirements;
 mod ringing;
 mod runtime;

@@ -3,6 +3,8 @@
 
 use zonal_codegen::families::lifted::LIFTED_DEGREES;
 use zonal_codegen::ir::eval::{Contraction, Number};
+use zonal_codegen::ir::listing::Cost;
+use zonal_codegen::plan::contest::weigh;
 use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
 use zonal_codegen::promise::accuracy::{band_errors, method_errors};
 use zonal_codegen::promise::samples::{self, Random};
@@ -336,7 +338,8 @@ fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
         // Three shears of n (n² − 1) / 6 couplings, each one multiply-add, and no constant.
         assert_eq!(lifted.total - z, n * (n * n - 1) / 2, "order {n}");
         assert_eq!((lifted.special, shears.special - 1), (0, n - 2), "order {n}: a reciprocal a frequency from 2");
-        rows.push([n, planes.total - z, lifted.total - z, price(angles), price(shears)]);
+        let [angles, shears] = [angles, shears].map(|cost| weigh(cost.total, cost.special, 0));
+        rows.push([n, planes.total - z, lifted.total - z, angles, shears]);
     }
     println!("order, the y rotation by planes and lifted, the prices of their set-ups: {rows:?}");
     // Planes that are lifted themselves take 12 36 78 147 237 358, n = 3 to 8 (docs/MATH.md#the-lifted-rotation).
@@ -345,10 +348,12 @@ fn the_lifted_rotation_has_the_fewest_operations_with_its_set_up_given() {
     assert_eq!(rows.iter().map(|row| row[4]).collect::<Vec<_>>(), [42, 81, 138, 235, 374, 593, 882, 1311]);
 }
 
-/// Where the lifted rotation is on the front: its set-up pays from three to seven signals on, so for RGB up to order 5, by
-/// a sixtieth, and for two RGB signals up to order 9. For many signals it saves a sixth; for one it never pays.
+/// Where the lifted rotation is on the front of operations: its set-up pays from three to seven signals on, so for RGB up
+/// to order 5, by a sixtieth, and for two RGB signals up to order 9. For many signals it saves a sixth; for one it never
+/// pays. Registers say otherwise; see [`lifting_costs_registers`].
 #[test]
 fn lifting_pays_from_a_few_signals_on() {
+    let price = |cost: Cost| weigh(cost.total, cost.special, 0);
     let cost = |text: &str, signals: usize| {
         let code = spec(text).code();
         price(code.cost(1)) + (signals - 1) * (price(code.cost(2)) - price(code.cost(1)))
@@ -379,4 +384,27 @@ fn lifting_pays_from_a_few_signals_on() {
         let saved = planes as f64 - set_up as f64;
         assert!(saved < 0.026 * all(n, 3)[0] as f64, "order {n}: {saved}");
     }
+}
+
+/// By the planner's price, which counts the numbers that a rotation is given, two per coefficient and more: each call reads
+/// them again, so that one RGB signal never pays and two do up to order 5; beyond, more is held than there are registers.
+#[test]
+fn lifting_costs_registers() {
+    let all = |n: usize, calls: usize| -> [usize; 3] {
+        let own = |text: &str| {
+            let spec = spec(text);
+            price(&spec.code(), spec.channels())
+        };
+        let pair = |method: &str| own(&format!("{method}:{n}")) + calls * own(&format!("rotate:{n}:{method}:rgb"));
+        [calls * own(&format!("rotate:{n}:rgb")), pair(SHARED[0]), pair(SHARED[1])]
+    };
+    let pays = |n: usize| {
+        (1..100).find(|&calls| {
+            let [whole, planes, lifted] = all(n, calls);
+            lifted < whole.min(planes)
+        })
+    };
+    let from: Vec<_> = (3..=10).map(|n| pays(n).unwrap_or_default()).collect();
+    println!("RGB signals from which on it pays, orders 3 to 10: {from:?}");
+    assert_eq!(from, [2, 2, 2, 0, 0, 0, 0, 0]);
 }
