@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
 
-use zonal::real::{Channels, Lanes};
+use zonal::real::{Channels, FUSED, Lanes};
 use zonal_codegen::catalog;
 use zonal_codegen::families::Spec;
 use zonal_codegen::ir::code::Runner;
@@ -13,6 +13,8 @@ use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::kernel::Param;
 use zonal_codegen::promise::samples::{self, Random};
 
+/// How numbers round here: twice, unless the tests are compiled for a processor with multiply-adds.
+const CONTRACTION: Contraction = if FUSED { Contraction::Fused } else { Contraction::Separate };
 const SEED: u64 = 0x9e_11;
 const SAMPLES: usize = 24;
 
@@ -115,7 +117,7 @@ fn compare_one<T: Same>(spec: &Spec, params: &[Param], runner: &Runner<T>, funct
             let of = |param: &Param| if param.kind.is_scalar() { i } else { (i + channel) % SAMPLES };
             params.iter().enumerate().map(|(place, param)| &inputs[of(param)][place][..]).collect()
         };
-        let each: Vec<Vec<T>> = (0..channels).map(|channel| runner.run(&one(channel), Contraction::Separate)).collect();
+        let each: Vec<Vec<T>> = (0..channels).map(|channel| runner.run(&one(channel), CONTRACTION)).collect();
         let rows: Vec<Vec<T>> = (0..params.len())
             .map(|place| {
                 let channels = params[place].kind.numbers(channels);
