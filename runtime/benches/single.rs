@@ -13,14 +13,16 @@ use std::time::Duration;
 const COUNT: usize = 1024;
 
 fn single(criterion: &mut Criterion) {
-    for mut row in calls::rows(&calls::Inputs::new(COUNT)) {
+    let inputs = calls::Inputs::new(COUNT);
+    for row in calls::rows() {
+        let mut work = (row.make)(&inputs);
         let mut group = criterion.benchmark_group(format!("order {}", row.order));
         group.throughput(Throughput::Elements(COUNT as u64));
         group.warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_secs(1));
         group.bench_function(format!("{} {}", row.function, row.form).trim_end(), |bencher| {
             bencher.iter(|| {
-                row.work.run();
-                black_box(row.work.written());
+                work.run();
+                black_box(work.written());
             });
         });
         group.finish();

@@ -76,6 +76,9 @@ impl<P, const N: usize, const M: usize> Work for Batch<P, N, M> {
     }
 }
 
+/// Makes a row's work ready for inputs: reads and writes nothing that another row does.
+pub type Make = Box<dyn Fn(&Inputs) -> Box<dyn Work>>;
+
 /// A function in one form, at one order.
 pub struct Row {
     /// The function's name in zonal; `copy` copies the signals, `fill` writes as many numbers.
@@ -85,7 +88,7 @@ pub struct Row {
     /// The order.
     pub order: usize,
     /// What it does.
-    pub work: Box<dyn Work>,
+    pub make: Make,
 }
 
 /// One function of an order, as the crate has it and as the kernel that it calls, and its rows.
@@ -96,7 +99,7 @@ macro_rules! function {
         kernel |$q:ident: $own:ty| $kernel:expr, $owns:expr
     ) => {
         pub mod $name {
-            use super::super::{Batch, Inputs, Row};
+            use super::super::{Batch, Inputs, Make, Row};
 
             const N: usize = $order * $order;
             type Signal = [f32; N];
@@ -113,28 +116,29 @@ macro_rules! function {
             }
 
             fn row<P: 'static>(
-                inputs: &Inputs,
                 form: &'static str,
-                params: Vec<P>,
+                params: fn(&Inputs) -> Vec<P>,
                 body: fn(&[P], &[Signal], &mut [Written]),
             ) -> Row {
-                let signals = super::signals(inputs);
-                let results = vec![[0.0; $results]; signals.len()];
-                let work = Box::new(Batch { params, signals, results, body });
-                Row { function: stringify!($name), form, order: $order, work }
+                let make: Make = Box::new(move |inputs| {
+                    let signals = super::signals(inputs);
+                    let results = vec![[0.0; $results]; signals.len()];
+                    Box::new(Batch { params: params(inputs), signals, results, body })
+                });
+                Row { function: stringify!($name), form, order: $order, make }
             }
 
-            pub fn rows(inputs: &Inputs) -> [Row; 3] {
+            pub fn rows() -> [Row; 3] {
                 let params: fn(&Inputs) -> Vec<$param> = $params;
                 let owns: fn(&Inputs) -> Vec<$own> = $owns;
                 [
-                    row(inputs, "call", params(inputs), |params, c, out| {
+                    row("call", params, |params, c, out| {
                         $each!(params).zip(c).zip(out).for_each(|((p, c), out)| *out = call(p, c));
                     }),
-                    row(inputs, "into", owns(inputs), |params, c, out| {
+                    row("into", owns, |params, c, out| {
                         $each!(params).zip(c).zip(out).for_each(|((p, c), out)| into(p, c, out));
                     }),
-                    row(inputs, "loop", owns(inputs), |params, c, out| {
+                    row("loop", owns, |params, c, out| {
                         for (($q, $c), out) in $each!(params).zip(c).zip(out) {
                             *out = $kernel;
                         }
@@ -162,7 +166,7 @@ macro_rules! one {
 macro_rules! orders {
     ($($module:ident $kernels:ident $order:literal),*) => {
         $(pub mod $module {
-            use super::{Batch, Inputs, Row};
+            use super::{Batch, Inputs, Make, Row};
 
             fn signals<const N: usize>(inputs: &Inputs) -> Vec<[f32; N]> {
                 inputs.signals.iter().map(|c| std::array::from_fn(|i| c[i])).collect()
@@ -196,29 +200,31 @@ macro_rules! orders {
                 kernel |n: [f32; 3]| zonal::$kernels::tilt(*n, c), |inputs| inputs.normals.clone()
             );
 
-            pub fn rows(inputs: &Inputs) -> Vec<Row> {
+            pub fn rows() -> Vec<Row> {
                 const N: usize = $order * $order;
                 let memory = |function, body: fn(&[()], &[[f32; N]], &mut [[f32; N]])| {
-                    let signals = signals(inputs);
-                    let work = Box::new(Batch { params: Vec::new(), results: signals.clone(), signals, body });
-                    Row { function, form: "", order: $order, work }
+                    let make: Make = Box::new(move |inputs| {
+                        let signals = signals(inputs);
+                        Box::new(Batch { params: Vec::new(), results: signals.clone(), signals, body })
+                    });
+                    Row { function, form: "", order: $order, make }
                 };
                 let mut rows = vec![
                     memory("copy", |_, c, out| out.copy_from_slice(c)),
                     memory("fill", |_, _, out| out.fill([0.0; N])),
                 ];
-                rows.extend(rotate::rows(inputs));
-                rows.extend(apply::rows(inputs));
-                rows.extend(evaluate_basis::rows(inputs));
-                rows.extend(evaluate::rows(inputs));
-                rows.extend(tilt::rows(inputs));
+                rows.extend(rotate::rows());
+                rows.extend(apply::rows());
+                rows.extend(evaluate_basis::rows());
+                rows.extend(evaluate::rows());
+                rows.extend(tilt::rows());
                 rows
             }
         })*
 
         /// Returns every row of the orders, ascending.
-        pub fn rows(inputs: &Inputs) -> Vec<Row> {
-            [$($module::rows(inputs)),*].into_iter().flatten().collect()
+        pub fn rows() -> Vec<Row> {
+            [$($module::rows()),*].into_iter().flatten().collect()
         }
     };
 }
