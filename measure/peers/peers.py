@@ -24,7 +24,7 @@ WORK = ROOT / "target" / "peers"
 PAGE = ROOT / "docs" / "measure" / "peers.md"
 PYPI = {"sphericart": "2.0.4", "ducc0": "0.42.0", "pyshtools": "4.14.1"}
 NPM = ("@playcanvas/splat-transform", "3.7.0")
-FLAGS = {"baseline": "", "native": "-C target-cpu=native"}
+FLAGS = {"baseline": "", "without SLP": "-C no-vectorize-slp", "native": "-C target-cpu=native"}
 ROUNDS = 15
 # Where signals pass by: so many of them are larger than a second cache, from order 4 or so on larger than a third.
 PASSING = 102_400
@@ -129,13 +129,11 @@ class Packages:
         """The basis of all directions in one call; the signs of odd m are turned afterwards."""
         directions = self.inputs["directions"].reshape(-1, 3)
         for order in ORDERS:
-            signs = np.array([(-1.0) ** m for l in range(order) for m in range(-l, l + 1)])
+            signs = phases(order)
             harmonics = package.SphericalHarmonics(order - 1)
             for form, number in (("sphericart f32", np.float32), ("sphericart f64", np.float64)):
                 given = np.ascontiguousarray(directions, dtype=number)
-                self.add(
-                    "evaluate_basis", order, form, COUNT, Sphericart(harmonics, given, signs)
-                )
+                self.add("evaluate_basis", order, form, COUNT, Sphericart(harmonics, given, signs))
 
     def ducc0(self, package):
         for order in ORDERS:
@@ -205,6 +203,11 @@ class Pyshtools(Turned):
 # Conventions: zonal's coefficients are real, orthonormal, with the Condon-Shortley phase, index l(l+1)+m.
 
 
+def phases(order):
+    """The Condon-Shortley phase, which some leave out."""
+    return np.array([(-1.0) ** m for l in range(order) for m in range(-l, l + 1)])
+
+
 def zyz(q):
     """The angles a, b, g of the rotation by g about z, then b about y, then a about z."""
     x, y, z, w = q / np.linalg.norm(q)
@@ -266,12 +269,12 @@ SECTIONS = [
     (
         "rotate",
         "A rotation a signal",
-        "From a quaternion, the set-up included. Packages of Python turn one signal a call, whose own cost is in it.",
+        "`rotate`, from a quaternion, the set-up included. Packages of Python turn one signal a call, whose own cost is in it.",
     ),
-    ("apply", "One rotation for all signals", "The set-up is not in it, but with ducc0, which turns 64 signals a call."),
-    ("evaluate_basis", "The basis", "n² numbers a direction; sphericart takes all directions in a call."),
-    ("evaluate", "The value in a direction", "n² numbers are read, one is written."),
-    ("tilt", "A tilt", "To a normal that leans by 17 degrees at most."),
+    ("apply", "One rotation for all signals", "`Rotation::apply`, without its set-up, but with that of ducc0, which turns 64 signals a call."),
+    ("evaluate_basis", "The basis", "`evaluate_basis`: n² numbers a direction; sphericart takes all directions in a call."),
+    ("evaluate", "The value in a direction", "`evaluate`: n² numbers are read, one is written."),
+    ("tilt", "A tilt", "`tilt`, to a normal that leans by 17 degrees at most."),
     (
         "splats",
         "Splats",
@@ -326,6 +329,8 @@ def measure():
             truth = inputs / f"{function}.{order}"
             if truth.exists() and order in ORDERS + [2]:
                 want = np.fromfile(truth)[: len(got)]
+                if form == "sphrs":
+                    got = got * np.tile(phases(order), COUNT)
                 key = (function, name_of(name, form))
                 errors[key] = max(errors.get(key, 0.0), float(np.abs(got - want).max()))
     return best, errors, copies, missing
@@ -334,7 +339,7 @@ def measure():
 def passing():
     """Times of plain loops over signals that no cache holds, by flags."""
     workers, best = [], {}
-    for name in FLAGS:
+    for name in ("baseline", "native"):
         folder = WORK / name / "passing"
         folder.mkdir(parents=True, exist_ok=True)
         workers.append((name, Worker(name, [WORK / name / "release" / "zonal-peers", folder, PASSING], folder)))
@@ -357,7 +362,7 @@ def page(best, errors, copies, missing, far):
         f"of {ROUNDS} rounds in which all rows take turns, over {COUNT} signals, which stay in a cache. The error is the "
         "largest of any coefficient at the orders of the table, for coefficients from −1 to 1, against zonal in f64 from "
         "the same inputs, of length one. *Baseline*: compiled for the architecture's baseline; *native*: with "
-        "`-C target-cpu=native`, which fuses multiply-adds. *A call* returns its result by value, *in place* writes it "
+        "`-C target-cpu=native`, which fuses multiply-adds; *without SLP*: the baseline with `-C no-vectorize-slp`. *A call* returns its result by value, *in place* writes it "
         "where it belongs, *a plain loop* has the kernel inlined. Absolute times do not carry over to another machine.\n\n"
         f"Compared with {', '.join(versions)}. No test reads these figures.\n"
     )
@@ -366,12 +371,12 @@ def page(best, errors, copies, missing, far):
     for function, title, what in SECTIONS:
         orders = [2, 3, 4] if function == "splats" else ORDERS
         names = list(dict.fromkeys(name for known, name, order in best if known == function and order in orders))
-        text += f"\n## {title}\n\n`{function}`. {what}\n\n| |" if function != "splats" else f"\n## {title}\n\n{what}\n\n| |"
+        text += f"\n## {title}\n\n{what}\n\n| |"
         text += "".join(f" n = {order} |" for order in orders) + " error |\n|---|" + "---|" * (len(orders) + 1) + "\n"
         text += "| copy |" + "".join(f" {short(copies[order])} |" for order in orders) + " |\n"
         if function == "evaluate_basis":
-            fills = [min(value for (known, _, at), value in best.items() if (known, at) == ("fill", order)) for order in orders]
-            text += "| zeros written |" + "".join(f" {short(value)} |" for value in fills) + " |\n"
+            fill = lambda order: min(x for (known, _, at), x in best.items() if (known, at) == ("fill", order))
+            text += "| zeros written |" + "".join(f" {short(fill(order))} |" for order in orders) + " |\n"
         for name in names:
             cells = (best.get((function, name, order)) for order in orders)
             shown = [f"{short(x)} ({short(x / copies[order])})" if x else "" for x, order in zip(cells, orders)]

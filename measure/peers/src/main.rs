@@ -5,7 +5,6 @@
 //! an empty line, and answers each number of a row with nanoseconds a signal. `results` writes what the rows give.
 
 #[path = "../../../runtime/benches/calls/mod.rs"]
-#[allow(dead_code)]
 mod calls;
 
 use calls::{Inputs, Make, Row, Work};
