@@ -375,7 +375,7 @@ fn timing(report: &Report) -> File {
         format!(
             "Nanoseconds a vector of the compiled kernels on one core ({}), and the ratio to a copy of the same bytes, \
              timed in turn in the same run: medians. *Call*: by single calls, each of a function that is compiled by \
-             itself. *Loop*: the same kernel inlined into a plain loop over slices, of which the compiler may work on \
+             itself and writes its result in place. *Loop*: the same kernel inlined into a plain loop over slices, of which the compiler may work on \
              several vectors at once: another thing, and neither is wrong. *Lanes*: a loop over blocks of sixteen \
              vectors, interleaved, in f32. `rotate:n:angles` and `rotate:n:lifted` are timed without their set-up, \
              which serves many vectors. Compiled for the architecture's baseline, so without multiply-add instructions \

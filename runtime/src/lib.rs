@@ -75,7 +75,7 @@
 //! signals at once and compiles for this processor keeps single calls apart, in a function that is `#[inline(never)]`.
 //!
 //! On x86-64 without the flag, the compiler packs the numbers of one signal into vectors where it had better not:
-//! `-C no-vectorize-slp` makes a single [`rotate`] of the orders 3 to 5 take a sixth less. A result that is returned by value
+//! `-C no-vectorize-slp` makes a single [`rotate`] of the orders 3 to 5 take a fifth less. A result that is returned by value
 //! to a function that stores it is copied once more, which shows at the orders 3 to 5; inlined it is not.
 //!
 //! # Input that is not unit
