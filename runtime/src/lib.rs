@@ -69,7 +69,7 @@
 //! `-C target-feature=+fma`, a single call takes a quarter to a third less, and errs by no more than is proven. On aarch64 it
 //! is so without a flag.
 //!
-//! The same flag makes *plain loops* over arrays of signals slower, up to two and a half times in a cache and up to five times
+//! The same flag makes *plain loops* over arrays of signals slower, up to two and a half times in a cache and several times
 //! outside of one: the compiler works on as many signals at once as its vectors are wide, and gathers and scatters their
 //! numbers one by one. `docs/measure/peers.md` of the repository has the figures, by function and order. Whoever turns many
 //! signals at once and compiles for this processor keeps single calls apart, in a function that is `#[inline(never)]`.
