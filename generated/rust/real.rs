@@ -3,6 +3,23 @@
 //! What the kernels are generic over.
 
 use core::ops::{Add, Mul, Neg, Sub};
+/// Whether `f32` and `f64` round once where a product is added to: where the target they are compiled for does it in one
+/// instruction, as with `-C target-cpu=native` or on aarch64, and there is `std`. A call it never is.
+pub const FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))));
+/// `a · b + c`, rounded once.
+#[cfg(all(feature = "std", any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon"))))]
+macro_rules! multiply_add {
+    ($a:expr, $b:expr, $c:expr) => {
+        $a.mul_add($b, $c)
+    };
+}
+/// `a · b + c`, rounded twice.
+#[cfg(not(all(feature = "std", any(target_feature = "fma", all(target_arch = "aarch64", target_feature = "neon")))))]
+macro_rules! multiply_add {
+    ($a:expr, $b:expr, $c:expr) => {
+        $a * $b + $c
+    };
+}
 /// What a kernel's signal is made of: a number, or one number a channel. Linear over `T`.
 pub trait Signal<
     T,
@@ -11,11 +28,11 @@ pub trait Signal<
     > + Sub<Output = Self> + Neg<Output = Self> + Mul<T, Output = Self> {
     /// Nothing.
     fn zero() -> Self;
-    /// `self · t + c`; one rounding or two.
+    /// `self · t + c`; one rounding or two, see [`FUSED`].
     fn fma(self, t: T, c: Self) -> Self;
-    /// `self · t − c`; one rounding or two.
+    /// `self · t − c`; so rounded too.
     fn fms(self, t: T, c: Self) -> Self;
-    /// `c − self · t`; one rounding or two.
+    /// `c − self · t`; so rounded too.
     fn fnma(self, t: T, c: Self) -> Self;
     /// `self · other`, channel by channel: linear in each of two signals.
     fn times(self, other: Self) -> Self;
@@ -65,15 +82,15 @@ impl Signal<f32> for f32 {
     }
     #[inline(always)]
     fn fma(self, t: f32, c: Self) -> Self {
-        self * t + c
+        multiply_add!(self, t, c)
     }
     #[inline(always)]
     fn fms(self, t: f32, c: Self) -> Self {
-        self * t - c
+        multiply_add!(self, t, -c)
     }
     #[inline(always)]
     fn fnma(self, t: f32, c: Self) -> Self {
-        c - self * t
+        multiply_add!(-self, t, c)
     }
     #[inline(always)]
     fn times(self, other: Self) -> Self {
@@ -138,15 +155,15 @@ impl Signal<f64> for f64 {
     }
     #[inline(always)]
     fn fma(self, t: f64, c: Self) -> Self {
-        self * t + c
+        multiply_add!(self, t, c)
     }
     #[inline(always)]
     fn fms(self, t: f64, c: Self) -> Self {
-        self * t - c
+        multiply_add!(self, t, -c)
     }
     #[inline(always)]
     fn fnma(self, t: f64, c: Self) -> Self {
-        c - self * t
+        multiply_add!(-self, t, c)
     }
     #[inline(always)]
     fn times(self, other: Self) -> Self {

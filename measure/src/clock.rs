@@ -30,24 +30,44 @@ fn seconds(mut work: impl FnMut()) -> f64 {
     (0..PASSES).map(pass).fold(f64::INFINITY, f64::min)
 }
 
-/// Times a kernel against a copy; `lanes` vectors are worked on in one call.
-fn time<T: Real, P, const N: usize>(lanes: usize, params: &[P], kernel: impl Fn(&P, &[T; N]) -> [T; N]) -> Time {
+/// A kernel as a call that nothing is shared with, and that writes its result where it belongs: what it takes alone.
+#[inline(never)]
+fn call<P, A, R>(kernel: &impl Fn(&P, &A) -> R, p: &P, c: &A, out: &mut R) {
+    *out = kernel(p, c);
+}
+
+/// Times a kernel against a copy, by single calls and inlined into a plain loop over slices; `lanes` vectors are worked on
+/// at once.
+fn time<T: Real, P: Clone, const N: usize>(
+    lanes: usize,
+    params: &[P],
+    kernel: impl Fn(&P, &[T; N]) -> [T; N],
+) -> [Time; 2] {
     let count = (BYTES / size_of::<[T; N]>()).max(params.len());
+    let params: Vec<P> = params.iter().cycle().take(count).cloned().collect();
     let input: Vec<[T; N]> = (0..count).map(|i| std::array::from_fn(|j| T::lit(((i + j) % 7) as f64 - 3.0))).collect();
     let mut output = input.clone();
-    let (mut times, mut ratios) = (Vec::new(), Vec::new());
+    let mut rounds: [Vec<[f64; 2]>; 2] = Default::default();
     for _ in 0..ROUNDS {
         let copy = seconds(|| black_box(&mut output).copy_from_slice(black_box(&input)));
-        let run = seconds(|| {
-            let params = black_box(params);
-            for (place, (out, c)) in black_box(&mut output).iter_mut().zip(black_box(&input)).enumerate() {
-                *out = kernel(&params[place % params.len()], c);
+        let single = seconds(|| {
+            for ((out, c), p) in black_box(&mut output).iter_mut().zip(black_box(&input)).zip(black_box(&params)) {
+                call(&kernel, p, c, out);
             }
         });
-        times.push(run * 1e9 / (count * lanes) as f64);
-        ratios.push(run / copy);
+        let plain = seconds(|| {
+            for ((out, c), p) in black_box(&mut output).iter_mut().zip(black_box(&input)).zip(black_box(&params)) {
+                *out = kernel(p, c);
+            }
+        });
+        for (rounds, run) in rounds.iter_mut().zip([single, plain]) {
+            rounds.push([run * 1e9 / (count * lanes) as f64, run / copy]);
+        }
     }
-    Time { nanoseconds: median(times), copies: median(ratios) }
+    rounds.map(|rounds| {
+        let of = |place: usize| median(rounds.iter().map(|round| round[place]).collect());
+        Time { nanoseconds: of(0), copies: of(1) }
+    })
 }
 
 /// Parameters for a kernel: quaternions, some of them near to the identity, normals, phases, small angles.
@@ -84,19 +104,21 @@ macro_rules! times {
     (@ $p:ident) => { *$p };
     (@ $p:ident $set_up:ident) => { $p };
     ($order:literal, $spec:literal, $field:ident $($set_up:ident)?, $module:ident :: $name:ident) => {{
-        fn layout<T: Real + Signal<T>>(lanes: usize) -> Time {
+        fn layout<T: Real + Signal<T>>(lanes: usize) -> [Time; 2] {
             let params = Params::<T>::new();
             let all = params.$field.into_iter()$(.map(zonal::$module::$set_up))?.collect::<Vec<_>>();
             time(lanes, &all, |p, c: &[T; $order * $order]| {
                 zonal::$module::$name(times!(@ p $($set_up)?), c)
             })
         }
+        let [f32, plain] = layout::<f32>(1);
         Times {
             spec: format!($spec, $order),
             order: $order,
-            f32: layout::<f32>(1),
-            f64: layout::<f64>(1),
-            lanes: layout::<Lanes<f32, 16>>(16),
+            f32,
+            plain,
+            f64: layout::<f64>(1)[0],
+            lanes: layout::<Lanes<f32, 16>>(16)[1],
         }
     }};
 }
@@ -174,14 +196,14 @@ impl Turning {
         Self { matrices: quaternions.iter().map(matrix).collect(), quaternions, near, angles }
     }
 
-    fn time<P, const N: usize>(
+    fn time<P: Clone, const N: usize>(
         &self,
         order: usize,
         spec: &str,
         params: &[P],
         kernel: impl Fn(&P, &[f32; N]) -> [f32; N],
     ) -> Single {
-        Single { spec: spec.replace("{}", &order.to_string()), order, time: time(1, params, kernel) }
+        Single { spec: spec.replace("{}", &order.to_string()), order, time: time(1, params, kernel)[0] }
     }
 }
 

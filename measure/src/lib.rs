@@ -12,6 +12,7 @@ pub mod filtering;
 pub mod fronts;
 pub mod glossy;
 pub mod hemisphere;
+pub mod instructions;
 mod markdown;
 pub mod methods;
 pub mod numbers;
@@ -77,6 +78,9 @@ pub struct File {
     pub text: String,
 }
 
+/// A file of `docs/measure` that `measure/peers` writes: what other programs take, in the same run.
+pub const PEERS: &str = "peers.md";
+
 /// Every file of text that a report makes, itself among them.
 pub fn render(report: &Report) -> Vec<File> {
     let mut files = vec![File { name: "measure.json".to_owned(), text: report.to_json() }];
@@ -102,6 +106,7 @@ pub fn stale(folder: &Path, fresh: &Report) -> Vec<String> {
     let differs = |file: &File| std::fs::read_to_string(folder.join(&file.name)).map_or(true, |text| text != file.text);
     let files = render(&old).into_iter().filter(differs).map(|file| format!("{} does not show its figures", file.name));
     let bounds = bounds::stale(old.bounds.as_deref().unwrap_or_default());
+    let instructions = instructions::stale(old.instructions.as_deref().unwrap_or_default());
     let pictures = fresh.pictures().filter_map(|picture| picture.stale(folder));
-    old.differences(fresh).into_iter().chain(files).chain(bounds).chain(pictures).collect()
+    old.differences(fresh).into_iter().chain(files).chain(bounds).chain(instructions).chain(pictures).collect()
 }

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::Duration;
 use zonal_measure::timing::Timing;
-use zonal_measure::{Progress, Report, bounds, render, stale};
+use zonal_measure::{Progress, Report, bounds, instructions, render, stale};
 
 /// Measure every method: errors over the angle, operations, memory, rounding, time.
 #[derive(Parser)]
@@ -24,6 +24,9 @@ struct Arguments {
     /// Take only the times again; the command must be built for them, as `cargo measure-times` is.
     #[arg(long, conflicts_with_all = ["check", "bounds"])]
     only_times: bool,
+    /// Count only the instructions of single calls, by valgrind, and say what has changed.
+    #[arg(long, conflicts_with_all = ["check", "bounds", "only_times"])]
+    instructions: bool,
     /// The folder of the tables and plots.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/measure"))]
     output: PathBuf,
@@ -77,27 +80,37 @@ fn timing(folder: &Path, _: &Bar) -> Option<Timing> {
     kept(folder, "timing")
 }
 
+/// The report that the folder holds with one part of it measured again.
+fn part(arguments: &Arguments, bar: &Bar) -> Result<Report, String> {
+    let folder = &arguments.output;
+    let old = last(folder)
+        .ok_or_else(|| format!("{}: holds no report of this form; `cargo measure` writes one", folder.display()))?;
+    let report = match arguments.bounds {
+        Some(inputs) => Report { bounds: Some(bounds::measure(bar, inputs.max(1))), ..old },
+        None if arguments.instructions => {
+            let counted = instructions::measure(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))?;
+            let before = old.instructions.as_deref().unwrap_or_default();
+            instructions::changes(before, &counted).iter().for_each(|change| println!("{change}"));
+            Report { instructions: Some(counted), ..old }
+        }
+        None => Report { timing: timing(folder, bar), ..old },
+    };
+    bar.0.lock().expect("no holder panics").finish();
+    Ok(report)
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let folder = &arguments.output;
     let bar = Bar(Mutex::new(ProgressBar::hidden()));
-    if let Some(inputs) = arguments.bounds {
-        let Some(old) = last(folder) else {
-            eprintln!("{}: holds no report; `cargo measure` writes one", folder.display());
-            return ExitCode::FAILURE;
+    if arguments.bounds.is_some() || arguments.only_times || arguments.instructions {
+        return match part(&arguments, &bar) {
+            Ok(report) => written(folder, &report),
+            Err(error) => {
+                eprintln!("error: {error}");
+                ExitCode::FAILURE
+            }
         };
-        let bounds = Some(bounds::measure(&bar, inputs.max(1)));
-        bar.0.lock().expect("no holder panics").finish();
-        return written(folder, &Report { bounds, ..old });
-    }
-    if arguments.only_times {
-        let Some(old) = last(folder) else {
-            eprintln!("{}: holds no report; `cargo measure` writes one", folder.display());
-            return ExitCode::FAILURE;
-        };
-        let timing = timing(folder, &bar);
-        bar.0.lock().expect("no holder panics").finish();
-        return written(folder, &Report { timing, ..old });
     }
     let mut report = Report::measure(&bar);
     if arguments.check {
@@ -114,6 +127,7 @@ fn main() -> ExitCode {
     }
     report.timing = timing(folder, &bar);
     report.bounds = kept(folder, "bounds");
+    report.instructions = kept(folder, "instructions");
     bar.0.lock().expect("no holder panics").finish();
     written(folder, &report)
 }

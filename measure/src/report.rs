@@ -8,6 +8,7 @@ use crate::filtering::Filtering;
 use crate::fronts::{Front, Plan};
 use crate::glossy::Glossy;
 use crate::hemisphere::Hemisphere;
+use crate::instructions::Instructions;
 use crate::raster::Raster;
 use crate::ringing::Ringing;
 use crate::rounding::Rounding;
@@ -60,13 +61,16 @@ pub struct Report {
     pub hemisphere: Hemisphere,
     /// How long kernels took where they were last timed.
     pub timing: Option<Timing>,
+    /// The instructions of single calls where they were last counted.
+    #[serde(default)]
+    pub instructions: Option<Vec<Instructions>>,
     /// Pictures, which no JSON holds, besides those of the hemisphere.
     #[serde(skip)]
     pub drawn: Vec<Raster>,
 }
 
 impl Report {
-    /// Measures everything but times and the bounds' million inputs.
+    /// Measures everything but times, instructions and the bounds' million inputs.
     pub fn measure(progress: &dyn Progress) -> Self {
         let (fronts, plans) = fronts::measure(progress);
         let (filtering, filtered) = filtering::measure(progress);
@@ -87,6 +91,7 @@ impl Report {
             stability: Stability::measure(progress),
             hemisphere: Hemisphere::measure(progress),
             timing: None,
+            instructions: None,
             drawn: vec![filtered, strips],
         }
     }
@@ -116,10 +121,10 @@ impl Report {
         lines(&value, 0) + "\n"
     }
 
-    /// Where a fresh report differs from this one, times and bounds left out: counts must agree, errors to one percent.
+    /// Where a fresh report differs from this one, times, instructions and bounds left out: counts must agree, errors to one percent.
     pub fn differences(&self, fresh: &Self) -> Vec<String> {
         let value = |report: &Self| {
-            let report = Self { bounds: None, timing: None, ..report.clone() };
+            let report = Self { bounds: None, timing: None, instructions: None, ..report.clone() };
             serde_json::to_value(report).expect("a report has names for its fields")
         };
         let mut found = Vec::new();

@@ -359,7 +359,9 @@ fn timing(report: &Report) -> File {
             .map_or_else(|| "–".to_owned(), |costs| costs.operations.to_string());
         let mut row = vec![format!("`{}`", times.spec), operations];
         row.extend(
-            [times.f32, times.f64, times.lanes].iter().flat_map(|time| [short(time.nanoseconds), short(time.copies)]),
+            [times.f32, times.plain, times.f64, times.lanes]
+                .iter()
+                .flat_map(|time| [short(time.nanoseconds), short(time.copies)]),
         );
         row
     });
@@ -372,13 +374,30 @@ fn timing(report: &Report) -> File {
     let parts = [
         format!(
             "Nanoseconds a vector of the compiled kernels on one core ({}), and the ratio to a copy of the same bytes, \
-             timed in turn in the same run: medians. *Lanes* works on sixteen vectors at once, interleaved, in f32. \
-             `rotate:n:angles` and `rotate:n:lifted` are timed without their set-up, which serves many vectors. \
-             Compiled for the architecture's baseline, so without multiply-add instructions on x86-64. No test reads \
-             these figures.",
+             timed in turn in the same run: medians. *Call*: by single calls, each of a function that is compiled by \
+             itself and writes its result in place. *Loop*: the same kernel inlined into a plain loop over slices, of which the compiler may work on \
+             several vectors at once: another thing, and neither is wrong. *Lanes*: a loop over blocks of sixteen \
+             vectors, interleaved, in f32. `rotate:n:angles` and `rotate:n:lifted` are timed without their set-up, \
+             which serves many vectors. Compiled for the architecture's baseline, so without multiply-add instructions \
+             on x86-64; [peers](peers.md) has single calls and loops by what they are compiled for. No test reads these \
+             figures.",
             timing.machine
         ),
-        table(&["spec", "operations", "f32, ns", "copies", "f64, ns", "copies", "lanes, ns", "copies"], rows),
+        table(
+            &[
+                "spec",
+                "operations",
+                "call f32, ns",
+                "copies",
+                "loop f32, ns",
+                "copies",
+                "call f64, ns",
+                "copies",
+                "lanes, ns",
+                "copies",
+            ],
+            rows,
+        ),
         remark,
         turns::part(&timing.turns),
         turns::shading(report),
@@ -448,6 +467,11 @@ fn index(report: &Report) -> File {
         ("[filtering](filtering.md)", "sparse and noisy reflectances, filtered: Figure 11 of Soler et al. 2015"),
         ("[glossy](glossy.md)", "glossy surfaces: Figures 4 and 12 and Table I of Soler et al. 2015"),
         ("[timing](timing.md)", "nanoseconds a vector"),
+        ("[instructions](instructions.md)", "instructions of single calls, counted"),
+        (
+            "[peers](peers.md)",
+            "zonal beside sphericart, ducc0, pyshtools, sphrs and splat-transform; written by measure/peers",
+        ),
         ("[measure.json](measure.json)", "all of it as data"),
     ];
     let exact = report.cost("rotate:n", 5).map_or(0, |costs| costs.operations);
@@ -455,7 +479,7 @@ fn index(report: &Report) -> File {
     let parts = [
         "Speed against accuracy, measured. `cargo measure` writes this folder; `cargo measure --check` \
          says whether it is stale, and a test does too (times apart); `cargo measure-times` takes the times, `cargo measure \
-         --bounds` the bounds."
+         --bounds` the bounds, `cargo measure --instructions` counts instructions."
             .to_owned(),
         format!(
             "![Error over the angle, order 5](error_order5.svg)\n\nThe exact rotation of order 5 takes {exact} operations \
@@ -483,6 +507,7 @@ pub fn files(report: &Report) -> Vec<File> {
         crate::filtering::table(&report.filtering),
         crate::glossy::table(&report.glossy),
         timing(report),
+        crate::instructions::page(report.instructions.as_deref()),
     ]
 }
 

@@ -18,15 +18,17 @@ pub struct Times {
     pub spec: String,
     /// The order.
     pub order: usize,
-    /// One vector at a time in f32.
+    /// By single calls in f32: a function that is compiled by itself, so that nothing is shared between vectors.
     pub f32: Time,
-    /// One vector at a time in f64.
+    /// Inlined into a plain loop over slices in f32, which the compiler may turn into one over several vectors.
+    pub plain: Time,
+    /// By single calls in f64.
     pub f64: Time,
     /// Sixteen vectors at once, interleaved, in f32.
     pub lanes: Time,
 }
 
-/// The time of a kernel, one vector at a time in f32.
+/// The time of a kernel by single calls in f32.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Single {
     /// The spec.

@@ -19,7 +19,7 @@ use zonal_measure::fronts::{ORDERS, Plan, TURNS};
 use zonal_measure::methods::{METHODS, named};
 use zonal_measure::papers::{LOBES, SPARSITY, TABLE_2, recomputed};
 use zonal_measure::shading::Conditions;
-use zonal_measure::{Report, Silent, errors, render, stale};
+use zonal_measure::{PEERS, Report, Silent, errors, render, stale};
 
 fn fresh() -> &'static Report {
     static REPORT: OnceLock<Report> = OnceLock::new();
@@ -37,7 +37,8 @@ fn the_docs_are_not_stale() {
         found.join("\n")
     );
     let pictures = fresh().pictures().map(|picture| picture.name.clone());
-    let names: Vec<String> = render(fresh()).into_iter().map(|file| file.name).chain(pictures).collect();
+    let names: Vec<String> =
+        render(fresh()).into_iter().map(|file| file.name).chain(pictures).chain([PEERS.to_owned()]).collect();
     for entry in std::fs::read_dir(&folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         assert!(names.contains(&name), "{name} is made by nothing");

@@ -2,6 +2,7 @@
 //! element says the precision and the number of channels. One macro ties each length to its generated module; it holds
 //! no mathematics.
 
+use core::borrow::Borrow;
 use core::fmt::Debug;
 
 use crate::error::Error;
@@ -218,16 +219,15 @@ macro_rules! orders {
             }
             #[inline]
             fn eval(dir: [E::Scalar; 3], c: &Self) -> E {
-                E::element(zonal_kernels::$module::eval(dir, &c.map(E::signal)))
+                E::element(zonal_kernels::$module::eval(dir, E::signals(c).borrow()))
             }
             #[inline]
             fn rotate(q: [E::Scalar; 4], c: &Self) -> Self {
-                let c = c.map(E::signal);
-                match E::CHANNELS {
-                    1 => zonal_kernels::$module::$one(q, &c),
-                    _ => zonal_kernels::$module::$many(q, &c),
-                }
-                .map(E::element)
+                let c = E::signals(c);
+                E::elements(match E::CHANNELS {
+                    1 => zonal_kernels::$module::$one(q, c.borrow()),
+                    _ => zonal_kernels::$module::$many(q, c.borrow()),
+                })
             }
             #[inline]
             fn rotate_matrix(columns: [[E::Scalar; 3]; 3], c: &Self) -> Self {
@@ -235,31 +235,31 @@ macro_rules! orders {
             }
             #[inline]
             fn rotate_y(cs: [E::Scalar; 2], c: &Self) -> Self {
-                zonal_kernels::$module::rotate_y(cs, &c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_y(cs, E::signals(c).borrow()))
             }
             #[inline]
             fn rotate_z(cs: [E::Scalar; 2], c: &Self) -> Self {
-                zonal_kernels::$module::rotate_z(cs, &c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_z(cs, E::signals(c).borrow()))
             }
             #[inline]
             fn rotate_x_plus_90(c: &Self) -> Self {
-                zonal_kernels::$module::rotate_x_plus_90deg(&c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_x_plus_90deg(E::signals(c).borrow()))
             }
             #[inline]
             fn rotate_x_minus_90(c: &Self) -> Self {
-                zonal_kernels::$module::rotate_x_minus_90deg(&c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_x_minus_90deg(E::signals(c).borrow()))
             }
             #[inline]
             fn swap_yz(c: &Self) -> Self {
-                zonal_kernels::$module::swap_yz(&c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::swap_yz(E::signals(c).borrow()))
             }
             #[inline]
             fn tilt(n: [E::Scalar; 3], c: &Self) -> Self {
-                zonal_kernels::$module::tilt(n, &c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::tilt(n, E::signals(c).borrow()))
             }
             #[inline]
             fn align(n: [E::Scalar; 3], c: &Self) -> Self {
-                zonal_kernels::$module::rotate_align(n, &c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_align(n, E::signals(c).borrow()))
             }
             #[inline]
             fn angles(q: [E::Scalar; 4]) -> Self::Angles {
@@ -267,7 +267,7 @@ macro_rules! orders {
             }
             #[inline]
             fn rotate_angles(angles: &Self::Angles, c: &Self) -> Self {
-                zonal_kernels::$module::rotate_angles(&angles.0, &c.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_angles(&angles.0, E::signals(c).borrow()))
             }
             #[inline]
             fn minimum(channel: &Self::Basis) -> Option<E::Scalar> {
@@ -279,12 +279,12 @@ macro_rules! orders {
             type Coefficients = [E; $count];
             #[inline]
             fn rotate_zonal(dir: [E::Scalar; 3], g: &Self) -> [E; $count] {
-                zonal_kernels::$module::rotate_zonal(dir, &g.map(E::signal)).map(E::element)
+                E::elements(zonal_kernels::$module::rotate_zonal(dir, E::signals(g).borrow()))
             }
         }
     )* };
     (@ direct $module:ident $columns:ident $c:ident $element:ident) => {
-        zonal_kernels::$module::rotate_matrix(&$columns, &$c.map($element::signal)).map($element::element)
+        $element::elements(zonal_kernels::$module::rotate_matrix(&$columns, $element::signals($c).borrow()))
     };
     (@ quaternion $module:ident $columns:ident $c:ident $element:ident) => {
         Self::rotate(crate::matrix::quaternion($columns), $c)

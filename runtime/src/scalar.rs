@@ -1,6 +1,7 @@
 //! Precisions, and what one coefficient may be: a number, an array of them, or a vector of glam or mint, each version of
 //! glam by a feature of its own. It knows no order.
 
+use core::borrow::Borrow;
 use core::fmt::Debug;
 
 use zonal_kernels::real::{Channels, Real, Signal};
@@ -60,6 +61,18 @@ pub trait Element: Copy + Debug + PartialEq + Send + Sync + 'static + Sealed {
     fn signal(self) -> Self::Signal;
     #[doc(hidden)]
     fn element(signal: Self::Signal) -> Self;
+    /// What a kernel reads: of numbers these coefficients themselves, since a copy takes a short kernel's time again.
+    #[doc(hidden)]
+    #[inline]
+    fn signals<const N: usize>(c: &[Self; N]) -> impl Borrow<[Self::Signal; N]> {
+        c.map(Self::signal)
+    }
+    /// What a kernel gives, as coefficients.
+    #[doc(hidden)]
+    #[inline]
+    fn elements<const N: usize>(signals: [Self::Signal; N]) -> [Self; N] {
+        signals.map(Self::element)
+    }
 }
 
 /// Functions of numbers from `std`, or from `libm` where there is none.
@@ -97,6 +110,14 @@ macro_rules! scalars {
             #[inline]
             fn element(signal: Self) -> Self {
                 signal
+            }
+            #[inline]
+            fn signals<const N: usize>(c: &[Self; N]) -> impl Borrow<[Self; N]> {
+                c
+            }
+            #[inline]
+            fn elements<const N: usize>(signals: [Self; N]) -> [Self; N] {
+                signals
             }
         }
     )* };

@@ -17,6 +17,7 @@ mod environment;
 mod examples;
 mod fixture;
 mod found;
+mod fused;
 mod goldens;
 mod half;
 mod hbasis;
