@@ -19,7 +19,7 @@
 // 2013's recurrence, rearranged).
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
-// Operations: 90 (62 mul, 0 add, 28 fma); 50 constants, 50 live values.
+// Operations: 90 (62 mul, 0 add, 28 fma); 50 constants, 49 live values.
 // Vector registers on RDNA 2: 64.
 // Error: f32 rounding at most 2.7e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 4.2e-7).
@@ -28,97 +28,97 @@ ZONAL_HIGHP float[49] sh7_basis(ZONAL_HIGHP vec3 dir) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = 0.48860252 * dir.y;
-    float t1 = 0.48860252 * dir.z;
-    float t2 = 0.48860252 * dir.x;
-    float t3 = 2.236068 * dir.x * t0;
-    float t4 = 2.236068 * dir.z;
-    float t5 = t0 * t4;
-    float t6 = dir.z * dir.z;
-    float t7 = 0.9461747 * t6 - 0.31539157;
-    float t8 = t2 * t4;
-    float t9 = t2 * t2 - t0 * t0;
-    float t10 = 2.288228 * t9;
-    float t11 = 1.0801234 * dir.x;
-    float t12 = 1.0801234 * dir.y;
-    float t13 = t10 * t12 + t3 * t11;
-    float t14 = 2.6457512 * dir.z;
-    float t15 = t3 * t14;
-    float t16 = 4.6770716 * t6 - 0.9354144;
-    float t17 = 3.818813 * t6 - 2.291288;
-    float t18 = t10 * t14;
-    float t19 = t3 * t12 - t10 * t11;
-    float t20 = 9.597724 * t9 * t3;
-    float t21 = 3.0 * dir.z;
-    float t22 = t13 * t21;
-    float t23 = 6.0621777 * t6 - 0.8660254;
-    float t24 = 4.2866073 * t6 - 1.8371173;
-    float t25 = (3.913119 * t6 - 2.0497289) * t7 - 0.3291106;
-    float t26 = t19 * t21;
-    float t27 = 2.0971956 * (t10 * t10 - t3 * t3);
-    float t28 = 1.0488088 * dir.x;
-    float t29 = 1.0488088 * dir.y;
-    float t30 = t27 * t29 + t20 * t28;
-    float t31 = 3.3166249 * dir.z;
-    float t32 = 7.4624057 * t6 - 0.8291562;
-    float t33 = 4.974937 * t6 - 1.6583124;
-    float t34 = (4.162331 * t6 - 1.9424212) * t16 - 0.88994384;
-    float t35 = t20 * t29 - t27 * t28;
-    float t36 = 3.6055512 * dir.z;
-    float t37 = 8.868484 * t6 - 0.8062258;
-    float t38 = 5.7245817 * t6 - 1.5612495;
-    float t39 = (4.589876 * t6 - 1.8478723) * t23 - 0.75713325;
-    float t40 = (4.10531 * t6 - 1.9726815) * t24 - 0.9577062;
+    float t0 = 0.48860252 * dir.z;
+    float t1 = dir.z * dir.z;
+    float t2 = 0.9461747 * t1 - 0.31539157;
+    float t3 = 3.818813 * t1 - 2.291288;
+    float t4 = (3.913119 * t1 - 2.0497289) * t2 - 0.3291106;
+    float t5 = 0.48860252 * dir.x;
+    float t6 = 0.48860252 * dir.y;
+    float t7 = 2.236068 * dir.z;
+    float t8 = t5 * t7;
+    float t9 = t6 * t7;
+    float t10 = 4.6770716 * t1 - 0.9354144;
+    float t11 = 4.2866073 * t1 - 1.8371173;
+    float t12 = (4.162331 * t1 - 1.9424212) * t10 - 0.88994384;
+    float t13 = (4.10531 * t1 - 1.9726815) * t11 - 0.9577062;
+    float t14 = t5 * t5 - t6 * t6;
+    float t15 = 2.288228 * t14;
+    float t16 = 2.236068 * dir.x * t6;
+    float t17 = 2.6457512 * dir.z;
+    float t18 = t15 * t17;
+    float t19 = t16 * t17;
+    float t20 = 6.0621777 * t1 - 0.8660254;
+    float t21 = 4.974937 * t1 - 1.6583124;
+    float t22 = (4.589876 * t1 - 1.8478723) * t20 - 0.75713325;
+    float t23 = 1.0801234 * dir.y;
+    float t24 = 1.0801234 * dir.x;
+    float t25 = t16 * t23 - t15 * t24;
+    float t26 = t15 * t23 + t16 * t24;
+    float t27 = 3.0 * dir.z;
+    float t28 = t25 * t27;
+    float t29 = t26 * t27;
+    float t30 = 7.4624057 * t1 - 0.8291562;
+    float t31 = 5.7245817 * t1 - 1.5612495;
+    float t32 = 2.0971956 * (t15 * t15 - t16 * t16);
+    float t33 = 9.597724 * t14 * t16;
+    float t34 = 3.3166249 * dir.z;
+    float t35 = 8.868484 * t1 - 0.8062258;
+    float t36 = 1.0488088 * dir.y;
+    float t37 = 1.0488088 * dir.x;
+    float t38 = t33 * t36 - t32 * t37;
+    float t39 = t32 * t36 + t33 * t37;
+    float t40 = 3.6055512 * dir.z;
     return float[49](
         0.2820948,
-        -t0,
-        t1,
-        -t2,
-        t3,
+        -t6,
+        t0,
         -t5,
-        t7,
+        t16,
+        -t9,
+        t2,
         -t8,
-        t10,
-        -t13,
         t15,
-        -(t0 * t16),
-        t17 * t1,
-        -(t2 * t16),
-        t18,
+        -t26,
         t19,
-        t20,
-        -t22,
-        t3 * t23,
-        -(t24 * t5),
+        -(t6 * t10),
+        t3 * t0,
+        -(t5 * t10),
+        t18,
         t25,
-        -(t24 * t8),
-        t10 * t23,
-        t26,
-        t27,
-        -t30,
-        t20 * t31,
-        -(t13 * t32),
-        t33 * t15,
-        -(t0 * t34),
-        ((3.948734 * t6 - 2.018242) * t17 - 1.0340213) * t1,
-        -(t2 * t34),
-        t33 * t18,
-        t19 * t32,
-        t27 * t31,
-        t35,
-        -(3.9246376 * t19 * t13),
-        -(t30 * t36),
-        t20 * t37,
-        -(t38 * t22),
-        t3 * t39,
-        -(t40 * t5),
-        (3.9661064 * t6 - 2.0088072) * t25 - 1.013541 * t7,
-        -(t40 * t8),
-        t10 * t39,
-        t38 * t26,
-        t27 * t37,
-        t35 * t36,
-        1.9623188 * (t19 * t19 - t13 * t13)
+        t33,
+        -t29,
+        t16 * t20,
+        -(t11 * t9),
+        t4,
+        -(t11 * t8),
+        t15 * t20,
+        t28,
+        t32,
+        -t39,
+        t33 * t34,
+        -(t26 * t30),
+        t21 * t19,
+        -(t6 * t12),
+        ((3.948734 * t1 - 2.018242) * t3 - 1.0340213) * t0,
+        -(t5 * t12),
+        t21 * t18,
+        t25 * t30,
+        t32 * t34,
+        t38,
+        -(3.9246376 * t25 * t26),
+        -(t39 * t40),
+        t33 * t35,
+        -(t31 * t29),
+        t16 * t22,
+        -(t13 * t9),
+        (3.9661064 * t1 - 2.0088072) * t4 - 1.013541 * t2,
+        -(t13 * t8),
+        t15 * t22,
+        t31 * t28,
+        t32 * t35,
+        t38 * t40,
+        1.9623188 * (t25 * t25 - t26 * t26)
     );
 }
 

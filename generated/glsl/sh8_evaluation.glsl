@@ -19,7 +19,7 @@
 // 2013's recurrence, rearranged).
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
-// Operations: 122 (82 mul, 0 add, 40 fma); 68 constants, 70 live values.
+// Operations: 122 (82 mul, 0 add, 40 fma); 68 constants, 65 live values.
 // Vector registers on RDNA 2: 80.
 // Error: f32 rounding at most 3.6e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 5.5e-7).
@@ -28,125 +28,125 @@ ZONAL_HIGHP float[64] sh8_basis(ZONAL_HIGHP vec3 dir) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = 0.48860252 * dir.y;
-    float t1 = 0.48860252 * dir.z;
-    float t2 = 0.48860252 * dir.x;
-    float t3 = 2.236068 * dir.x * t0;
-    float t4 = 2.236068 * dir.z;
-    float t5 = t0 * t4;
-    float t6 = dir.z * dir.z;
-    float t7 = 0.9461747 * t6 - 0.31539157;
-    float t8 = t2 * t4;
-    float t9 = t2 * t2 - t0 * t0;
-    float t10 = 2.288228 * t9;
-    float t11 = 1.0801234 * dir.x;
-    float t12 = 1.0801234 * dir.y;
-    float t13 = t10 * t12 + t3 * t11;
-    float t14 = 2.6457512 * dir.z;
-    float t15 = t3 * t14;
-    float t16 = 4.6770716 * t6 - 0.9354144;
-    float t17 = 3.818813 * t6 - 2.291288;
-    float t18 = t10 * t14;
-    float t19 = t3 * t12 - t10 * t11;
-    float t20 = 9.597724 * t9 * t3;
-    float t21 = 3.0 * dir.z;
-    float t22 = t13 * t21;
-    float t23 = 6.0621777 * t6 - 0.8660254;
-    float t24 = 4.2866073 * t6 - 1.8371173;
-    float t25 = (3.913119 * t6 - 2.0497289) * t7 - 0.3291106;
-    float t26 = t19 * t21;
-    float t27 = 2.0971956 * (t10 * t10 - t3 * t3);
-    float t28 = 1.0488088 * dir.x;
-    float t29 = 1.0488088 * dir.y;
-    float t30 = t27 * t29 + t20 * t28;
-    float t31 = 3.3166249 * dir.z;
-    float t32 = t20 * t31;
-    float t33 = 7.4624057 * t6 - 0.8291562;
-    float t34 = 4.974937 * t6 - 1.6583124;
-    float t35 = (4.162331 * t6 - 1.9424212) * t16 - 0.88994384;
-    float t36 = (3.948734 * t6 - 2.018242) * t17 - 1.0340213;
-    float t37 = t27 * t31;
-    float t38 = t20 * t29 - t27 * t28;
-    float t39 = 3.9246376 * t19 * t13;
-    float t40 = 3.6055512 * dir.z;
-    float t41 = 8.868484 * t6 - 0.8062258;
-    float t42 = 5.7245817 * t6 - 1.5612495;
-    float t43 = (4.589876 * t6 - 1.8478723) * t23 - 0.75713325;
-    float t44 = (4.10531 * t6 - 1.9726815) * t24 - 0.9577062;
-    float t45 = 1.9623188 * (t19 * t19 - t13 * t13);
-    float t46 = 1.0350983 * dir.x;
-    float t47 = 1.0350983 * dir.y;
-    float t48 = 3.8729835 * dir.z;
-    float t49 = 10.277402 * t6 - 0.7905694;
-    float t50 = 6.5 * t6 - 1.5;
-    float t51 = (5.0812836 * t6 - 1.7806208) * t33 - 0.6809176;
-    float t52 = (4.400521 * t6 - 1.9181757) * t34 - 0.88453794;
-    float t53 = (4.0740905 * t6 - 1.9848133) * t35 - 0.97880024 * t16;
+    float t0 = 0.48860252 * dir.z;
+    float t1 = dir.z * dir.z;
+    float t2 = 0.9461747 * t1 - 0.31539157;
+    float t3 = 3.818813 * t1 - 2.291288;
+    float t4 = (3.913119 * t1 - 2.0497289) * t2 - 0.3291106;
+    float t5 = (3.948734 * t1 - 2.018242) * t3 - 1.0340213;
+    float t6 = 0.48860252 * dir.x;
+    float t7 = 0.48860252 * dir.y;
+    float t8 = 2.236068 * dir.z;
+    float t9 = t6 * t8;
+    float t10 = t7 * t8;
+    float t11 = 4.6770716 * t1 - 0.9354144;
+    float t12 = 4.2866073 * t1 - 1.8371173;
+    float t13 = (4.162331 * t1 - 1.9424212) * t11 - 0.88994384;
+    float t14 = (4.10531 * t1 - 1.9726815) * t12 - 0.9577062;
+    float t15 = (4.0740905 * t1 - 1.9848133) * t13 - 0.97880024 * t11;
+    float t16 = t6 * t6 - t7 * t7;
+    float t17 = 2.288228 * t16;
+    float t18 = 2.236068 * dir.x * t7;
+    float t19 = 2.6457512 * dir.z;
+    float t20 = t17 * t19;
+    float t21 = t18 * t19;
+    float t22 = 6.0621777 * t1 - 0.8660254;
+    float t23 = 4.974937 * t1 - 1.6583124;
+    float t24 = (4.589876 * t1 - 1.8478723) * t22 - 0.75713325;
+    float t25 = (4.400521 * t1 - 1.9181757) * t23 - 0.88453794;
+    float t26 = 1.0801234 * dir.y;
+    float t27 = 1.0801234 * dir.x;
+    float t28 = t18 * t26 - t17 * t27;
+    float t29 = t17 * t26 + t18 * t27;
+    float t30 = 3.0 * dir.z;
+    float t31 = t28 * t30;
+    float t32 = t29 * t30;
+    float t33 = 7.4624057 * t1 - 0.8291562;
+    float t34 = 5.7245817 * t1 - 1.5612495;
+    float t35 = (5.0812836 * t1 - 1.7806208) * t33 - 0.6809176;
+    float t36 = 2.0971956 * (t17 * t17 - t18 * t18);
+    float t37 = 9.597724 * t16 * t18;
+    float t38 = 3.3166249 * dir.z;
+    float t39 = t36 * t38;
+    float t40 = t37 * t38;
+    float t41 = 8.868484 * t1 - 0.8062258;
+    float t42 = 6.5 * t1 - 1.5;
+    float t43 = 1.0488088 * dir.y;
+    float t44 = 1.0488088 * dir.x;
+    float t45 = t37 * t43 - t36 * t44;
+    float t46 = t36 * t43 + t37 * t44;
+    float t47 = 3.6055512 * dir.z;
+    float t48 = 10.277402 * t1 - 0.7905694;
+    float t49 = 1.9623188 * (t28 * t28 - t29 * t29);
+    float t50 = 3.9246376 * t28 * t29;
+    float t51 = 3.8729835 * dir.z;
+    float t52 = 1.0350983 * dir.y;
+    float t53 = 1.0350983 * dir.x;
     return float[64](
         0.2820948,
-        -t0,
-        t1,
-        -t2,
-        t3,
-        -t5,
-        t7,
-        -t8,
-        t10,
-        -t13,
-        t15,
-        -(t0 * t16),
-        t17 * t1,
-        -(t2 * t16),
+        -t7,
+        t0,
+        -t6,
         t18,
-        t19,
+        -t10,
+        t2,
+        -t9,
+        t17,
+        -t29,
+        t21,
+        -(t7 * t11),
+        t3 * t0,
+        -(t6 * t11),
         t20,
-        -t22,
-        t3 * t23,
-        -(t24 * t5),
-        t25,
-        -(t24 * t8),
-        t10 * t23,
-        t26,
-        t27,
-        -t30,
-        t32,
-        -(t13 * t33),
-        t34 * t15,
-        -(t0 * t35),
-        t36 * t1,
-        -(t2 * t35),
-        t34 * t18,
-        t19 * t33,
+        t28,
         t37,
-        t38,
-        -t39,
-        -(t30 * t40),
-        t20 * t41,
-        -(t42 * t22),
-        t3 * t43,
-        -(t44 * t5),
-        (3.9661064 * t6 - 2.0088072) * t25 - 1.013541 * t7,
-        -(t44 * t8),
-        t10 * t43,
-        t42 * t26,
-        t27 * t41,
-        t38 * t40,
+        -t32,
+        t18 * t22,
+        -(t12 * t10),
+        t4,
+        -(t12 * t9),
+        t17 * t22,
+        t31,
+        t36,
+        -t46,
+        t40,
+        -(t29 * t33),
+        t23 * t21,
+        -(t7 * t13),
+        t5 * t0,
+        -(t6 * t13),
+        t23 * t20,
+        t28 * t33,
+        t39,
         t45,
-        t39 * t46 - t45 * t47,
-        -(t39 * t48),
-        -(t30 * t49),
-        t50 * t32,
-        -(t13 * t51),
-        t52 * t15,
-        -(t0 * t53),
-        ((3.9759054 * t6 - 2.0049436) * t36 - 1.006881 * t17) * t1,
-        -(t2 * t53),
-        t52 * t18,
-        t19 * t51,
-        t50 * t37,
-        t38 * t49,
+        -t50,
+        -(t46 * t47),
+        t37 * t41,
+        -(t34 * t32),
+        t18 * t24,
+        -(t14 * t10),
+        (3.9661064 * t1 - 2.0088072) * t4 - 1.013541 * t2,
+        -(t14 * t9),
+        t17 * t24,
+        t34 * t31,
+        t36 * t41,
+        t45 * t47,
+        t49,
+        t50 * t53 - t49 * t52,
+        -(t50 * t51),
+        -(t46 * t48),
+        t42 * t40,
+        -(t29 * t35),
+        t25 * t21,
+        -(t7 * t15),
+        ((3.9759054 * t1 - 2.0049436) * t5 - 1.006881 * t3) * t0,
+        -(t6 * t15),
+        t25 * t20,
+        t28 * t35,
+        t42 * t39,
         t45 * t48,
-        -(t45 * t46 + t39 * t47)
+        t49 * t51,
+        -(t49 * t53 + t50 * t52)
     );
 }
 

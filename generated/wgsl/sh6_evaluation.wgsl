@@ -7,79 +7,79 @@
 // 2013's recurrence, rearranged).
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
-// Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 39 live values.
+// Operations: 65 (46 mul, 0 add, 19 fma); 34 constants, 36 live values.
 // Vector registers on RDNA 2: 48.
 // Error: f32 rounding at most 1.5e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.5e-7).
 fn sh6_basis(dir: vec3<f32>) -> array<f32, 36> {
-    let t0 = 0.48860252 * dir.y;
-    let t1 = 0.48860252 * dir.z;
-    let t2 = 0.48860252 * dir.x;
-    let t3 = 2.236068 * dir.x * t0;
-    let t4 = 2.236068 * dir.z;
-    let t5 = t0 * t4;
-    let t6 = dir.z * dir.z;
-    let t7 = 0.9461747 * t6 - 0.31539157;
-    let t8 = t2 * t4;
-    let t9 = t2 * t2 - t0 * t0;
-    let t10 = 2.288228 * t9;
-    let t11 = 1.0801234 * dir.x;
-    let t12 = 1.0801234 * dir.y;
-    let t13 = t10 * t12 + t3 * t11;
-    let t14 = 2.6457512 * dir.z;
-    let t15 = t3 * t14;
-    let t16 = 4.6770716 * t6 - 0.9354144;
-    let t17 = 3.818813 * t6 - 2.291288;
-    let t18 = t10 * t14;
-    let t19 = t3 * t12 - t10 * t11;
-    let t20 = 9.597724 * t9 * t3;
-    let t21 = 3.0 * dir.z;
-    let t22 = 6.0621777 * t6 - 0.8660254;
-    let t23 = 4.2866073 * t6 - 1.8371173;
-    let t24 = 2.0971956 * (t10 * t10 - t3 * t3);
-    let t25 = 1.0488088 * dir.x;
-    let t26 = 1.0488088 * dir.y;
-    let t27 = 3.3166249 * dir.z;
-    let t28 = 7.4624057 * t6 - 0.8291562;
-    let t29 = 4.974937 * t6 - 1.6583124;
-    let t30 = (4.162331 * t6 - 1.9424212) * t16 - 0.88994384;
+    let t0 = 0.48860252 * dir.z;
+    let t1 = dir.z * dir.z;
+    let t2 = 0.9461747 * t1 - 0.31539157;
+    let t3 = 3.818813 * t1 - 2.291288;
+    let t4 = 0.48860252 * dir.x;
+    let t5 = 0.48860252 * dir.y;
+    let t6 = 2.236068 * dir.z;
+    let t7 = t4 * t6;
+    let t8 = t5 * t6;
+    let t9 = 4.6770716 * t1 - 0.9354144;
+    let t10 = 4.2866073 * t1 - 1.8371173;
+    let t11 = (4.162331 * t1 - 1.9424212) * t9 - 0.88994384;
+    let t12 = t4 * t4 - t5 * t5;
+    let t13 = 2.288228 * t12;
+    let t14 = 2.236068 * dir.x * t5;
+    let t15 = 2.6457512 * dir.z;
+    let t16 = t13 * t15;
+    let t17 = t14 * t15;
+    let t18 = 6.0621777 * t1 - 0.8660254;
+    let t19 = 4.974937 * t1 - 1.6583124;
+    let t20 = 1.0801234 * dir.y;
+    let t21 = 1.0801234 * dir.x;
+    let t22 = t14 * t20 - t13 * t21;
+    let t23 = t13 * t20 + t14 * t21;
+    let t24 = 3.0 * dir.z;
+    let t25 = 7.4624057 * t1 - 0.8291562;
+    let t26 = 2.0971956 * (t13 * t13 - t14 * t14);
+    let t27 = 9.597724 * t12 * t14;
+    let t28 = 3.3166249 * dir.z;
+    let t29 = 1.0488088 * dir.y;
+    let t30 = 1.0488088 * dir.x;
     return array<f32, 36>(
         0.2820948,
-        -t0,
-        t1,
-        -t2,
-        t3,
         -t5,
-        t7,
+        t0,
+        -t4,
+        t14,
         -t8,
-        t10,
-        -t13,
-        t15,
-        -(t0 * t16),
-        t17 * t1,
-        -(t2 * t16),
-        t18,
-        t19,
-        t20,
-        -(t13 * t21),
-        t3 * t22,
-        -(t23 * t5),
-        (3.913119 * t6 - 2.0497289) * t7 - 0.3291106,
-        -(t23 * t8),
-        t10 * t22,
-        t19 * t21,
-        t24,
-        -(t24 * t26 + t20 * t25),
-        t20 * t27,
-        -(t13 * t28),
-        t29 * t15,
-        -(t0 * t30),
-        ((3.948734 * t6 - 2.018242) * t17 - 1.0340213) * t1,
-        -(t2 * t30),
-        t29 * t18,
-        t19 * t28,
-        t24 * t27,
-        t20 * t26 - t24 * t25
+        t2,
+        -t7,
+        t13,
+        -t23,
+        t17,
+        -(t5 * t9),
+        t3 * t0,
+        -(t4 * t9),
+        t16,
+        t22,
+        t27,
+        -(t23 * t24),
+        t14 * t18,
+        -(t10 * t8),
+        (3.913119 * t1 - 2.0497289) * t2 - 0.3291106,
+        -(t10 * t7),
+        t13 * t18,
+        t22 * t24,
+        t26,
+        -(t26 * t29 + t27 * t30),
+        t27 * t28,
+        -(t23 * t25),
+        t19 * t17,
+        -(t5 * t11),
+        ((3.948734 * t1 - 2.018242) * t3 - 1.0340213) * t0,
+        -(t4 * t11),
+        t19 * t16,
+        t22 * t25,
+        t26 * t28,
+        t27 * t29 - t26 * t30
     );
 }
 

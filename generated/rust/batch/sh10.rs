@@ -4,12 +4,12 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:10:setup`: The numbers that every band of `rotate:10` takes, once for all of them. Rotates
-/// order 10 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:10:setup`: The numbers that bands of `rotate:10` take, once for all of them. Rotates order
+/// 10 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 56 numbers that each band takes.
-/// - Operations: 115 (59 mul, 5 add, 51 fma) and 1 inverse square root or reciprocal; 2 constants, 14
+/// - Returns the 50 numbers that each band takes.
+/// - Operations: 102 (52 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 1 constants, 14
 ///   live values.
 /// - Error: with its other pieces f32 rounding at most 2e-5 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
@@ -44,7 +44,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     let t25 = t24 + t24;
     result(7, t25);
     let t27 = t18 * t18;
-    result(8, T::lit(0.5) * t27);
+    result(8, t27);
     let t29 = t16 * t18;
     result(9, t29);
     let t31 = t14 * t20;
@@ -116,24 +116,12 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     result(42, t96);
     let t98 = t14.fma(t86, t20 * t80);
     result(43, t98);
-    let t100 = t9.fms(t88, t12 * t90);
-    result(44, t100);
-    let t102 = t9.fma(t90, t12 * t88);
-    result(45, t102);
-    let t104 = t14.fms(t92, t20 * t98);
-    result(46, t104);
-    let t106 = t16.fms(t94, t18 * t96);
-    result(47, t106);
-    let t108 = t16.fma(t96, t18 * t94);
-    result(48, t108);
-    let t110 = t14.fma(t98, t20 * t92);
-    result(49, t110);
-    result(50, t9.fms(t100, t12 * t102));
-    result(51, t9.fma(t102, t12 * t100));
-    result(52, t14.fms(t104, t20 * t110));
-    result(53, t16.fms(t106, t18 * t108));
-    result(54, t16.fma(t108, t18 * t106));
-    result(55, t14.fma(t110, t20 * t104));
+    result(44, t9.fms(t88, t12 * t90));
+    result(45, t9.fma(t90, t12 * t88));
+    result(46, t14.fms(t92, t20 * t98));
+    result(47, t16.fms(t94, t18 * t96));
+    result(48, t16.fma(t96, t18 * t94));
+    result(49, t14.fma(t98, t20 * t92));
 }
 
 /// `rotate:10:band=1`: Band 1 of `rotate:10` alone, so that a band is loaded, changed and stored at a
@@ -148,7 +136,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -167,12 +155,12 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 28 (13 mul, 1 add, 14 fma); 2 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 2e-5 of the norm of a band, for s as the set-up
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(4);
     let t2 = t1.fms(s[6], t0 * s[7]);
@@ -181,7 +169,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
     let t5 = c(1);
     let t6 = c(3);
     let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
+    let t8 = t4.fma(T::lit(0.5) * s[8], t7 * s[9]);
     let t9 = t2 - t8;
     let t10 = t5.fma(s[0], t6 * s[1]);
     let t11 = t0.fma(s[6], t1 * s[7]);
@@ -207,7 +195,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(6);
     let t1 = c(0);
     let t2 = t1.fma(s[13], t0 * s[14]);
@@ -260,7 +248,7 @@ pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(8);
     let t1 = c(0);
     let t2 = t1.fma(s[20], t0 * s[21]);
@@ -325,7 +313,7 @@ pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(10);
     let t1 = c(0);
     let t2 = t1.fma(s[26], t0 * s[27]);
@@ -409,7 +397,7 @@ pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(12);
     let t1 = c(0);
     let t2 = t1.fma(s[32], t0 * s[33]);
@@ -512,7 +500,7 @@ pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(14);
     let t1 = c(0);
     let t2 = t1.fma(s[38], t0 * s[39]);
@@ -630,7 +618,7 @@ pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_8_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_8_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(16);
     let t1 = c(0);
     let t2 = t1.fma(s[44], t0 * s[45]);
@@ -769,168 +757,174 @@ pub fn band_8_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 9, m from -9 to 9.
 /// - Returns band 9 of the result, m from -9 to 9.
-/// - Operations: 252 (54 mul, 0 add, 198 fma); 73 constants, 33 live values.
+/// - Operations: 264 (60 mul, 0 add, 204 fma); 73 constants, 37 live values.
 /// - Error: with its other pieces f32 rounding at most 2e-5 of the norm of a band, for s as the set-up
 ///   makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_9_rotate<T: Real, V: Signal<T>>(s: &[T; 56], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(18);
-    let t1 = c(0);
-    let t2 = t1.fma(s[50], t0 * s[51]);
-    let t3 = c(17);
-    let t4 = c(1);
-    let t5 = c(13);
-    let t6 = c(5);
-    let t7 = t6.fma(s[20], t5 * s[21]);
-    let t8 = c(11);
-    let t9 = c(7);
-    let t10 = t9.fma(s[6], t8 * s[7]);
-    let t11 = t10.fnma(T::lit(0.7610423906471905), t7.fma(T::lit(0.641688947919748), t4.fma(s[44], t3 * s[45])));
-    let t12 = c(15);
-    let t13 = c(3);
-    let t14 = t10.fnma(T::lit(0.4803844614152614), t13.fma(s[32], t12 * s[33]));
-    let t15 = t14.fnma(T::lit(0.20252314682524564), t11.fms(T::lit(0.6817945071647321), t7));
-    let t16 = t14.fma(T::lit(0.5854685623498498), t11.fma(T::lit(0.656993626300895), t10));
-    let t17 = t16.fnma(T::lit(0.7610423906471905), t15.fnma(T::lit(0.641688947919748), t11));
-    let t18 = c(16);
-    let t19 = c(2);
-    let t20 = t19.fma(s[38], t18 * s[39]);
-    let t21 = c(14);
-    let t22 = c(4);
-    let t23 = t22.fma(s[26], t21 * s[27]);
-    let t24 = t23.fnma(T::lit(0.5093126879064569), t20.fms(T::lit(0.15944009087467617), t2 * T::lit(0.016572815184059706)));
-    let t25 = c(12);
-    let t26 = c(6);
-    let t27 = t26.fma(s[13], t25 * s[14]);
-    let t28 = c(10);
-    let t29 = c(8);
-    let t30 = t29.fma(s[0], t28 * s[1]);
-    let t31 = t30.fnma(T::lit(0.38519665736315783), t27.fma(T::lit(0.7526807559068452), t24));
-    let t32 = t17.fma(s[48], t31.fms(s[47], t31));
-    let t33 = t16.fnma(T::lit(0.4803844614152614), t14);
-    let t34 = t23.fma(T::lit(0.6051536478449089), t2.fms(T::lit(0.11158481919598204), t20 * T::lit(0.5683291712335379)));
-    let t35 = t30.fnma(T::lit(0.4576818286211503), t27.fma(T::lit(0.2981060004427955), t34));
-    let t36 = t33.fma(s[36], t35.fms(s[35], t35));
-    let t37 = t23.fma(T::lit(0.3921843874378479), t20.fms(T::lit(0.6723290616859426), t2 * T::lit(0.3615761395439417)));
-    let t38 = t30.fnma(T::lit(0.4943528756111367), t27.fnma(T::lit(0.13799626353637262), t37));
-    let t39 = t15.fma(s[23], t38.fms(s[24], t38));
-    let t40 = t39.fnma(T::lit(0.3615761395439417), t36.fma(T::lit(0.11158481919598204), t32.fnma(T::lit(0.016572815184059706), t2)));
-    let t41 = t23.fnma(T::lit(0.25194555463432966), t2.fma(T::lit(0.6968469725305549), t20 * T::lit(0.05633673867912483)));
-    let t42 = t30.fnma(T::lit(0.5130142237306876), t27.fnma(T::lit(0.42961647140211), t41));
-    let t43 = t16.fnma(s[15], t42.fms(s[12], t42));
-    let t44 = t43.fma(T::lit(0.6968469725305549), t40);
-    let t45 = t0.fms(s[50], t1 * s[51]);
-    let t46 = t21.fms(s[26], t22 * s[27]);
-    let t47 = t46.fma(T::lit(0.5817744738827396), t45.fma(T::lit(0.946534522249429), t28.fms(s[0], t29 * s[1])));
-    let t48 = t46.fnma(T::lit(0.8944271909999159), t45.fnma(T::lit(0.24253562503633297), t18.fms(s[38], t19 * s[39])));
-    let t49 = t46.fma(T::lit(0.5683985600588051), t45.fnma(T::lit(0.41100986619007174), t25.fms(s[13], t26 * s[14])));
-    let t50 = t47.fms(T::lit(0.8171255055356399), t49.fma(T::lit(0.5322256665703469), t48.fma(T::lit(0.048317644050206957), t45)));
-    let t51 = t47.fma(T::lit(0.2954323500185787), t49.fms(T::lit(0.577279787559724), t48.fma(T::lit(0.7162405240429014), t46)));
-    let t52 = t51.fnma(T::lit(0.5817744738827396), t50.fnma(T::lit(0.946534522249429), t47));
-    let t53 = t8.fms(s[6], t9 * s[7]);
-    let t54 = c(9);
-    let t55 = t53.fms(T::lit(0.024972488746349546), t54);
-    let t56 = t55.fms(T::lit(0.049913849958326234), t53);
-    let t57 = t5.fms(s[20], t6 * s[21]);
-    let t58 = t56.fnma(T::lit(0.024972488746349546), t55);
-    let t59 = t56.fma(T::lit(0.3102722121190991), t58.fma(T::lit(0.14211366057001854), t57));
-    let t60 = t59.fnma(T::lit(0.5558117338759043), t56);
-    let t61 = t12.fms(s[32], t13 * s[33]);
-    let t62 = t59.fms(T::lit(1.7913680702497263), t57);
-    let t63 = t59.fnma(T::lit(0.2545778738914387), t58);
-    let t64 = t60.fma(T::lit(0.32238466683028255), t63.fnma(T::lit(0.2454975636864601), t62.fnma(T::lit(0.35416470791950744), t61)));
-    let t65 = t64.fnma(T::lit(0.49996320652616766), t60);
-    let t66 = t3.fms(s[44], t4 * s[45]);
-    let t67 = t64.fnma(T::lit(1.550828119221223), t61);
-    let t68 = t64.fma(T::lit(0.5492485878773435), t62);
-    let t69 = t64.fma(T::lit(0.3807245249652653), t63);
-    let t70 = t69.fnma(T::lit(0.740410076547803), t68.fma(T::lit(0.5010095492414297), t67.fnma(T::lit(0.1568407973272511), t66)));
-    let t71 = t65.fma(T::lit(0.37891693699620965), t70);
-    let t72 = t71.fnma(T::lit(0.38519665736315783), t65);
-    let t73 = t71.fnma(T::lit(1.0165728151840596), t66);
-    let t74 = t50.fma(s[53], t73 * s[54]);
-    let t75 = t71.fnma(T::lit(0.5093126879064569), t68);
-    let t76 = t51.fma(s[29], t75 * s[30]);
-    let t77 = t76.fma(T::lit(0.5817744738827396), t74.fma(T::lit(0.946534522249429), t52.fma(s[3], t72 * s[4])));
-    let t78 = t51.fma(T::lit(0.8944271909999159), t50.fma(T::lit(0.24253562503633297), t48));
-    let t79 = t71.fma(T::lit(0.15944009087467617), t67);
-    let t80 = t76.fnma(T::lit(0.8944271909999159), t74.fnma(T::lit(0.24253562503633297), t78.fma(s[41], t79 * s[42])));
-    let t81 = t51.fnma(T::lit(0.5683985600588051), t50.fma(T::lit(0.41100986619007174), t49));
-    let t82 = t71.fma(T::lit(0.7526807559068452), t69);
-    let t83 = t76.fma(T::lit(0.5683985600588051), t74.fnma(T::lit(0.41100986619007174), t81.fma(s[17], t82 * s[18])));
-    let t84 = t77.fms(T::lit(0.8171255055356399), t83.fma(T::lit(0.5322256665703469), t80.fma(T::lit(0.048317644050206957), t74)));
-    result(0, t44.fma(s[52], t84 * s[55]));
-    let t86 = t15.fms(s[24], t38 * s[23]);
-    let t87 = t16.fma(s[12], t42 * s[15]);
-    let t88 = t87.fma(T::lit(0.7610423906471905), t86.fma(T::lit(0.641688947919748), t17.fms(s[47], t31 * s[48])));
-    let t89 = t87.fma(T::lit(0.4803844614152614), t33.fms(s[35], t35 * s[36]));
-    let t90 = t89.fnma(T::lit(0.20252314682524564), t88.fms(T::lit(0.6817945071647321), t86));
-    let t91 = t89.fnma(T::lit(0.5854685623498498), t88.fnma(T::lit(0.656993626300895), t87));
-    let t92 = t91.fma(T::lit(0.7610423906471905), t90.fnma(T::lit(0.641688947919748), t88));
-    let t93 = t73.fms(s[53], t50 * s[54]);
-    let t94 = t79.fms(s[41], t78 * s[42]);
-    let t95 = t75.fms(s[29], t51 * s[30]);
-    let t96 = t82.fms(s[17], t81 * s[18]);
-    let t97 = t96.fms(T::lit(0.024972488746349546), t72.fms(s[3], t52 * s[4]));
-    let t98 = t97.fms(T::lit(0.049913849958326234), t96);
-    let t99 = t98.fnma(T::lit(0.024972488746349546), t97);
-    let t100 = t98.fma(T::lit(0.1574234003631264), t99.fma(T::lit(0.3027920262358315), t95));
-    let t101 = t100.fms(T::lit(1.7913680702497263), t95);
-    let t102 = t100.fnma(T::lit(0.542411967725086), t99);
-    let t103 = t100.fnma(T::lit(0.28200325292064377), t98);
-    let t104 = t103.fma(T::lit(0.3473449511470421), t102.fnma(T::lit(0.10680150263787626), t101.fnma(T::lit(0.3969615742939366), t94)));
-    let t105 = t104.fnma(T::lit(1.550828119221223), t94);
-    let t106 = t104.fma(T::lit(0.6156191716653614), t101);
-    let t107 = t104.fma(T::lit(0.1656307734658981), t102);
-    let t108 = t107.fnma(T::lit(0.6854865309420894), t106.fma(T::lit(0.35568149584884884), t105.fnma(T::lit(0.10976569265801052), t93)));
-    let t109 = t104.fnma(T::lit(0.5386723173083549), t103);
-    let t110 = t109.fma(T::lit(0.5991202824612715), t108);
-    let t111 = t110.fnma(T::lit(1.0165728151840596), t93);
-    result(1, t92.fma(s[46], t111 * s[49]));
-    let t113 = t39.fma(T::lit(0.6723290616859426), t36.fnma(T::lit(0.5683291712335379), t32.fma(T::lit(0.15944009087467617), t20)));
-    let t114 = t43.fma(T::lit(0.05633673867912483), t113);
-    let t115 = t77.fma(T::lit(0.2954323500185787), t83.fms(T::lit(0.577279787559724), t80.fma(T::lit(0.7162405240429014), t76)));
-    let t116 = t115.fma(T::lit(0.8944271909999159), t84.fma(T::lit(0.24253562503633297), t80));
-    result(2, t114.fma(s[40], t116 * s[43]));
-    let t118 = t91.fma(T::lit(0.4803844614152614), t89);
-    let t119 = t110.fma(T::lit(0.11158481919598204), t105);
-    result(3, t118.fma(s[34], t119 * s[37]));
-    let t121 = t39.fma(T::lit(0.3921843874378479), t36.fma(T::lit(0.6051536478449089), t32.fnma(T::lit(0.5093126879064569), t23)));
-    let t122 = t43.fnma(T::lit(0.25194555463432966), t121);
-    result(4, t122.fma(s[28], t115 * s[31]));
-    let t124 = t110.fnma(T::lit(0.3615761395439417), t106);
-    result(5, t90.fma(s[22], t124 * s[25]));
-    let t126 = t39.fnma(T::lit(0.13799626353637262), t36.fma(T::lit(0.2981060004427955), t32.fma(T::lit(0.7526807559068452), t27)));
-    let t127 = t43.fnma(T::lit(0.42961647140211), t126);
-    let t128 = t115.fnma(T::lit(0.5683985600588051), t84.fma(T::lit(0.41100986619007174), t83));
-    result(6, t127.fma(s[16], t128 * s[19]));
-    let t130 = t110.fma(T::lit(0.6968469725305549), t107);
-    result(7, t91.fma(s[11], t130 * s[10]));
-    let t132 = t39.fnma(T::lit(0.4943528756111367), t36.fnma(T::lit(0.4576818286211503), t32.fnma(T::lit(0.38519665736315783), t30)));
-    let t133 = t43.fnma(T::lit(0.5130142237306876), t132);
-    let t134 = t115.fnma(T::lit(0.5817744738827396), t84.fnma(T::lit(0.946534522249429), t77));
-    result(8, t133.fma(s[2], t134 * s[5]));
-    result(9, t110.fnma(T::lit(0.6090493921755238), t109));
-    result(10, t134.fms(s[2], t133 * s[5]));
-    result(11, t130.fms(s[11], t91 * s[10]));
-    result(12, t128.fms(s[16], t127 * s[19]));
-    result(13, t124.fms(s[22], t90 * s[25]));
-    result(14, t115.fms(s[28], t122 * s[31]));
-    result(15, t119.fms(s[34], t118 * s[37]));
-    result(16, t116.fms(s[40], t114 * s[43]));
-    result(17, t111.fms(s[46], t92 * s[49]));
-    result(18, t84.fms(s[52], t44 * s[55]));
+pub fn band_9_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[44], s[1] * s[45]);
+    let t1 = s[0].fma(s[45], s[1] * s[44]);
+    let t2 = c(18);
+    let t3 = c(0);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = c(17);
+    let t6 = c(1);
+    let t7 = c(13);
+    let t8 = c(5);
+    let t9 = t8.fma(s[20], t7 * s[21]);
+    let t10 = c(11);
+    let t11 = c(7);
+    let t12 = t11.fma(s[6], t10 * s[7]);
+    let t13 = t12.fnma(T::lit(0.7610423906471905), t9.fma(T::lit(0.641688947919748), t6.fma(s[44], t5 * s[45])));
+    let t14 = c(15);
+    let t15 = c(3);
+    let t16 = t12.fnma(T::lit(0.4803844614152614), t15.fma(s[32], t14 * s[33]));
+    let t17 = t16.fnma(T::lit(0.20252314682524564), t13.fms(T::lit(0.6817945071647321), t9));
+    let t18 = t16.fma(T::lit(0.5854685623498498), t13.fma(T::lit(0.656993626300895), t12));
+    let t19 = t18.fnma(T::lit(0.7610423906471905), t17.fnma(T::lit(0.641688947919748), t13));
+    let t20 = c(16);
+    let t21 = c(2);
+    let t22 = t21.fma(s[38], t20 * s[39]);
+    let t23 = c(14);
+    let t24 = c(4);
+    let t25 = t24.fma(s[26], t23 * s[27]);
+    let t26 = t25.fnma(T::lit(0.5093126879064569), t22.fms(T::lit(0.15944009087467617), t4 * T::lit(0.016572815184059706)));
+    let t27 = c(12);
+    let t28 = c(6);
+    let t29 = t28.fma(s[13], t27 * s[14]);
+    let t30 = c(10);
+    let t31 = c(8);
+    let t32 = t31.fma(s[0], t30 * s[1]);
+    let t33 = t32.fnma(T::lit(0.38519665736315783), t29.fma(T::lit(0.7526807559068452), t26));
+    let t34 = t19.fma(s[48], t33.fms(s[47], t33));
+    let t35 = t18.fnma(T::lit(0.4803844614152614), t16);
+    let t36 = t25.fma(T::lit(0.6051536478449089), t4.fms(T::lit(0.11158481919598204), t22 * T::lit(0.5683291712335379)));
+    let t37 = t32.fnma(T::lit(0.4576818286211503), t29.fma(T::lit(0.2981060004427955), t36));
+    let t38 = t35.fma(s[36], t37.fms(s[35], t37));
+    let t39 = t25.fma(T::lit(0.3921843874378479), t22.fms(T::lit(0.6723290616859426), t4 * T::lit(0.3615761395439417)));
+    let t40 = t32.fnma(T::lit(0.4943528756111367), t29.fnma(T::lit(0.13799626353637262), t39));
+    let t41 = t17.fma(s[23], t40.fms(s[24], t40));
+    let t42 = t41.fnma(T::lit(0.3615761395439417), t38.fma(T::lit(0.11158481919598204), t34.fnma(T::lit(0.016572815184059706), t4)));
+    let t43 = t25.fnma(T::lit(0.25194555463432966), t4.fma(T::lit(0.6968469725305549), t22 * T::lit(0.05633673867912483)));
+    let t44 = t32.fnma(T::lit(0.5130142237306876), t29.fnma(T::lit(0.42961647140211), t43));
+    let t45 = t18.fnma(s[15], t44.fms(s[12], t44));
+    let t46 = t45.fma(T::lit(0.6968469725305549), t42);
+    let t47 = s[2].fms(s[46], s[5] * s[49]);
+    let t48 = t2.fms(t0, t3 * t1);
+    let t49 = t23.fms(s[26], t24 * s[27]);
+    let t50 = t49.fma(T::lit(0.5817744738827396), t48.fma(T::lit(0.946534522249429), t30.fms(s[0], t31 * s[1])));
+    let t51 = t49.fnma(T::lit(0.8944271909999159), t48.fnma(T::lit(0.24253562503633297), t20.fms(s[38], t21 * s[39])));
+    let t52 = t49.fma(T::lit(0.5683985600588051), t48.fnma(T::lit(0.41100986619007174), t27.fms(s[13], t28 * s[14])));
+    let t53 = t50.fms(T::lit(0.8171255055356399), t52.fma(T::lit(0.5322256665703469), t51.fma(T::lit(0.048317644050206957), t48)));
+    let t54 = t50.fma(T::lit(0.2954323500185787), t52.fms(T::lit(0.577279787559724), t51.fma(T::lit(0.7162405240429014), t49)));
+    let t55 = t54.fnma(T::lit(0.5817744738827396), t53.fnma(T::lit(0.946534522249429), t50));
+    let t56 = t10.fms(s[6], t11 * s[7]);
+    let t57 = c(9);
+    let t58 = t56.fms(T::lit(0.024972488746349546), t57);
+    let t59 = t58.fms(T::lit(0.049913849958326234), t56);
+    let t60 = t7.fms(s[20], t8 * s[21]);
+    let t61 = t59.fnma(T::lit(0.024972488746349546), t58);
+    let t62 = t59.fma(T::lit(0.3102722121190991), t61.fma(T::lit(0.14211366057001854), t60));
+    let t63 = t62.fnma(T::lit(0.5558117338759043), t59);
+    let t64 = t14.fms(s[32], t15 * s[33]);
+    let t65 = t62.fms(T::lit(1.7913680702497263), t60);
+    let t66 = t62.fnma(T::lit(0.2545778738914387), t61);
+    let t67 = t63.fma(T::lit(0.32238466683028255), t66.fnma(T::lit(0.2454975636864601), t65.fnma(T::lit(0.35416470791950744), t64)));
+    let t68 = t67.fnma(T::lit(0.49996320652616766), t63);
+    let t69 = t5.fms(s[44], t6 * s[45]);
+    let t70 = t67.fnma(T::lit(1.550828119221223), t64);
+    let t71 = t67.fma(T::lit(0.5492485878773435), t65);
+    let t72 = t67.fma(T::lit(0.3807245249652653), t66);
+    let t73 = t72.fnma(T::lit(0.740410076547803), t71.fma(T::lit(0.5010095492414297), t70.fnma(T::lit(0.1568407973272511), t69)));
+    let t74 = t68.fma(T::lit(0.37891693699620965), t73);
+    let t75 = t74.fnma(T::lit(0.38519665736315783), t68);
+    let t76 = s[3].fms(s[47], s[4] * s[48]);
+    let t77 = t74.fnma(T::lit(1.0165728151840596), t69);
+    let t78 = s[3].fma(s[48], s[4] * s[47]);
+    let t79 = t53.fma(t76, t77 * t78);
+    let t80 = t74.fnma(T::lit(0.5093126879064569), t71);
+    let t81 = t54.fma(s[29], t80 * s[30]);
+    let t82 = t81.fma(T::lit(0.5817744738827396), t79.fma(T::lit(0.946534522249429), t55.fma(s[3], t75 * s[4])));
+    let t83 = t54.fma(T::lit(0.8944271909999159), t53.fma(T::lit(0.24253562503633297), t51));
+    let t84 = t74.fma(T::lit(0.15944009087467617), t70);
+    let t85 = t81.fnma(T::lit(0.8944271909999159), t79.fnma(T::lit(0.24253562503633297), t83.fma(s[41], t84 * s[42])));
+    let t86 = t54.fnma(T::lit(0.5683985600588051), t53.fma(T::lit(0.41100986619007174), t52));
+    let t87 = t74.fma(T::lit(0.7526807559068452), t72);
+    let t88 = t81.fma(T::lit(0.5683985600588051), t79.fnma(T::lit(0.41100986619007174), t86.fma(s[17], t87 * s[18])));
+    let t89 = t82.fms(T::lit(0.8171255055356399), t88.fma(T::lit(0.5322256665703469), t85.fma(T::lit(0.048317644050206957), t79)));
+    let t90 = s[2].fma(s[49], s[5] * s[46]);
+    result(0, t46.fma(t47, t89 * t90));
+    let t92 = t17.fms(s[24], t40 * s[23]);
+    let t93 = t18.fma(s[12], t44 * s[15]);
+    let t94 = t93.fma(T::lit(0.7610423906471905), t92.fma(T::lit(0.641688947919748), t19.fms(s[47], t33 * s[48])));
+    let t95 = t93.fma(T::lit(0.4803844614152614), t35.fms(s[35], t37 * s[36]));
+    let t96 = t95.fnma(T::lit(0.20252314682524564), t94.fms(T::lit(0.6817945071647321), t92));
+    let t97 = t95.fnma(T::lit(0.5854685623498498), t94.fnma(T::lit(0.656993626300895), t93));
+    let t98 = t97.fma(T::lit(0.7610423906471905), t96.fnma(T::lit(0.641688947919748), t94));
+    let t99 = t77.fms(t76, t53 * t78);
+    let t100 = t84.fms(s[41], t83 * s[42]);
+    let t101 = t80.fms(s[29], t54 * s[30]);
+    let t102 = t87.fms(s[17], t86 * s[18]);
+    let t103 = t102.fms(T::lit(0.024972488746349546), t75.fms(s[3], t55 * s[4]));
+    let t104 = t103.fms(T::lit(0.049913849958326234), t102);
+    let t105 = t104.fnma(T::lit(0.024972488746349546), t103);
+    let t106 = t104.fma(T::lit(0.1574234003631264), t105.fma(T::lit(0.3027920262358315), t101));
+    let t107 = t106.fms(T::lit(1.7913680702497263), t101);
+    let t108 = t106.fnma(T::lit(0.542411967725086), t105);
+    let t109 = t106.fnma(T::lit(0.28200325292064377), t104);
+    let t110 = t109.fma(T::lit(0.3473449511470421), t108.fnma(T::lit(0.10680150263787626), t107.fnma(T::lit(0.3969615742939366), t100)));
+    let t111 = t110.fnma(T::lit(1.550828119221223), t100);
+    let t112 = t110.fma(T::lit(0.6156191716653614), t107);
+    let t113 = t110.fma(T::lit(0.1656307734658981), t108);
+    let t114 = t113.fnma(T::lit(0.6854865309420894), t112.fma(T::lit(0.35568149584884884), t111.fnma(T::lit(0.10976569265801052), t99)));
+    let t115 = t110.fnma(T::lit(0.5386723173083549), t109);
+    let t116 = t115.fma(T::lit(0.5991202824612715), t114);
+    let t117 = t116.fnma(T::lit(1.0165728151840596), t99);
+    result(1, t98.fma(s[46], t117 * s[49]));
+    let t119 = t41.fma(T::lit(0.6723290616859426), t38.fnma(T::lit(0.5683291712335379), t34.fma(T::lit(0.15944009087467617), t22)));
+    let t120 = t45.fma(T::lit(0.05633673867912483), t119);
+    let t121 = t82.fma(T::lit(0.2954323500185787), t88.fms(T::lit(0.577279787559724), t85.fma(T::lit(0.7162405240429014), t81)));
+    let t122 = t121.fma(T::lit(0.8944271909999159), t89.fma(T::lit(0.24253562503633297), t85));
+    result(2, t120.fma(s[40], t122 * s[43]));
+    let t124 = t97.fma(T::lit(0.4803844614152614), t95);
+    let t125 = t116.fma(T::lit(0.11158481919598204), t111);
+    result(3, t124.fma(s[34], t125 * s[37]));
+    let t127 = t41.fma(T::lit(0.3921843874378479), t38.fma(T::lit(0.6051536478449089), t34.fnma(T::lit(0.5093126879064569), t25)));
+    let t128 = t45.fnma(T::lit(0.25194555463432966), t127);
+    result(4, t128.fma(s[28], t121 * s[31]));
+    let t130 = t116.fnma(T::lit(0.3615761395439417), t112);
+    result(5, t96.fma(s[22], t130 * s[25]));
+    let t132 = t41.fnma(T::lit(0.13799626353637262), t38.fma(T::lit(0.2981060004427955), t34.fma(T::lit(0.7526807559068452), t29)));
+    let t133 = t45.fnma(T::lit(0.42961647140211), t132);
+    let t134 = t121.fnma(T::lit(0.5683985600588051), t89.fma(T::lit(0.41100986619007174), t88));
+    result(6, t133.fma(s[16], t134 * s[19]));
+    let t136 = t116.fma(T::lit(0.6968469725305549), t113);
+    result(7, t97.fma(s[11], t136 * s[10]));
+    let t138 = t41.fnma(T::lit(0.4943528756111367), t38.fnma(T::lit(0.4576818286211503), t34.fnma(T::lit(0.38519665736315783), t32)));
+    let t139 = t45.fnma(T::lit(0.5130142237306876), t138);
+    let t140 = t121.fnma(T::lit(0.5817744738827396), t89.fnma(T::lit(0.946534522249429), t82));
+    result(8, t139.fma(s[2], t140 * s[5]));
+    result(9, t116.fnma(T::lit(0.6090493921755238), t115));
+    result(10, t140.fms(s[2], t139 * s[5]));
+    result(11, t136.fms(s[11], t97 * s[10]));
+    result(12, t134.fms(s[16], t133 * s[19]));
+    result(13, t130.fms(s[22], t96 * s[25]));
+    result(14, t121.fms(s[28], t128 * s[31]));
+    result(15, t125.fms(s[34], t124 * s[37]));
+    result(16, t122.fms(s[40], t120 * s[43]));
+    result(17, t117.fms(s[46], t98 * s[49]));
+    result(18, t89.fms(t47, t46 * t90));
 }
 
-/// `tilt:10:setup`: The numbers that every band of `tilt:10` takes, once for all of them. Tilts order
-/// 10: the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the
-/// others by shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
+/// `tilt:10:setup`: The numbers that bands of `tilt:10` take, once for all of them. Tilts order 10: the
+/// shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
+/// shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 103 numbers that each band takes.
-/// - Operations: 116 (100 mul, 1 add, 15 fma) and 1 inverse square root or reciprocal; 60 constants, 6
-///   live values.
+/// - Returns the 5 numbers that each band takes.
+/// - Operations: 3 (1 mul, 1 add, 1 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for an angle up to
 ///   25 degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-6).
 ///   Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15, 5.2e1 at
@@ -941,150 +935,8 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
-    let t6 = n[0].fma(n[0], n[1] * n[1]);
-    let t7 = T::lit(0.9185586535436918).fma(t6, T::lit(1.224744871391589));
-    let t8 = n[0] * t7;
-    result(6, t8);
-    result(5, T::lit(0.5) * t8);
-    let t11 = n[1] * t7;
-    result(8, t11);
-    result(7, T::lit(0.5) * t11);
-    let t14 = T::lit(1.5811388300841898).fnma(t6, T::lit(1.5811388300841898));
-    let t15 = n[0] * t14;
-    result(10, t15);
-    result(9, T::lit(0.7745966692414834) * t15);
-    let t18 = n[1] * t14;
-    result(12, t18);
-    result(11, T::lit(0.7745966692414834) * t18);
-    let t21 = T::lit(1.8446619684315546).fma(t6, T::lit(1.5811388300841898));
-    let t22 = n[0] * t21;
-    result(14, t22);
-    result(13, T::lit(0.4472135954999579) * t22);
-    let t25 = n[1] * t21;
-    result(16, t25);
-    result(15, T::lit(0.4472135954999579) * t25);
-    result(17, T::lit(0.5916079783099616) * t22);
-    result(18, T::lit(0.5916079783099616) * t25);
-    let t30 = T::lit(3.8890872965260113).fnma(t6, T::lit(2.1213203435596424));
-    let t31 = n[0] * t30;
-    result(20, t31);
-    result(19, T::lit(0.6666666666666666) * t31);
-    let t34 = n[1] * t30;
-    result(22, t34);
-    result(21, T::lit(0.6666666666666666) * t34);
-    let t37 = T::lit(3.3888604279314896).fma(t6, T::lit(1.9364916731037085));
-    let t38 = n[0] * t37;
-    result(24, t38);
-    result(23, T::lit(0.408248290463863) * t38);
-    let t41 = n[1] * t37;
-    result(26, t41);
-    result(25, T::lit(0.408248290463863) * t41);
-    let t44 = T::lit(7.937253933193772).fnma(t6, T::lit(2.6457513110645907));
-    let t45 = n[0] * t44;
-    result(28, t45);
-    result(27, T::lit(0.5976143046671968) * t45);
-    let t48 = n[1] * t44;
-    result(30, t48);
-    result(29, T::lit(0.5976143046671968) * t48);
-    result(31, T::lit(0.6324555320336759) * t38);
-    result(32, T::lit(0.6324555320336759) * t41);
-    result(33, T::lit(0.8017837257372732) * t45);
-    result(34, T::lit(0.8017837257372732) * t48);
-    let t55 = T::lit(5.537278964738307).fma(t6, T::lit(2.29128784747792));
-    let t56 = n[0] * t55;
-    result(36, t56);
-    result(35, T::lit(0.37796447300922725) * t56);
-    let t59 = n[1] * t55;
-    result(38, t59);
-    result(37, T::lit(0.37796447300922725) * t59);
-    result(39, T::lit(0.511766315719159) * t56);
-    result(40, T::lit(0.511766315719159) * t59);
-    let t64 = T::lit(13.703203194062977).fnma(t6, T::lit(3.1622776601683795));
-    let t65 = n[0] * t64;
-    result(42, t65);
-    result(41, T::lit(0.5477225575051661) * t65);
-    let t68 = n[1] * t64;
-    result(44, t68);
-    result(43, T::lit(0.5477225575051661) * t68);
-    result(45, T::lit(0.6546536707079772) * t56);
-    result(46, T::lit(0.6546536707079772) * t59);
-    result(47, T::lit(0.8660254037844386) * t65);
-    result(48, T::lit(0.8660254037844386) * t68);
-    let t75 = T::lit(8.59869176095992).fma(t6, T::lit(2.6457513110645907));
-    let t76 = n[0] * t75;
-    result(50, t76);
-    result(49, T::lit(0.3535533905932738) * t76);
-    let t79 = n[1] * t75;
-    result(52, t79);
-    result(51, T::lit(0.3535533905932738) * t79);
-    let t82 = T::lit(22.045407685048602).fnma(t6, T::lit(3.6742346141747673));
-    let t83 = n[0] * t82;
-    result(54, t83);
-    result(53, T::lit(0.5091750772173156) * t83);
-    let t86 = n[1] * t82;
-    result(56, t86);
-    result(55, T::lit(0.5091750772173156) * t86);
-    result(57, T::lit(0.5669467095138409) * t76);
-    result(58, T::lit(0.5669467095138409) * t79);
-    result(59, T::lit(0.693888666488711) * t83);
-    result(60, T::lit(0.693888666488711) * t86);
-    result(61, T::lit(0.6681531047810609) * t76);
-    result(62, T::lit(0.6681531047810609) * t79);
-    result(63, T::lit(0.90267093384844) * t83);
-    result(64, T::lit(0.90267093384844) * t86);
-    let t97 = T::lit(12.5).fma(t6, T::lit(3.0));
-    let t98 = n[0] * t97;
-    result(66, t98);
-    result(65, T::lit(0.3333333333333333) * t98);
-    let t101 = n[1] * t97;
-    result(68, t101);
-    result(67, T::lit(0.3333333333333333) * t101);
-    result(69, T::lit(0.45643546458763845) * t98);
-    result(70, T::lit(0.45643546458763845) * t101);
-    let t106 = T::lit(32.769184372584625).fnma(t6, T::lit(4.183300132670378));
-    let t107 = n[0] * t106;
-    result(72, t107);
-    result(71, T::lit(0.47809144373375745) * t107);
-    let t110 = n[1] * t106;
-    result(74, t110);
-    result(73, T::lit(0.47809144373375745) * t110);
-    result(75, T::lit(0.6009252125773316) * t98);
-    result(76, T::lit(0.6009252125773316) * t101);
-    result(77, T::lit(0.7745966692414834) * t107);
-    result(78, T::lit(0.7745966692414834) * t110);
-    result(79, T::lit(0.67700320038633) * t98);
-    result(80, T::lit(0.67700320038633) * t101);
-    result(81, T::lit(0.9258200997725514) * t107);
-    result(82, T::lit(0.9258200997725514) * t110);
-    let t121 = T::lit(17.609035322810843).fma(t6, T::lit(3.3541019662496847));
-    let t122 = n[0] * t121;
-    result(84, t122);
-    result(83, T::lit(0.31622776601683794) * t122);
-    let t125 = n[1] * t121;
-    result(86, t125);
-    result(85, T::lit(0.31622776601683794) * t125);
-    let t128 = T::lit(46.9041575982343).fnma(t6, T::lit(4.69041575982343));
-    let t129 = n[0] * t128;
-    result(88, t129);
-    result(87, T::lit(0.45226701686664544) * t129);
-    let t132 = n[1] * t128;
-    result(90, t132);
-    result(89, T::lit(0.45226701686664544) * t132);
-    result(91, T::lit(0.5163977794943223) * t122);
-    result(92, T::lit(0.5163977794943223) * t125);
-    result(93, T::lit(0.621581560508061) * t129);
-    result(94, T::lit(0.621581560508061) * t132);
-    result(95, T::lit(0.6236095644623235) * t122);
-    result(96, T::lit(0.6236095644623235) * t125);
-    result(97, T::lit(0.8257228238447705) * t129);
-    result(98, T::lit(0.8257228238447705) * t132);
-    result(99, T::lit(0.6831300510639732) * t122);
-    result(100, T::lit(0.6831300510639732) * t125);
-    result(101, T::lit(0.9414688716912718) * t129);
-    result(102, T::lit(0.9414688716912718) * t132);
+    result(2, T::recip(n[2] + T::lit(1.0)));
+    result(4, n[0].fma(n[0], n[1] * n[1]));
 }
 
 /// `tilt:10:band=1`: Band 1 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1102,7 +954,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -1121,14 +973,14 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -1138,7 +990,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -1158,37 +1010,47 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 30 (0 mul, 0 add, 30 fma); 2 constants, 8 live values.
+/// - Operations: 40 (8 mul, 0 add, 32 fma); 7 constants, 14 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(4);
-    let t4 = c(6);
-    let t5 = t3.fma(T::lit(1.2909944487358056), t4).fnma(s[7], t0.fnma(T::lit(1.2909944487358056), t1).fma(s[5], t2));
-    let t6 = c(5);
-    let t7 = t0.fma(T::lit(1.2909944487358056), t1).fma(s[7], t3.fnma(T::lit(1.2909944487358056), t4).fma(s[5], t6));
-    let t8 = t7.fnma(s[11], t5.fnma(s[9], t1));
-    result(0, t8);
-    let t10 = c(3);
-    let t11 = t0.fma(s[8], t3.fma(s[6], t10));
-    let t12 = t11.fma(T::lit(1.5491933384829668), t7).fnma(s[12], t5.fma(s[10], t0));
-    result(2, t12);
-    let t14 = t5.fma(s[11], t7.fnma(s[9], t4));
-    result(6, t14);
-    let t16 = t5.fma(s[12], t11.fnma(T::lit(1.5491933384829668), t7).fma(s[10], t3));
-    result(4, t16);
-    let t18 = t16.fma(T::lit(1.2909944487358056), t14).fnma(s[7], t12.fnma(T::lit(1.2909944487358056), t8).fma(s[5], t5));
-    result(1, t18);
-    result(3, t12.fma(s[8], t16.fma(s[6], t11)));
-    let t21 = t12.fma(T::lit(1.2909944487358056), t8).fma(s[7], t16.fnma(T::lit(1.2909944487358056), t14).fma(s[5], t7));
-    result(5, t21);
+    let t2 = T::lit(0.9185586535436918).fma(s[4], T::lit(1.224744871391589));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.5) * t3;
+    let t5 = c(1);
+    let t6 = c(4);
+    let t7 = c(6);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.5) * t8;
+    let t10 = t6.fma(T::lit(1.2909944487358056), t7).fnma(t9, t0.fnma(T::lit(1.2909944487358056), t1).fma(t4, t5));
+    let t11 = T::lit(1.5811388300841898).fnma(s[4], T::lit(1.5811388300841898));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.7745966692414834) * t12;
+    let t14 = c(5);
+    let t15 = t0.fma(T::lit(1.2909944487358056), t1).fma(t9, t6.fnma(T::lit(1.2909944487358056), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.7745966692414834) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(3);
+    let t21 = t0.fma(t8, t6.fma(t3, t20));
+    let t22 = t21.fma(T::lit(1.5491933384829668), t15).fnma(t16, t10.fma(t12, t0));
+    result(2, t22);
+    let t24 = t10.fma(t17, t15.fnma(t13, t7));
+    result(6, t24);
+    let t26 = t10.fma(t16, t21.fnma(T::lit(1.5491933384829668), t15).fma(t12, t6));
+    result(4, t26);
+    let t28 = t26.fma(T::lit(1.2909944487358056), t24).fnma(t9, t22.fnma(T::lit(1.2909944487358056), t18).fma(t4, t10));
+    result(1, t28);
+    result(3, t22.fma(t8, t26.fma(t3, t21)));
+    let t31 = t22.fma(T::lit(1.2909944487358056), t18).fma(t9, t26.fnma(T::lit(1.2909944487358056), t24).fma(t4, t15));
+    result(5, t31);
 }
 
 /// `tilt:10:band=4`: Band 4 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1199,43 +1061,55 @@ pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 4, m from -4 to 4.
 /// - Returns band 4 of the result, m from -4 to 4.
-/// - Operations: 42 (0 mul, 0 add, 42 fma); 3 constants, 9 live values.
+/// - Operations: 54 (10 mul, 0 add, 44 fma); 10 constants, 17 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(7);
-    let t3 = t2.fnma(s[15], t0.fnma(s[13], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(5);
-    let t7 = t6.fma(T::lit(1.1338934190276817), t2).fnma(s[18], t4.fnma(T::lit(1.1338934190276817), t0).fma(s[17], t5));
-    let t8 = c(8);
-    let t9 = t0.fma(s[15], t2.fnma(s[13], t8));
-    let t10 = c(6);
-    let t11 = t4.fma(T::lit(1.1338934190276817), t0).fma(s[18], t6.fnma(T::lit(1.1338934190276817), t2).fma(s[17], t10));
-    let t12 = t11.fma(T::lit(1.3228756555322954), t9).fnma(s[21], t7.fnma(T::lit(1.3228756555322954), t3).fma(s[19], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3228756555322954), t3).fma(s[21], t11.fnma(T::lit(1.3228756555322954), t9).fma(s[19], t2));
-    result(7, t14);
-    result(0, t14.fnma(s[15], t12.fnma(s[13], t3)));
-    let t17 = c(4);
-    let t18 = t4.fma(s[16], t6.fma(s[14], t17));
-    let t19 = t18.fma(T::lit(1.4907119849998598), t11).fnma(s[22], t7.fma(s[20], t4));
-    result(3, t19);
-    let t21 = t7.fma(s[22], t18.fnma(T::lit(1.4907119849998598), t11).fma(s[20], t6));
-    result(5, t21);
-    let t23 = t21.fma(T::lit(1.1338934190276817), t14).fnma(s[18], t19.fnma(T::lit(1.1338934190276817), t12).fma(s[17], t7));
-    result(2, t23);
-    result(4, t19.fma(s[16], t21.fma(s[14], t18)));
-    let t26 = t19.fma(T::lit(1.1338934190276817), t12).fma(s[18], t21.fnma(T::lit(1.1338934190276817), t14).fma(s[17], t11));
-    result(6, t26);
-    result(8, t12.fma(s[15], t14.fnma(s[13], t9)));
+pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(1.8446619684315546).fma(s[4], T::lit(1.5811388300841898));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.4472135954999579) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.4472135954999579) * t5;
+    let t7 = c(7);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.5916079783099616) * t1;
+    let t11 = c(2);
+    let t12 = c(5);
+    let t13 = T::lit(0.5916079783099616) * t5;
+    let t14 = t12.fma(T::lit(1.1338934190276817), t7).fnma(t13, t9.fnma(T::lit(1.1338934190276817), t3).fma(t10, t11));
+    let t15 = T::lit(3.8890872965260113).fnma(s[4], T::lit(2.1213203435596424));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.6666666666666666) * t16;
+    let t18 = c(8);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(6);
+    let t21 = t9.fma(T::lit(1.1338934190276817), t3).fma(t13, t12.fnma(T::lit(1.1338934190276817), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.6666666666666666) * t22;
+    let t24 = t21.fma(T::lit(1.3228756555322954), t19).fnma(t23, t14.fnma(T::lit(1.3228756555322954), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3228756555322954), t8).fma(t23, t21.fnma(T::lit(1.3228756555322954), t19).fma(t17, t7));
+    result(7, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(4);
+    let t30 = t9.fma(t5, t12.fma(t1, t29));
+    let t31 = t30.fma(T::lit(1.4907119849998598), t21).fnma(t22, t14.fma(t16, t9));
+    result(3, t31);
+    let t33 = t14.fma(t22, t30.fnma(T::lit(1.4907119849998598), t21).fma(t16, t12));
+    result(5, t33);
+    let t35 = t33.fma(T::lit(1.1338934190276817), t26).fnma(t13, t31.fnma(T::lit(1.1338934190276817), t24).fma(t10, t14));
+    result(2, t35);
+    result(4, t31.fma(t5, t33.fma(t1, t30)));
+    let t38 = t31.fma(T::lit(1.1338934190276817), t24).fma(t13, t33.fnma(T::lit(1.1338934190276817), t26).fma(t10, t21));
+    result(6, t38);
+    result(8, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:10:band=5`: Band 5 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1246,51 +1120,65 @@ pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 5, m from -5 to 5.
 /// - Returns band 5 of the result, m from -5 to 5.
-/// - Operations: 54 (0 mul, 0 add, 54 fma); 4 constants, 11 live values.
+/// - Operations: 68 (12 mul, 0 add, 56 fma); 12 constants, 19 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(8);
-    let t4 = c(10);
-    let t5 = t3.fma(T::lit(1.3416407864998738), t4).fnma(s[25], t0.fnma(T::lit(1.3416407864998738), t1).fma(s[23], t2));
-    let t6 = c(9);
-    let t7 = t0.fma(T::lit(1.3416407864998738), t1).fma(s[25], t3.fnma(T::lit(1.3416407864998738), t4).fma(s[23], t6));
-    let t8 = t7.fnma(s[29], t5.fnma(s[27], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(6);
-    let t13 = t12.fma(T::lit(1.0801234497346435), t3).fnma(s[32], t10.fnma(T::lit(1.0801234497346435), t0).fma(s[31], t11));
-    let t14 = c(7);
-    let t15 = t10.fma(T::lit(1.0801234497346435), t0).fma(s[32], t12.fnma(T::lit(1.0801234497346435), t3).fma(s[31], t14));
-    let t16 = t15.fma(T::lit(1.1547005383792515), t7).fnma(s[34], t13.fnma(T::lit(1.1547005383792515), t5).fma(s[33], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[29], t7.fnma(s[27], t4));
-    result(10, t18);
-    let t20 = t13.fma(T::lit(1.1547005383792515), t5).fma(s[34], t15.fnma(T::lit(1.1547005383792515), t7).fma(s[33], t3));
-    result(8, t20);
-    let t22 = t20.fma(T::lit(1.3416407864998738), t18).fnma(s[25], t16.fnma(T::lit(1.3416407864998738), t8).fma(s[23], t5));
-    result(1, t22);
-    let t24 = c(5);
-    let t25 = t10.fma(s[26], t12.fma(s[24], t24));
-    let t26 = t25.fma(T::lit(1.4638501094227998), t15).fnma(s[30], t13.fma(s[28], t10));
-    result(4, t26);
-    let t28 = t13.fma(s[30], t25.fnma(T::lit(1.4638501094227998), t15).fma(s[28], t12));
-    result(6, t28);
-    let t30 = t28.fma(T::lit(1.0801234497346435), t20).fnma(s[32], t26.fnma(T::lit(1.0801234497346435), t16).fma(s[31], t13));
-    result(3, t30);
-    result(5, t26.fma(s[26], t28.fma(s[24], t25)));
-    let t33 = t26.fma(T::lit(1.0801234497346435), t16).fma(s[32], t28.fnma(T::lit(1.0801234497346435), t20).fma(s[31], t15));
-    result(7, t33);
-    let t35 = t16.fma(T::lit(1.3416407864998738), t8).fma(s[25], t20.fnma(T::lit(1.3416407864998738), t18).fma(s[23], t7));
-    result(9, t35);
+    let t2 = T::lit(3.3888604279314896).fma(s[4], T::lit(1.9364916731037085));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.408248290463863) * t3;
+    let t5 = c(1);
+    let t6 = c(8);
+    let t7 = c(10);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.408248290463863) * t8;
+    let t10 = t6.fma(T::lit(1.3416407864998738), t7).fnma(t9, t0.fnma(T::lit(1.3416407864998738), t1).fma(t4, t5));
+    let t11 = T::lit(7.937253933193772).fnma(s[4], T::lit(2.6457513110645907));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.5976143046671968) * t12;
+    let t14 = c(9);
+    let t15 = t0.fma(T::lit(1.3416407864998738), t1).fma(t9, t6.fnma(T::lit(1.3416407864998738), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.5976143046671968) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.6324555320336759) * t3;
+    let t22 = c(3);
+    let t23 = c(6);
+    let t24 = T::lit(0.6324555320336759) * t8;
+    let t25 = t23.fma(T::lit(1.0801234497346435), t6).fnma(t24, t20.fnma(T::lit(1.0801234497346435), t0).fma(t21, t22));
+    let t26 = T::lit(0.8017837257372732) * t12;
+    let t27 = c(7);
+    let t28 = t20.fma(T::lit(1.0801234497346435), t0).fma(t24, t23.fnma(T::lit(1.0801234497346435), t6).fma(t21, t27));
+    let t29 = T::lit(0.8017837257372732) * t16;
+    let t30 = t28.fma(T::lit(1.1547005383792515), t15).fnma(t29, t25.fnma(T::lit(1.1547005383792515), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(10, t32);
+    let t34 = t25.fma(T::lit(1.1547005383792515), t10).fma(t29, t28.fnma(T::lit(1.1547005383792515), t15).fma(t26, t6));
+    result(8, t34);
+    let t36 = t34.fma(T::lit(1.3416407864998738), t32).fnma(t9, t30.fnma(T::lit(1.3416407864998738), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(5);
+    let t39 = t20.fma(t8, t23.fma(t3, t38));
+    let t40 = t39.fma(T::lit(1.4638501094227998), t28).fnma(t16, t25.fma(t12, t20));
+    result(4, t40);
+    let t42 = t25.fma(t16, t39.fnma(T::lit(1.4638501094227998), t28).fma(t12, t23));
+    result(6, t42);
+    let t44 = t42.fma(T::lit(1.0801234497346435), t34).fnma(t24, t40.fnma(T::lit(1.0801234497346435), t30).fma(t21, t25));
+    result(3, t44);
+    result(5, t40.fma(t8, t42.fma(t3, t39)));
+    let t47 = t40.fma(T::lit(1.0801234497346435), t30).fma(t24, t42.fnma(T::lit(1.0801234497346435), t34).fma(t21, t28));
+    result(7, t47);
+    let t49 = t30.fma(T::lit(1.3416407864998738), t18).fma(t9, t34.fnma(T::lit(1.3416407864998738), t32).fma(t4, t15));
+    result(9, t49);
 }
 
 /// `tilt:10:band=6`: Band 6 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1301,57 +1189,73 @@ pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 6, m from -6 to 6.
 /// - Returns band 6 of the result, m from -6 to 6.
-/// - Operations: 66 (0 mul, 0 add, 66 fma); 5 constants, 12 live values.
+/// - Operations: 82 (14 mul, 0 add, 68 fma); 14 constants, 22 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(11);
-    let t3 = t2.fnma(s[37], t0.fnma(s[35], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(9);
-    let t7 = t6.fma(T::lit(1.1677484162422844), t2).fnma(s[40], t4.fnma(T::lit(1.1677484162422844), t0).fma(s[39], t5));
-    let t8 = c(12);
-    let t9 = t0.fma(s[37], t2.fnma(s[35], t8));
-    let t10 = c(10);
-    let t11 = t4.fma(T::lit(1.1677484162422844), t0).fma(s[40], t6.fnma(T::lit(1.1677484162422844), t2).fma(s[39], t10));
-    let t12 = t11.fma(T::lit(1.35400640077266), t9).fnma(s[43], t7.fnma(T::lit(1.35400640077266), t3).fma(s[41], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.35400640077266), t3).fma(s[43], t11.fnma(T::lit(1.35400640077266), t9).fma(s[41], t2));
-    result(11, t14);
-    result(0, t14.fnma(s[37], t12.fnma(s[35], t3)));
-    let t17 = c(5);
-    let t18 = c(4);
-    let t19 = c(7);
-    let t20 = t19.fma(T::lit(1.0540925533894598), t6).fnma(s[46], t17.fnma(T::lit(1.0540925533894598), t4).fma(s[45], t18));
-    let t21 = c(8);
-    let t22 = t17.fma(T::lit(1.0540925533894598), t4).fma(s[46], t19.fnma(T::lit(1.0540925533894598), t6).fma(s[45], t21));
-    let t23 = t22.fma(T::lit(1.0954451150103321), t11).fnma(s[48], t20.fnma(T::lit(1.0954451150103321), t7).fma(s[47], t4));
-    result(3, t23);
-    let t25 = t20.fma(T::lit(1.0954451150103321), t7).fma(s[48], t22.fnma(T::lit(1.0954451150103321), t11).fma(s[47], t6));
-    result(9, t25);
-    let t27 = t25.fma(T::lit(1.1677484162422844), t14).fnma(s[40], t23.fnma(T::lit(1.1677484162422844), t12).fma(s[39], t7));
-    result(2, t27);
-    let t29 = c(6);
-    let t30 = t17.fma(s[38], t19.fma(s[36], t29));
-    let t31 = t30.fma(T::lit(1.449137674618944), t22).fnma(s[44], t20.fma(s[42], t17));
-    result(5, t31);
-    let t33 = t20.fma(s[44], t30.fnma(T::lit(1.449137674618944), t22).fma(s[42], t19));
-    result(7, t33);
-    let t35 = t33.fma(T::lit(1.0540925533894598), t25).fnma(s[46], t31.fnma(T::lit(1.0540925533894598), t23).fma(s[45], t20));
-    result(4, t35);
-    result(6, t31.fma(s[38], t33.fma(s[36], t30)));
-    let t38 = t31.fma(T::lit(1.0540925533894598), t23).fma(s[46], t33.fnma(T::lit(1.0540925533894598), t25).fma(s[45], t22));
-    result(8, t38);
-    let t40 = t23.fma(T::lit(1.1677484162422844), t12).fma(s[40], t25.fnma(T::lit(1.1677484162422844), t14).fma(s[39], t11));
-    result(10, t40);
-    result(12, t12.fma(s[37], t14.fnma(s[35], t9)));
+pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(5.537278964738307).fma(s[4], T::lit(2.29128784747792));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.37796447300922725) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.37796447300922725) * t5;
+    let t7 = c(11);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.511766315719159) * t1;
+    let t11 = c(2);
+    let t12 = c(9);
+    let t13 = T::lit(0.511766315719159) * t5;
+    let t14 = t12.fma(T::lit(1.1677484162422844), t7).fnma(t13, t9.fnma(T::lit(1.1677484162422844), t3).fma(t10, t11));
+    let t15 = T::lit(13.703203194062977).fnma(s[4], T::lit(3.1622776601683795));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.5477225575051661) * t16;
+    let t18 = c(12);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(10);
+    let t21 = t9.fma(T::lit(1.1677484162422844), t3).fma(t13, t12.fnma(T::lit(1.1677484162422844), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.5477225575051661) * t22;
+    let t24 = t21.fma(T::lit(1.35400640077266), t19).fnma(t23, t14.fnma(T::lit(1.35400640077266), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.35400640077266), t8).fma(t23, t21.fnma(T::lit(1.35400640077266), t19).fma(t17, t7));
+    result(11, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(5);
+    let t30 = T::lit(0.6546536707079772) * t1;
+    let t31 = c(4);
+    let t32 = c(7);
+    let t33 = T::lit(0.6546536707079772) * t5;
+    let t34 = t32.fma(T::lit(1.0540925533894598), t12).fnma(t33, t29.fnma(T::lit(1.0540925533894598), t9).fma(t30, t31));
+    let t35 = T::lit(0.8660254037844386) * t16;
+    let t36 = c(8);
+    let t37 = t29.fma(T::lit(1.0540925533894598), t9).fma(t33, t32.fnma(T::lit(1.0540925533894598), t12).fma(t30, t36));
+    let t38 = T::lit(0.8660254037844386) * t22;
+    let t39 = t37.fma(T::lit(1.0954451150103321), t21).fnma(t38, t34.fnma(T::lit(1.0954451150103321), t14).fma(t35, t9));
+    result(3, t39);
+    let t41 = t34.fma(T::lit(1.0954451150103321), t14).fma(t38, t37.fnma(T::lit(1.0954451150103321), t21).fma(t35, t12));
+    result(9, t41);
+    let t43 = t41.fma(T::lit(1.1677484162422844), t26).fnma(t13, t39.fnma(T::lit(1.1677484162422844), t24).fma(t10, t14));
+    result(2, t43);
+    let t45 = c(6);
+    let t46 = t29.fma(t5, t32.fma(t1, t45));
+    let t47 = t46.fma(T::lit(1.449137674618944), t37).fnma(t22, t34.fma(t16, t29));
+    result(5, t47);
+    let t49 = t34.fma(t22, t46.fnma(T::lit(1.449137674618944), t37).fma(t16, t32));
+    result(7, t49);
+    let t51 = t49.fma(T::lit(1.0540925533894598), t41).fnma(t33, t47.fnma(T::lit(1.0540925533894598), t39).fma(t30, t34));
+    result(4, t51);
+    result(6, t47.fma(t5, t49.fma(t1, t46)));
+    let t54 = t47.fma(T::lit(1.0540925533894598), t39).fma(t33, t49.fnma(T::lit(1.0540925533894598), t41).fma(t30, t37));
+    result(8, t54);
+    let t56 = t39.fma(T::lit(1.1677484162422844), t24).fma(t13, t41.fnma(T::lit(1.1677484162422844), t26).fma(t10, t21));
+    result(10, t56);
+    result(12, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:10:band=7`: Band 7 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1362,65 +1266,83 @@ pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 7, m from -7 to 7.
 /// - Returns band 7 of the result, m from -7 to 7.
-/// - Operations: 78 (0 mul, 0 add, 78 fma); 6 constants, 14 live values.
+/// - Operations: 96 (16 mul, 0 add, 80 fma); 16 constants, 24 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(12);
-    let t4 = c(14);
-    let t5 = t3.fma(T::lit(1.3627702877384937), t4).fnma(s[51], t0.fnma(T::lit(1.3627702877384937), t1).fma(s[49], t2));
-    let t6 = c(13);
-    let t7 = t0.fma(T::lit(1.3627702877384937), t1).fma(s[51], t3.fnma(T::lit(1.3627702877384937), t4).fma(s[49], t6));
-    let t8 = t7.fnma(s[55], t5.fnma(s[53], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(10);
-    let t13 = t12.fma(T::lit(1.1055415967851332), t3).fnma(s[58], t10.fnma(T::lit(1.1055415967851332), t0).fma(s[57], t11));
-    let t14 = c(11);
-    let t15 = t10.fma(T::lit(1.1055415967851332), t0).fma(s[58], t12.fnma(T::lit(1.1055415967851332), t3).fma(s[57], t14));
-    let t16 = t15.fma(T::lit(1.1766968108291043), t7).fnma(s[60], t13.fnma(T::lit(1.1766968108291043), t5).fma(s[59], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[55], t7.fnma(s[53], t4));
-    result(14, t18);
-    let t20 = t13.fma(T::lit(1.1766968108291043), t5).fma(s[60], t15.fnma(T::lit(1.1766968108291043), t7).fma(s[59], t3));
-    result(12, t20);
-    let t22 = t20.fma(T::lit(1.3627702877384937), t18).fnma(s[51], t16.fnma(T::lit(1.3627702877384937), t8).fma(s[49], t5));
-    result(1, t22);
-    let t24 = c(6);
-    let t25 = c(5);
-    let t26 = c(8);
-    let t27 = t26.fma(T::lit(1.0392304845413263), t12).fnma(s[62], t24.fnma(T::lit(1.0392304845413263), t10).fma(s[61], t25));
-    let t28 = c(9);
-    let t29 = t24.fma(T::lit(1.0392304845413263), t10).fma(s[62], t26.fnma(T::lit(1.0392304845413263), t12).fma(s[61], t28));
-    let t30 = t29.fma(T::lit(1.0660035817780522), t15).fnma(s[64], t27.fnma(T::lit(1.0660035817780522), t13).fma(s[63], t10));
-    result(4, t30);
-    let t32 = t27.fma(T::lit(1.0660035817780522), t13).fma(s[64], t29.fnma(T::lit(1.0660035817780522), t15).fma(s[63], t12));
-    result(10, t32);
-    let t34 = t32.fma(T::lit(1.1055415967851332), t20).fnma(s[58], t30.fnma(T::lit(1.1055415967851332), t16).fma(s[57], t13));
-    result(3, t34);
-    let t36 = c(7);
-    let t37 = t24.fma(s[52], t26.fma(s[50], t36));
-    let t38 = t37.fma(T::lit(1.4401645996461911), t29).fnma(s[56], t27.fma(s[54], t24));
-    result(6, t38);
-    let t40 = t27.fma(s[56], t37.fnma(T::lit(1.4401645996461911), t29).fma(s[54], t26));
-    result(8, t40);
-    let t42 = t40.fma(T::lit(1.0392304845413263), t32).fnma(s[62], t38.fnma(T::lit(1.0392304845413263), t30).fma(s[61], t27));
-    result(5, t42);
-    result(7, t38.fma(s[52], t40.fma(s[50], t37)));
-    let t45 = t38.fma(T::lit(1.0392304845413263), t30).fma(s[62], t40.fnma(T::lit(1.0392304845413263), t32).fma(s[61], t29));
-    result(9, t45);
-    let t47 = t30.fma(T::lit(1.1055415967851332), t16).fma(s[58], t32.fnma(T::lit(1.1055415967851332), t20).fma(s[57], t15));
-    result(11, t47);
-    let t49 = t16.fma(T::lit(1.3627702877384937), t8).fma(s[51], t20.fnma(T::lit(1.3627702877384937), t18).fma(s[49], t7));
-    result(13, t49);
+    let t2 = T::lit(8.59869176095992).fma(s[4], T::lit(2.6457513110645907));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.3535533905932738) * t3;
+    let t5 = c(1);
+    let t6 = c(12);
+    let t7 = c(14);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.3535533905932738) * t8;
+    let t10 = t6.fma(T::lit(1.3627702877384937), t7).fnma(t9, t0.fnma(T::lit(1.3627702877384937), t1).fma(t4, t5));
+    let t11 = T::lit(22.045407685048602).fnma(s[4], T::lit(3.6742346141747673));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.5091750772173156) * t12;
+    let t14 = c(13);
+    let t15 = t0.fma(T::lit(1.3627702877384937), t1).fma(t9, t6.fnma(T::lit(1.3627702877384937), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.5091750772173156) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.5669467095138409) * t3;
+    let t22 = c(3);
+    let t23 = c(10);
+    let t24 = T::lit(0.5669467095138409) * t8;
+    let t25 = t23.fma(T::lit(1.1055415967851332), t6).fnma(t24, t20.fnma(T::lit(1.1055415967851332), t0).fma(t21, t22));
+    let t26 = T::lit(0.693888666488711) * t12;
+    let t27 = c(11);
+    let t28 = t20.fma(T::lit(1.1055415967851332), t0).fma(t24, t23.fnma(T::lit(1.1055415967851332), t6).fma(t21, t27));
+    let t29 = T::lit(0.693888666488711) * t16;
+    let t30 = t28.fma(T::lit(1.1766968108291043), t15).fnma(t29, t25.fnma(T::lit(1.1766968108291043), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(14, t32);
+    let t34 = t25.fma(T::lit(1.1766968108291043), t10).fma(t29, t28.fnma(T::lit(1.1766968108291043), t15).fma(t26, t6));
+    result(12, t34);
+    let t36 = t34.fma(T::lit(1.3627702877384937), t32).fnma(t9, t30.fnma(T::lit(1.3627702877384937), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(6);
+    let t39 = T::lit(0.6681531047810609) * t3;
+    let t40 = c(5);
+    let t41 = c(8);
+    let t42 = T::lit(0.6681531047810609) * t8;
+    let t43 = t41.fma(T::lit(1.0392304845413263), t23).fnma(t42, t38.fnma(T::lit(1.0392304845413263), t20).fma(t39, t40));
+    let t44 = T::lit(0.90267093384844) * t12;
+    let t45 = c(9);
+    let t46 = t38.fma(T::lit(1.0392304845413263), t20).fma(t42, t41.fnma(T::lit(1.0392304845413263), t23).fma(t39, t45));
+    let t47 = T::lit(0.90267093384844) * t16;
+    let t48 = t46.fma(T::lit(1.0660035817780522), t28).fnma(t47, t43.fnma(T::lit(1.0660035817780522), t25).fma(t44, t20));
+    result(4, t48);
+    let t50 = t43.fma(T::lit(1.0660035817780522), t25).fma(t47, t46.fnma(T::lit(1.0660035817780522), t28).fma(t44, t23));
+    result(10, t50);
+    let t52 = t50.fma(T::lit(1.1055415967851332), t34).fnma(t24, t48.fnma(T::lit(1.1055415967851332), t30).fma(t21, t25));
+    result(3, t52);
+    let t54 = c(7);
+    let t55 = t38.fma(t8, t41.fma(t3, t54));
+    let t56 = t55.fma(T::lit(1.4401645996461911), t46).fnma(t16, t43.fma(t12, t38));
+    result(6, t56);
+    let t58 = t43.fma(t16, t55.fnma(T::lit(1.4401645996461911), t46).fma(t12, t41));
+    result(8, t58);
+    let t60 = t58.fma(T::lit(1.0392304845413263), t50).fnma(t42, t56.fnma(T::lit(1.0392304845413263), t48).fma(t39, t43));
+    result(5, t60);
+    result(7, t56.fma(t8, t58.fma(t3, t55)));
+    let t63 = t56.fma(T::lit(1.0392304845413263), t48).fma(t42, t58.fnma(T::lit(1.0392304845413263), t50).fma(t39, t46));
+    result(9, t63);
+    let t65 = t48.fma(T::lit(1.1055415967851332), t30).fma(t24, t50.fnma(T::lit(1.1055415967851332), t34).fma(t21, t28));
+    result(11, t65);
+    let t67 = t30.fma(T::lit(1.3627702877384937), t18).fma(t9, t34.fnma(T::lit(1.3627702877384937), t32).fma(t4, t15));
+    result(13, t67);
 }
 
 /// `tilt:10:band=8`: Band 8 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1431,71 +1353,91 @@ pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 8, m from -8 to 8.
 /// - Returns band 8 of the result, m from -8 to 8.
-/// - Operations: 90 (0 mul, 0 add, 90 fma); 7 constants, 15 live values.
+/// - Operations: 110 (18 mul, 0 add, 92 fma); 18 constants, 27 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_8_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(15);
-    let t3 = t2.fnma(s[67], t0.fnma(s[65], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(13);
-    let t7 = t6.fma(T::lit(1.1832159566199232), t2).fnma(s[70], t4.fnma(T::lit(1.1832159566199232), t0).fma(s[69], t5));
-    let t8 = c(16);
-    let t9 = t0.fma(s[67], t2.fnma(s[65], t8));
-    let t10 = c(14);
-    let t11 = t4.fma(T::lit(1.1832159566199232), t0).fma(s[70], t6.fnma(T::lit(1.1832159566199232), t2).fma(s[69], t10));
-    let t12 = t11.fma(T::lit(1.3693063937629153), t9).fnma(s[73], t7.fnma(T::lit(1.3693063937629153), t3).fma(s[71], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3693063937629153), t3).fma(s[73], t11.fnma(T::lit(1.3693063937629153), t9).fma(s[71], t2));
-    result(15, t14);
-    result(0, t14.fnma(s[67], t12.fnma(s[65], t3)));
-    let t17 = c(5);
-    let t18 = c(4);
-    let t19 = c(11);
-    let t20 = t19.fma(T::lit(1.0741723110591492), t6).fnma(s[76], t17.fnma(T::lit(1.0741723110591492), t4).fma(s[75], t18));
-    let t21 = c(12);
-    let t22 = t17.fma(T::lit(1.0741723110591492), t4).fma(s[76], t19.fnma(T::lit(1.0741723110591492), t6).fma(s[75], t21));
-    let t23 = t22.fma(T::lit(1.1126972805283737), t11).fnma(s[78], t20.fnma(T::lit(1.1126972805283737), t7).fma(s[77], t4));
-    result(3, t23);
-    let t25 = t20.fma(T::lit(1.1126972805283737), t7).fma(s[78], t22.fnma(T::lit(1.1126972805283737), t11).fma(s[77], t6));
-    result(13, t25);
-    let t27 = t25.fma(T::lit(1.1832159566199232), t14).fnma(s[70], t23.fnma(T::lit(1.1832159566199232), t12).fma(s[69], t7));
-    result(2, t27);
-    let t29 = c(7);
-    let t30 = c(6);
-    let t31 = c(9);
-    let t32 = t31.fma(T::lit(1.0298573010888745), t19).fnma(s[80], t29.fnma(T::lit(1.0298573010888745), t17).fma(s[79], t30));
-    let t33 = c(10);
-    let t34 = t29.fma(T::lit(1.0298573010888745), t17).fma(s[80], t31.fnma(T::lit(1.0298573010888745), t19).fma(s[79], t33));
-    let t35 = t34.fma(T::lit(1.0488088481701516), t22).fnma(s[82], t32.fnma(T::lit(1.0488088481701516), t20).fma(s[81], t17));
-    result(5, t35);
-    let t37 = t32.fma(T::lit(1.0488088481701516), t20).fma(s[82], t34.fnma(T::lit(1.0488088481701516), t22).fma(s[81], t19));
-    result(11, t37);
-    let t39 = t37.fma(T::lit(1.0741723110591492), t25).fnma(s[76], t35.fnma(T::lit(1.0741723110591492), t23).fma(s[75], t20));
-    result(4, t39);
-    let t41 = c(8);
-    let t42 = t29.fma(s[68], t31.fma(s[66], t41));
-    let t43 = t42.fma(T::lit(1.4342743312012725), t34).fnma(s[74], t32.fma(s[72], t29));
-    result(7, t43);
-    let t45 = t32.fma(s[74], t42.fnma(T::lit(1.4342743312012725), t34).fma(s[72], t31));
-    result(9, t45);
-    let t47 = t45.fma(T::lit(1.0298573010888745), t37).fnma(s[80], t43.fnma(T::lit(1.0298573010888745), t35).fma(s[79], t32));
-    result(6, t47);
-    result(8, t43.fma(s[68], t45.fma(s[66], t42)));
-    let t50 = t43.fma(T::lit(1.0298573010888745), t35).fma(s[80], t45.fnma(T::lit(1.0298573010888745), t37).fma(s[79], t34));
-    result(10, t50);
-    let t52 = t35.fma(T::lit(1.0741723110591492), t23).fma(s[76], t37.fnma(T::lit(1.0741723110591492), t25).fma(s[75], t22));
-    result(12, t52);
-    let t54 = t23.fma(T::lit(1.1832159566199232), t12).fma(s[70], t25.fnma(T::lit(1.1832159566199232), t14).fma(s[69], t11));
-    result(14, t54);
-    result(16, t12.fma(s[67], t14.fnma(s[65], t9)));
+pub fn band_8_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(12.5).fma(s[4], T::lit(3.0));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.3333333333333333) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.3333333333333333) * t5;
+    let t7 = c(15);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.45643546458763845) * t1;
+    let t11 = c(2);
+    let t12 = c(13);
+    let t13 = T::lit(0.45643546458763845) * t5;
+    let t14 = t12.fma(T::lit(1.1832159566199232), t7).fnma(t13, t9.fnma(T::lit(1.1832159566199232), t3).fma(t10, t11));
+    let t15 = T::lit(32.769184372584625).fnma(s[4], T::lit(4.183300132670378));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.47809144373375745) * t16;
+    let t18 = c(16);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(14);
+    let t21 = t9.fma(T::lit(1.1832159566199232), t3).fma(t13, t12.fnma(T::lit(1.1832159566199232), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.47809144373375745) * t22;
+    let t24 = t21.fma(T::lit(1.3693063937629153), t19).fnma(t23, t14.fnma(T::lit(1.3693063937629153), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3693063937629153), t8).fma(t23, t21.fnma(T::lit(1.3693063937629153), t19).fma(t17, t7));
+    result(15, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(5);
+    let t30 = T::lit(0.6009252125773316) * t1;
+    let t31 = c(4);
+    let t32 = c(11);
+    let t33 = T::lit(0.6009252125773316) * t5;
+    let t34 = t32.fma(T::lit(1.0741723110591492), t12).fnma(t33, t29.fnma(T::lit(1.0741723110591492), t9).fma(t30, t31));
+    let t35 = T::lit(0.7745966692414834) * t16;
+    let t36 = c(12);
+    let t37 = t29.fma(T::lit(1.0741723110591492), t9).fma(t33, t32.fnma(T::lit(1.0741723110591492), t12).fma(t30, t36));
+    let t38 = T::lit(0.7745966692414834) * t22;
+    let t39 = t37.fma(T::lit(1.1126972805283737), t21).fnma(t38, t34.fnma(T::lit(1.1126972805283737), t14).fma(t35, t9));
+    result(3, t39);
+    let t41 = t34.fma(T::lit(1.1126972805283737), t14).fma(t38, t37.fnma(T::lit(1.1126972805283737), t21).fma(t35, t12));
+    result(13, t41);
+    let t43 = t41.fma(T::lit(1.1832159566199232), t26).fnma(t13, t39.fnma(T::lit(1.1832159566199232), t24).fma(t10, t14));
+    result(2, t43);
+    let t45 = c(7);
+    let t46 = T::lit(0.67700320038633) * t1;
+    let t47 = c(6);
+    let t48 = c(9);
+    let t49 = T::lit(0.67700320038633) * t5;
+    let t50 = t48.fma(T::lit(1.0298573010888745), t32).fnma(t49, t45.fnma(T::lit(1.0298573010888745), t29).fma(t46, t47));
+    let t51 = T::lit(0.9258200997725514) * t16;
+    let t52 = c(10);
+    let t53 = t45.fma(T::lit(1.0298573010888745), t29).fma(t49, t48.fnma(T::lit(1.0298573010888745), t32).fma(t46, t52));
+    let t54 = T::lit(0.9258200997725514) * t22;
+    let t55 = t53.fma(T::lit(1.0488088481701516), t37).fnma(t54, t50.fnma(T::lit(1.0488088481701516), t34).fma(t51, t29));
+    result(5, t55);
+    let t57 = t50.fma(T::lit(1.0488088481701516), t34).fma(t54, t53.fnma(T::lit(1.0488088481701516), t37).fma(t51, t32));
+    result(11, t57);
+    let t59 = t57.fma(T::lit(1.0741723110591492), t41).fnma(t33, t55.fnma(T::lit(1.0741723110591492), t39).fma(t30, t34));
+    result(4, t59);
+    let t61 = c(8);
+    let t62 = t45.fma(t5, t48.fma(t1, t61));
+    let t63 = t62.fma(T::lit(1.4342743312012725), t53).fnma(t22, t50.fma(t16, t45));
+    result(7, t63);
+    let t65 = t50.fma(t22, t62.fnma(T::lit(1.4342743312012725), t53).fma(t16, t48));
+    result(9, t65);
+    let t67 = t65.fma(T::lit(1.0298573010888745), t57).fnma(t49, t63.fnma(T::lit(1.0298573010888745), t55).fma(t46, t50));
+    result(6, t67);
+    result(8, t63.fma(t5, t65.fma(t1, t62)));
+    let t70 = t63.fma(T::lit(1.0298573010888745), t55).fma(t49, t65.fnma(T::lit(1.0298573010888745), t57).fma(t46, t53));
+    result(10, t70);
+    let t72 = t55.fma(T::lit(1.0741723110591492), t39).fma(t33, t57.fnma(T::lit(1.0741723110591492), t41).fma(t30, t37));
+    result(12, t72);
+    let t74 = t39.fma(T::lit(1.1832159566199232), t24).fma(t13, t41.fnma(T::lit(1.1832159566199232), t26).fma(t10, t21));
+    result(14, t74);
+    result(16, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:10:band=9`: Band 9 of `tilt:10` alone, so that a band is loaded, changed and stored at a time.
@@ -1506,79 +1448,101 @@ pub fn band_8_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V,
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 9, m from -9 to 9.
 /// - Returns band 9 of the result, m from -9 to 9.
-/// - Operations: 102 (0 mul, 0 add, 102 fma); 8 constants, 17 live values.
+/// - Operations: 124 (20 mul, 0 add, 104 fma); 20 constants, 29 live values.
 /// - Error: with its other pieces f32 rounding at most 1.6e-4 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-6). Method error, the worst band's in spectral norm: 2.1e-2 at 5, 1.9e-1 at 10, 1.1e0 at 15,
 ///   5.2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_9_tilt<T: Real, V: Signal<T>>(s: &[T; 103], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_9_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(16);
-    let t4 = c(18);
-    let t5 = t3.fma(T::lit(1.3743685418725535), t4).fnma(s[85], t0.fnma(T::lit(1.3743685418725535), t1).fma(s[83], t2));
-    let t6 = c(17);
-    let t7 = t0.fma(T::lit(1.3743685418725535), t1).fma(s[85], t3.fnma(T::lit(1.3743685418725535), t4).fma(s[83], t6));
-    let t8 = t7.fnma(s[89], t5.fnma(s[87], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(14);
-    let t13 = t12.fma(T::lit(1.118033988749895), t3).fnma(s[92], t10.fnma(T::lit(1.118033988749895), t0).fma(s[91], t11));
-    let t14 = c(15);
-    let t15 = t10.fma(T::lit(1.118033988749895), t0).fma(s[92], t12.fnma(T::lit(1.118033988749895), t3).fma(s[91], t14));
-    let t16 = t15.fma(T::lit(1.1881770515720091), t7).fnma(s[94], t13.fnma(T::lit(1.1881770515720091), t5).fma(s[93], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[89], t7.fnma(s[87], t4));
-    result(18, t18);
-    let t20 = t13.fma(T::lit(1.1881770515720091), t5).fma(s[94], t15.fnma(T::lit(1.1881770515720091), t7).fma(s[93], t3));
-    result(16, t20);
-    let t22 = t20.fma(T::lit(1.3743685418725535), t18).fnma(s[85], t16.fnma(T::lit(1.3743685418725535), t8).fma(s[83], t5));
-    result(1, t22);
-    let t24 = c(6);
-    let t25 = c(5);
-    let t26 = c(12);
-    let t27 = t26.fma(T::lit(1.0555973258234952), t12).fnma(s[96], t24.fnma(T::lit(1.0555973258234952), t10).fma(s[95], t25));
-    let t28 = c(13);
-    let t29 = t24.fma(T::lit(1.0555973258234952), t10).fma(s[96], t26.fnma(T::lit(1.0555973258234952), t12).fma(s[95], t28));
-    let t30 = t29.fma(T::lit(1.0801234497346435), t15).fnma(s[98], t27.fnma(T::lit(1.0801234497346435), t13).fma(s[97], t10));
-    result(4, t30);
-    let t32 = t27.fma(T::lit(1.0801234497346435), t13).fma(s[98], t29.fnma(T::lit(1.0801234497346435), t15).fma(s[97], t12));
-    result(14, t32);
-    let t34 = t32.fma(T::lit(1.118033988749895), t20).fnma(s[92], t30.fnma(T::lit(1.118033988749895), t16).fma(s[91], t13));
-    result(3, t34);
-    let t36 = c(8);
-    let t37 = c(7);
-    let t38 = c(10);
-    let t39 = t38.fma(T::lit(1.023532631438318), t26).fnma(s[100], t36.fnma(T::lit(1.023532631438318), t24).fma(s[99], t37));
-    let t40 = c(11);
-    let t41 = t36.fma(T::lit(1.023532631438318), t24).fma(s[100], t38.fnma(T::lit(1.023532631438318), t26).fma(s[99], t40));
-    let t42 = t41.fma(T::lit(1.0377490433255416), t29).fnma(s[102], t39.fnma(T::lit(1.0377490433255416), t27).fma(s[101], t24));
-    result(6, t42);
-    let t44 = t39.fma(T::lit(1.0377490433255416), t27).fma(s[102], t41.fnma(T::lit(1.0377490433255416), t29).fma(s[101], t26));
-    result(12, t44);
-    let t46 = t44.fma(T::lit(1.0555973258234952), t32).fnma(s[96], t42.fnma(T::lit(1.0555973258234952), t30).fma(s[95], t27));
-    result(5, t46);
-    let t48 = c(9);
-    let t49 = t36.fma(s[86], t38.fma(s[84], t48));
-    let t50 = t49.fma(T::lit(1.4301938838683885), t41).fnma(s[90], t39.fma(s[88], t36));
-    result(8, t50);
-    let t52 = t39.fma(s[90], t49.fnma(T::lit(1.4301938838683885), t41).fma(s[88], t38));
-    result(10, t52);
-    let t54 = t52.fma(T::lit(1.023532631438318), t44).fnma(s[100], t50.fnma(T::lit(1.023532631438318), t42).fma(s[99], t39));
-    result(7, t54);
-    result(9, t50.fma(s[86], t52.fma(s[84], t49)));
-    let t57 = t50.fma(T::lit(1.023532631438318), t42).fma(s[100], t52.fnma(T::lit(1.023532631438318), t44).fma(s[99], t41));
-    result(11, t57);
-    let t59 = t42.fma(T::lit(1.0555973258234952), t30).fma(s[96], t44.fnma(T::lit(1.0555973258234952), t32).fma(s[95], t29));
-    result(13, t59);
-    let t61 = t30.fma(T::lit(1.118033988749895), t16).fma(s[92], t32.fnma(T::lit(1.118033988749895), t20).fma(s[91], t15));
-    result(15, t61);
-    let t63 = t16.fma(T::lit(1.3743685418725535), t8).fma(s[85], t20.fnma(T::lit(1.3743685418725535), t18).fma(s[83], t7));
-    result(17, t63);
+    let t2 = T::lit(17.609035322810843).fma(s[4], T::lit(3.3541019662496847));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.31622776601683794) * t3;
+    let t5 = c(1);
+    let t6 = c(16);
+    let t7 = c(18);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.31622776601683794) * t8;
+    let t10 = t6.fma(T::lit(1.3743685418725535), t7).fnma(t9, t0.fnma(T::lit(1.3743685418725535), t1).fma(t4, t5));
+    let t11 = T::lit(46.9041575982343).fnma(s[4], T::lit(4.69041575982343));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.45226701686664544) * t12;
+    let t14 = c(17);
+    let t15 = t0.fma(T::lit(1.3743685418725535), t1).fma(t9, t6.fnma(T::lit(1.3743685418725535), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.45226701686664544) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.5163977794943223) * t3;
+    let t22 = c(3);
+    let t23 = c(14);
+    let t24 = T::lit(0.5163977794943223) * t8;
+    let t25 = t23.fma(T::lit(1.118033988749895), t6).fnma(t24, t20.fnma(T::lit(1.118033988749895), t0).fma(t21, t22));
+    let t26 = T::lit(0.621581560508061) * t12;
+    let t27 = c(15);
+    let t28 = t20.fma(T::lit(1.118033988749895), t0).fma(t24, t23.fnma(T::lit(1.118033988749895), t6).fma(t21, t27));
+    let t29 = T::lit(0.621581560508061) * t16;
+    let t30 = t28.fma(T::lit(1.1881770515720091), t15).fnma(t29, t25.fnma(T::lit(1.1881770515720091), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(18, t32);
+    let t34 = t25.fma(T::lit(1.1881770515720091), t10).fma(t29, t28.fnma(T::lit(1.1881770515720091), t15).fma(t26, t6));
+    result(16, t34);
+    let t36 = t34.fma(T::lit(1.3743685418725535), t32).fnma(t9, t30.fnma(T::lit(1.3743685418725535), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(6);
+    let t39 = T::lit(0.6236095644623235) * t3;
+    let t40 = c(5);
+    let t41 = c(12);
+    let t42 = T::lit(0.6236095644623235) * t8;
+    let t43 = t41.fma(T::lit(1.0555973258234952), t23).fnma(t42, t38.fnma(T::lit(1.0555973258234952), t20).fma(t39, t40));
+    let t44 = T::lit(0.8257228238447705) * t12;
+    let t45 = c(13);
+    let t46 = t38.fma(T::lit(1.0555973258234952), t20).fma(t42, t41.fnma(T::lit(1.0555973258234952), t23).fma(t39, t45));
+    let t47 = T::lit(0.8257228238447705) * t16;
+    let t48 = t46.fma(T::lit(1.0801234497346435), t28).fnma(t47, t43.fnma(T::lit(1.0801234497346435), t25).fma(t44, t20));
+    result(4, t48);
+    let t50 = t43.fma(T::lit(1.0801234497346435), t25).fma(t47, t46.fnma(T::lit(1.0801234497346435), t28).fma(t44, t23));
+    result(14, t50);
+    let t52 = t50.fma(T::lit(1.118033988749895), t34).fnma(t24, t48.fnma(T::lit(1.118033988749895), t30).fma(t21, t25));
+    result(3, t52);
+    let t54 = c(8);
+    let t55 = T::lit(0.6831300510639732) * t3;
+    let t56 = c(7);
+    let t57 = c(10);
+    let t58 = T::lit(0.6831300510639732) * t8;
+    let t59 = t57.fma(T::lit(1.023532631438318), t41).fnma(t58, t54.fnma(T::lit(1.023532631438318), t38).fma(t55, t56));
+    let t60 = T::lit(0.9414688716912718) * t12;
+    let t61 = c(11);
+    let t62 = t54.fma(T::lit(1.023532631438318), t38).fma(t58, t57.fnma(T::lit(1.023532631438318), t41).fma(t55, t61));
+    let t63 = T::lit(0.9414688716912718) * t16;
+    let t64 = t62.fma(T::lit(1.0377490433255416), t46).fnma(t63, t59.fnma(T::lit(1.0377490433255416), t43).fma(t60, t38));
+    result(6, t64);
+    let t66 = t59.fma(T::lit(1.0377490433255416), t43).fma(t63, t62.fnma(T::lit(1.0377490433255416), t46).fma(t60, t41));
+    result(12, t66);
+    let t68 = t66.fma(T::lit(1.0555973258234952), t50).fnma(t42, t64.fnma(T::lit(1.0555973258234952), t48).fma(t39, t43));
+    result(5, t68);
+    let t70 = c(9);
+    let t71 = t54.fma(t8, t57.fma(t3, t70));
+    let t72 = t71.fma(T::lit(1.4301938838683885), t62).fnma(t16, t59.fma(t12, t54));
+    result(8, t72);
+    let t74 = t59.fma(t16, t71.fnma(T::lit(1.4301938838683885), t62).fma(t12, t57));
+    result(10, t74);
+    let t76 = t74.fma(T::lit(1.023532631438318), t66).fnma(t58, t72.fnma(T::lit(1.023532631438318), t64).fma(t55, t59));
+    result(7, t76);
+    result(9, t72.fma(t8, t74.fma(t3, t71)));
+    let t79 = t72.fma(T::lit(1.023532631438318), t64).fma(t58, t74.fnma(T::lit(1.023532631438318), t66).fma(t55, t62));
+    result(11, t79);
+    let t81 = t64.fma(T::lit(1.0555973258234952), t48).fma(t42, t66.fnma(T::lit(1.0555973258234952), t50).fma(t39, t46));
+    result(13, t81);
+    let t83 = t48.fma(T::lit(1.118033988749895), t30).fma(t24, t50.fnma(T::lit(1.118033988749895), t34).fma(t21, t28));
+    result(15, t83);
+    let t85 = t30.fma(T::lit(1.3743685418725535), t18).fma(t9, t34.fnma(T::lit(1.3743685418725535), t32).fma(t4, t15));
+    result(17, t85);
 }
 
 /// `basis:10`: The spherical harmonics of order 10 at a direction, accurate also near the poles (Sloan

@@ -4,24 +4,21 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:2:setup`: The numbers that every band of `rotate:2` takes, once for all of them. Rotates
-/// order 2 exactly, as vector and tensor from a quaternion: products and sums only.
+/// `rotate:2:setup`: The numbers that bands of `rotate:2` take, once for all of them. Rotates order 2
+/// exactly, as vector and tensor from a quaternion: products and sums only.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 7 numbers that each band takes.
-/// - Operations: 3 (3 mul, 0 add, 0 fma); 1 constants, 1 live values.
+/// - Returns the 4 numbers that each band takes.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 0 live values.
 /// - Error: with its other pieces f32 rounding at most 9.7e-7 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
-    result(5, q[0]);
-    result(1, q[1]);
-    result(3, q[2]);
-    result(6, q[3]);
-    result(0, T::lit(2.0) * q[1]);
-    result(2, T::lit(2.0) * q[2]);
-    result(4, T::lit(2.0) * q[0]);
+    result(2, q[0]);
+    result(0, q[1]);
+    result(1, q[2]);
+    result(3, q[3]);
 }
 
 /// `rotate:2:band=1`: Band 1 of `rotate:2` alone, so that a band is loaded, changed and stored at a
@@ -30,31 +27,33 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 1, m from -1 to 1.
 /// - Returns band 1 of the result, m from -1 to 1.
-/// - Operations: 15 (3 mul, 0 add, 12 fma); 0 constants, 4 live values.
+/// - Operations: 18 (6 mul, 0 add, 12 fma); 1 constants, 5 live values.
 /// - Error: with its other pieces f32 rounding at most 9.7e-7 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 7], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(0);
-    let t1 = c(1);
-    let t2 = t1.fma(s[0], t0 * s[2]);
-    let t3 = c(2);
-    let t4 = t3.fma(s[2], t1 * s[4]);
-    let t5 = t3.fms(s[0], t0 * s[4]);
-    result(0, -t5.fnma(s[5], t2.fms(s[3], t4.fma(s[6], t0))));
-    result(1, t2.fnma(s[1], t4.fnma(s[5], t5.fma(s[6], t1))));
-    result(2, -t4.fma(s[3], t5.fma(s[1], t2.fms(s[6], t3))));
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(2.0) * s[0];
+    let t1 = T::lit(2.0) * s[1];
+    let t2 = c(0);
+    let t3 = c(1);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = T::lit(2.0) * s[2];
+    let t6 = c(2);
+    let t7 = t6.fma(t1, t3 * t5);
+    let t8 = t6.fms(t0, t2 * t5);
+    result(0, -t8.fnma(s[2], t4.fms(s[1], t7.fma(s[3], t2))));
+    result(1, t4.fnma(s[0], t7.fnma(s[2], t8.fma(s[3], t3))));
+    result(2, -t7.fma(s[1], t8.fma(s[0], t4.fms(s[3], t6))));
 }
 
-/// `tilt:2:setup`: The numbers that every band of `tilt:2` takes, once for all of them. Tilts order 2:
-/// the shortest rotation from z to a normal, exactly, with no trigonometry.
+/// `tilt:2:setup`: The numbers that bands of `tilt:2` take, once for all of them. Tilts order 2: the
+/// shortest rotation from z to a normal, exactly, with no trigonometry.
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 4 numbers that each band takes.
-/// - Operations: 1 (0 mul, 1 add, 0 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
-///   values.
+/// - Returns the 3 numbers that each band takes.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 0 live values.
 /// - Error: with its other pieces f32 rounding at most 5.7e-7 of the norm of a band, for every n of
 ///   unit length with n.z >= 0 (proven for IEEE arithmetic, contracted or not; the worst of 256
 ///   measured is 1.6e-7).
@@ -63,8 +62,7 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 7], c: &impl Fn(usize) -> V,
 pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
-    result(3, n[2]);
-    result(2, T::recip(n[2] + T::lit(1.0)));
+    result(2, n[2]);
 }
 
 /// `tilt:2:band=1`: Band 1 of `tilt:2` alone, so that a band is loaded, changed and stored at a time.
@@ -73,51 +71,39 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 1, m from -1 to 1.
 /// - Returns band 1 of the result, m from -1 to 1.
-/// - Operations: 6 (1 mul, 0 add, 5 fma); 0 constants, 3 live values.
+/// - Operations: 7 (1 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 1 constants, 3 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 5.7e-7 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.6e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 3], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
     let t3 = c(1);
-    let t4 = t2.fma(s[2], t3);
+    let t4 = t2.fma(T::recip(s[2] + T::lit(1.0)), t3);
     result(0, -t4.fms(s[1], t0));
-    result(1, t3.fma(s[3], t2));
+    result(1, t3.fma(s[2], t2));
     result(2, -t4.fms(s[0], t1));
 }
 
-/// `rotate:2:zyz:setup`: The numbers that every band of `rotate:2:zyz` takes, once for all of them.
-/// Rotates order 2 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:2:zyz:setup`: The numbers that bands of `rotate:2:zyz` take, once for all of them. Rotates
+/// order 2 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 6 numbers that each band takes.
-/// - Operations: 18 (9 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 1 constants, 10 live
-///   values.
+/// - Returns the 4 numbers that each band takes.
+/// - Operations: 0 (0 mul, 0 add, 0 fma); 0 constants, 0 live values.
 /// - Error: with its other pieces f32 rounding at most 1.7e-6 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn rotate_zyz_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
-    let t0 = q[1] + T::TINY;
-    let t1 = q[3] + T::TINY;
-    let t2 = t1.fma(t1, q[2] * q[2]);
-    let t3 = q[0].fma(q[0], t0 * t0);
-    let t4 = t2 * t3;
-    let t5 = T::rsqrt(t4);
-    let t6 = t1 * t5;
-    let t7 = q[2] * t5;
-    let t8 = q[0] * t7;
-    result(0, t0.fms(t6, t8));
-    let t10 = q[0] * t6;
-    result(1, t0.fma(t7, t10));
-    result(2, t0.fma(t6, t8));
-    result(3, t2 - t3);
-    result(4, T::lit(2.0) * (t4 * t5));
-    result(5, t0.fms(t7, t10));
+    result(3, q[0]);
+    result(0, q[1]);
+    result(2, q[2]);
+    result(1, q[3]);
 }
 
 /// `rotate:2:zyz:band=1`: Band 1 of `rotate:2:zyz` alone, so that a band is loaded, changed and stored
@@ -127,22 +113,39 @@ pub fn rotate_zyz_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 1, m from -1 to 1.
 /// - Returns band 1 of the result, m from -1 to 1.
-/// - Operations: 12 (6 mul, 0 add, 6 fma); 0 constants, 4 live values.
+/// - Operations: 30 (15 mul, 3 add, 12 fma) and 1 inverse square root or reciprocal; 1 constants, 12
+///   live values.
 /// - Error: with its other pieces f32 rounding at most 1.7e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   3.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 6], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(2);
-    let t1 = c(0);
-    let t2 = t1.fma(s[0], t0 * s[1]);
-    let t3 = t0.fms(s[0], t1 * s[1]);
-    let t4 = c(1);
-    let t5 = t3.fms(s[3], t4 * s[4]);
-    result(0, t2.fma(s[2], t5 * s[5]));
-    result(1, t4.fma(s[3], t3 * s[4]));
-    result(2, t5.fms(s[2], t2 * s[5]));
+pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0] + T::TINY;
+    let t1 = s[1] + T::TINY;
+    let t2 = t1.fma(t1, s[2] * s[2]);
+    let t3 = s[3].fma(s[3], t0 * t0);
+    let t4 = t2 * t3;
+    let t5 = T::rsqrt(t4);
+    let t6 = t1 * t5;
+    let t7 = s[2] * t5;
+    let t8 = s[3] * t7;
+    let t9 = t0.fms(t6, t8);
+    let t10 = s[3] * t6;
+    let t11 = t0.fma(t7, t10);
+    let t12 = c(2);
+    let t13 = c(0);
+    let t14 = t13.fma(t9, t12 * t11);
+    let t15 = t0.fma(t6, t8);
+    let t16 = t12.fms(t9, t13 * t11);
+    let t17 = t2 - t3;
+    let t18 = T::lit(2.0) * (t4 * t5);
+    let t19 = c(1);
+    let t20 = t16.fms(t17, t19 * t18);
+    let t21 = t0.fms(t7, t10);
+    result(0, t14.fma(t15, t20 * t21));
+    result(1, t19.fma(t17, t16 * t18));
+    result(2, t20.fms(t15, t14 * t21));
 }
 
 /// `basis:2`: The spherical harmonics of order 2 at a direction, accurate also near the poles (Sloan

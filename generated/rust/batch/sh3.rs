@@ -4,8 +4,8 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:3:setup`: The numbers that every band of `rotate:3` takes, once for all of them. Rotates
-/// order 3 exactly, as vector and tensor from a quaternion: products and sums only.
+/// `rotate:3:setup`: The numbers that bands of `rotate:3` take, once for all of them. Rotates order 3
+/// exactly, as vector and tensor from a quaternion: products and sums only.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
 /// - Returns the 9 numbers that each band takes.
@@ -89,12 +89,12 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 9], c: &impl Fn(usize) -> V,
     result(4, (t15 - t16) * T::lit(0.5));
 }
 
-/// `tilt:3:setup`: The numbers that every band of `tilt:3` takes, once for all of them. Tilts order 3:
-/// the shortest rotation from z to a normal, exactly, with no trigonometry.
+/// `tilt:3:setup`: The numbers that bands of `tilt:3` take, once for all of them. Tilts order 3: the
+/// shortest rotation from z to a normal, exactly, with no trigonometry.
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 5 numbers that each band takes.
-/// - Operations: 2 (1 mul, 1 add, 0 fma) and 1 inverse square root or reciprocal; 2 constants, 1 live
+/// - Returns the 4 numbers that each band takes.
+/// - Operations: 1 (0 mul, 1 add, 0 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
 ///   values.
 /// - Error: with its other pieces f32 rounding at most 5.7e-6 of the norm of a band, for every n of
 ///   unit length with n.z >= 0 (proven for IEEE arithmetic, contracted or not; the worst of 256
@@ -105,9 +105,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
+    result(2, T::recip(n[2] + T::lit(1.0)));
 }
 
 /// `tilt:3:band=1`: Band 1 of `tilt:3` alone, so that a band is loaded, changed and stored at a time.
@@ -122,7 +120,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -139,13 +137,13 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, r
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 5.7e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   3.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -155,7 +153,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, r
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -167,13 +165,13 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, r
     result(4, t11.fma(s[0], t1) - t15);
 }
 
-/// `rotate:3:zyz:setup`: The numbers that every band of `rotate:3:zyz` takes, once for all of them.
-/// Rotates order 3 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:3:zyz:setup`: The numbers that bands of `rotate:3:zyz` take, once for all of them. Rotates
+/// order 3 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 13 numbers that each band takes.
-/// - Operations: 30 (16 mul, 5 add, 9 fma) and 1 inverse square root or reciprocal; 2 constants, 11
-///   live values.
+/// - Returns the 6 numbers that each band takes.
+/// - Operations: 18 (9 mul, 3 add, 6 fma) and 1 inverse square root or reciprocal; 1 constants, 10 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-6 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 5.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
@@ -188,29 +186,13 @@ pub fn rotate_zyz_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     let t6 = t1 * t5;
     let t7 = q[2] * t5;
     let t8 = q[0] * t7;
-    let t9 = t0.fms(t6, t8);
-    result(0, t9);
-    let t11 = q[0] * t6;
-    let t12 = t0.fma(t7, t11);
-    result(1, t12);
-    let t14 = t0.fma(t6, t8);
-    result(2, t14);
-    let t16 = t2 - t3;
-    result(3, t16);
-    let t18 = T::lit(2.0) * (t4 * t5);
-    result(4, t18);
-    let t20 = t0.fms(t7, t11);
-    result(5, t20);
-    result(6, t9.fms(t9, t12 * t12));
-    let t23 = t9 * t12;
-    result(7, t23 + t23);
-    let t25 = t18 * t18;
-    result(8, T::lit(0.5) * t25);
-    result(9, t16 * t18);
-    let t28 = t14 * t20;
-    result(10, t28 + t28);
-    result(11, t14.fms(t14, t20 * t20));
-    result(12, t16.fms(t16, t25));
+    result(0, t0.fms(t6, t8));
+    let t10 = q[0] * t6;
+    result(1, t0.fma(t7, t10));
+    result(2, t0.fma(t6, t8));
+    result(3, t2 - t3);
+    result(4, T::lit(2.0) * (t4 * t5));
+    result(5, t0.fms(t7, t10));
 }
 
 /// `rotate:3:zyz:band=1`: Band 1 of `rotate:3:zyz` alone, so that a band is loaded, changed and stored
@@ -226,7 +208,7 @@ pub fn rotate_zyz_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   5.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 6], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -245,33 +227,41 @@ pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 39 (19 mul, 3 add, 17 fma); 2 constants, 12 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   5.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(0);
-    let t1 = c(4);
-    let t2 = t1.fms(s[6], t0 * s[7]);
-    let t3 = c(2);
-    let t4 = t3.fnma(T::lit(1.7320508075688772), t2);
-    let t5 = c(1);
-    let t6 = c(3);
-    let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
-    let t9 = t2 - t8;
-    let t10 = t5.fma(s[0], t6 * s[1]);
-    let t11 = t0.fma(s[6], t1 * s[7]);
-    let t12 = t10.fms(s[4], t11 * s[3]);
-    result(0, t9.fms(s[10], t12 * s[11]));
-    let t14 = t10.fma(s[3], t11 * s[4]);
-    let t15 = t7.fma(s[12], t4 * s[9]);
-    result(1, t14.fma(s[2], t15 * s[5]));
-    result(2, t8.fma(T::lit(1.7320508075688772), t3));
-    result(3, t15.fms(s[2], t14 * s[5]));
-    result(4, t9.fma(s[11], t12 * s[10]));
+pub fn band_2_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 6], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[0], s[1] * s[1]);
+    let t1 = s[0] * s[1];
+    let t2 = t1 + t1;
+    let t3 = c(0);
+    let t4 = c(4);
+    let t5 = t4.fms(t0, t3 * t2);
+    let t6 = c(2);
+    let t7 = t6.fnma(T::lit(1.7320508075688772), t5);
+    let t8 = s[4] * s[4];
+    let t9 = c(1);
+    let t10 = c(3);
+    let t11 = t10.fms(s[0], t9 * s[1]);
+    let t12 = s[3] * s[4];
+    let t13 = t7.fma(T::lit(0.5) * t8, t11 * t12);
+    let t14 = t5 - t13;
+    let t15 = s[2] * s[5];
+    let t16 = t15 + t15;
+    let t17 = t9.fma(s[0], t10 * s[1]);
+    let t18 = t3.fma(t0, t4 * t2);
+    let t19 = t17.fms(s[4], t18 * s[3]);
+    let t20 = s[2].fms(s[2], s[5] * s[5]);
+    result(0, t14.fms(t16, t19 * t20));
+    let t22 = t17.fma(s[3], t18 * s[4]);
+    let t23 = t11.fma(s[3].fms(s[3], t8), t7 * t12);
+    result(1, t22.fma(s[2], t23 * s[5]));
+    result(2, t13.fma(T::lit(1.7320508075688772), t6));
+    result(3, t23.fms(s[2], t22 * s[5]));
+    result(4, t14.fma(t20, t19 * t16));
 }
 
 /// `basis:3`: The spherical harmonics of order 3 at a direction, accurate also near the poles (Sloan

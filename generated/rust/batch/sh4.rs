@@ -4,12 +4,12 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:4:setup`: The numbers that every band of `rotate:4` takes, once for all of them. Rotates
-/// order 4 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:4:setup`: The numbers that bands of `rotate:4` take, once for all of them. Rotates order 4
+/// exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 20 numbers that each band takes.
-/// - Operations: 43 (23 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 2 constants, 13
+/// - Returns the 13 numbers that each band takes.
+/// - Operations: 29 (15 mul, 5 add, 9 fma) and 1 inverse square root or reciprocal; 1 constants, 11
 ///   live values.
 /// - Error: with its other pieces f32 rounding at most 5.6e-6 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.2e-7).
@@ -38,30 +38,16 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     result(4, t18);
     let t20 = t0.fms(t7, t11);
     result(5, t20);
-    let t22 = t9.fms(t9, t12 * t12);
-    result(6, t22);
-    let t24 = t9 * t12;
-    let t25 = t24 + t24;
-    result(7, t25);
-    let t27 = t18 * t18;
-    result(8, T::lit(0.5) * t27);
-    let t29 = t16 * t18;
-    result(9, t29);
-    let t31 = t14 * t20;
-    let t32 = t31 + t31;
-    result(10, t32);
-    let t34 = t14.fms(t14, t20 * t20);
-    result(11, t34);
-    let t36 = t16.fms(t16, t27);
-    result(12, t36);
-    result(13, t9.fms(t22, t12 * t25));
-    result(14, t9.fma(t25, t12 * t22));
-    let t40 = T::lit(2.0) * t29;
-    result(15, t40);
-    result(16, t14.fms(t34, t20 * t32));
-    result(17, t16.fms(t36, t18 * t40));
-    result(18, t16.fma(t40, t18 * t36));
-    result(19, t14.fma(t32, t20 * t34));
+    result(6, t9.fms(t9, t12 * t12));
+    let t23 = t9 * t12;
+    result(7, t23 + t23);
+    let t25 = t18 * t18;
+    result(8, t25);
+    result(9, t16 * t18);
+    let t28 = t14 * t20;
+    result(10, t28 + t28);
+    result(11, t14.fms(t14, t20 * t20));
+    result(12, t16.fms(t16, t25));
 }
 
 /// `rotate:4:band=1`: Band 1 of `rotate:4` alone, so that a band is loaded, changed and stored at a
@@ -77,7 +63,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   7.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -96,13 +82,13 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 28 (13 mul, 1 add, 14 fma); 2 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 5.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(4);
     let t2 = t1.fms(s[6], t0 * s[7]);
@@ -111,7 +97,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V
     let t5 = c(1);
     let t6 = c(3);
     let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
+    let t8 = t4.fma(T::lit(0.5) * s[8], t7 * s[9]);
     let t9 = t2 - t8;
     let t10 = t5.fma(s[0], t6 * s[1]);
     let t11 = t0.fma(s[6], t1 * s[7]);
@@ -132,60 +118,67 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 52 (18 mul, 0 add, 34 fma); 5 constants, 12 live values.
+/// - Operations: 65 (25 mul, 0 add, 40 fma); 6 constants, 17 live values.
 /// - Error: with its other pieces f32 rounding at most 5.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.2e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(6);
-    let t1 = c(0);
-    let t2 = t1.fma(s[13], t0 * s[14]);
-    let t3 = c(5);
-    let t4 = c(1);
-    let t5 = t4.fma(s[6], t3 * s[7]);
-    let t6 = c(4);
-    let t7 = c(2);
-    let t8 = t7.fma(s[0], t6 * s[1]);
-    let t9 = t8.fms(T::lit(0.7905694150420949), t2 * T::lit(0.6123724356957945));
-    let t10 = t5.fma(s[15], t9.fms(s[12], t9));
-    let t11 = t10.fnma(T::lit(0.6123724356957945), t2);
-    let t12 = t0.fms(s[13], t1 * s[14]);
-    let t13 = t12.fms(T::lit(0.12701665379258312), t6.fms(s[0], t7 * s[1]));
-    let t14 = t13.fms(T::lit(0.25), t12);
-    let t15 = t14.fnma(T::lit(0.12701665379258312), t13);
-    let t16 = t3.fms(s[6], t4 * s[7]);
-    let t17 = c(3);
-    let t18 = t16.fnma(T::lit(0.3419987131196464), t17);
-    let t19 = t18.fma(T::lit(0.6123724356957945), t16);
-    let t20 = t19.fnma(T::lit(0.3419987131196464), t18);
-    let t21 = t15.fma(s[17], t20 * s[18]);
-    let t22 = t21.fms(T::lit(0.12701665379258312), t14.fma(s[3], t19 * s[4]));
-    let t23 = t22.fms(T::lit(0.25), t21);
-    let t24 = t23.fnma(T::lit(0.12701665379258312), t22);
-    result(0, t11.fma(s[16], t24 * s[19]));
-    let t26 = t5.fms(s[12], t9 * s[15]);
-    let t27 = t20.fms(s[17], t15 * s[18]);
-    let t28 = t27.fnma(T::lit(0.3419987131196464), t19.fms(s[3], t14 * s[4]));
-    let t29 = t28.fma(T::lit(0.6123724356957945), t27);
-    result(3, t29);
-    let t31 = t29.fnma(T::lit(0.3419987131196464), t28);
-    result(1, t26.fma(s[11], t31 * s[10]));
-    let t33 = t10.fma(T::lit(0.7905694150420949), t8);
-    result(2, t33.fma(s[2], t23 * s[5]));
-    result(4, t23.fms(s[2], t33 * s[5]));
-    result(5, t31.fms(s[11], t26 * s[10]));
-    result(6, t24.fms(s[16], t11 * s[19]));
+pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[6], s[1] * s[7]);
+    let t1 = s[0].fma(s[7], s[1] * s[6]);
+    let t2 = c(6);
+    let t3 = c(0);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = c(5);
+    let t6 = c(1);
+    let t7 = t6.fma(s[6], t5 * s[7]);
+    let t8 = T::lit(2.0) * s[9];
+    let t9 = c(4);
+    let t10 = c(2);
+    let t11 = t10.fma(s[0], t9 * s[1]);
+    let t12 = t11.fms(T::lit(0.7905694150420949), t4 * T::lit(0.6123724356957945));
+    let t13 = t7.fma(t8, t12.fms(s[12], t12));
+    let t14 = t13.fnma(T::lit(0.6123724356957945), t4);
+    let t15 = s[2].fms(s[11], s[5] * s[10]);
+    let t16 = t2.fms(t0, t3 * t1);
+    let t17 = t16.fms(T::lit(0.12701665379258312), t9.fms(s[0], t10 * s[1]));
+    let t18 = t17.fms(T::lit(0.25), t16);
+    let t19 = t18.fnma(T::lit(0.12701665379258312), t17);
+    let t20 = s[3].fms(s[12], s[4] * t8);
+    let t21 = t5.fms(s[6], t6 * s[7]);
+    let t22 = c(3);
+    let t23 = t21.fnma(T::lit(0.3419987131196464), t22);
+    let t24 = t23.fma(T::lit(0.6123724356957945), t21);
+    let t25 = t24.fnma(T::lit(0.3419987131196464), t23);
+    let t26 = s[3].fma(t8, s[4] * s[12]);
+    let t27 = t19.fma(t20, t25 * t26);
+    let t28 = t27.fms(T::lit(0.12701665379258312), t18.fma(s[3], t24 * s[4]));
+    let t29 = t28.fms(T::lit(0.25), t27);
+    let t30 = t29.fnma(T::lit(0.12701665379258312), t28);
+    let t31 = s[2].fma(s[10], s[5] * s[11]);
+    result(0, t14.fma(t15, t30 * t31));
+    let t33 = t7.fms(s[12], t12 * t8);
+    let t34 = t25.fms(t20, t19 * t26);
+    let t35 = t34.fnma(T::lit(0.3419987131196464), t24.fms(s[3], t18 * s[4]));
+    let t36 = t35.fma(T::lit(0.6123724356957945), t34);
+    result(3, t36);
+    let t38 = t36.fnma(T::lit(0.3419987131196464), t35);
+    result(1, t33.fma(s[11], t38 * s[10]));
+    let t40 = t13.fma(T::lit(0.7905694150420949), t11);
+    result(2, t40.fma(s[2], t29 * s[5]));
+    result(4, t29.fms(s[2], t40 * s[5]));
+    result(5, t38.fms(s[11], t33 * s[10]));
+    result(6, t30.fms(t15, t14 * t31));
 }
 
-/// `tilt:4:setup`: The numbers that every band of `tilt:4` takes, once for all of them. Tilts order 4:
-/// the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
+/// `tilt:4:setup`: The numbers that bands of `tilt:4` take, once for all of them. Tilts order 4: the
+/// shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
 /// shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 13 numbers that each band takes.
-/// - Operations: 14 (10 mul, 1 add, 3 fma) and 1 inverse square root or reciprocal; 6 constants, 3 live
+/// - Returns the 4 numbers that each band takes.
+/// - Operations: 1 (0 mul, 1 add, 0 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
 ///   values.
 /// - Error: with its other pieces f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to
 ///   25 degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.1e-7).
@@ -197,24 +190,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
-    let t6 = n[0].fma(n[0], n[1] * n[1]);
-    let t7 = T::lit(0.9185586535436918).fma(t6, T::lit(1.224744871391589));
-    let t8 = n[0] * t7;
-    result(6, t8);
-    result(5, T::lit(0.5) * t8);
-    let t11 = n[1] * t7;
-    result(8, t11);
-    result(7, T::lit(0.5) * t11);
-    let t14 = T::lit(1.5811388300841898).fnma(t6, T::lit(1.5811388300841898));
-    let t15 = n[0] * t14;
-    result(10, t15);
-    result(9, T::lit(0.7745966692414834) * t15);
-    let t18 = n[1] * t14;
-    result(12, t18);
-    result(11, T::lit(0.7745966692414834) * t18);
+    result(2, T::recip(n[2] + T::lit(1.0)));
 }
 
 /// `tilt:4:band=1`: Band 1 of `tilt:4` alone, so that a band is loaded, changed and stored at a time.
@@ -232,7 +208,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   8.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -251,14 +227,14 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 2.2e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.1e-7). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15,
 ///   8.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -268,7 +244,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, 
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -288,37 +264,48 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 30 (0 mul, 0 add, 30 fma); 2 constants, 8 live values.
+/// - Operations: 42 (9 mul, 0 add, 33 fma); 7 constants, 14 live values.
 /// - Error: with its other pieces f32 rounding at most 2.2e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.1e-7). Method error, the worst band's in spectral norm: 6.7e-4 at 5, 5.4e-3 at 10, 1.9e-2 at 15,
 ///   8.4e-2 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 13], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(4);
-    let t4 = c(6);
-    let t5 = t3.fma(T::lit(1.2909944487358056), t4).fnma(s[7], t0.fnma(T::lit(1.2909944487358056), t1).fma(s[5], t2));
-    let t6 = c(5);
-    let t7 = t0.fma(T::lit(1.2909944487358056), t1).fma(s[7], t3.fnma(T::lit(1.2909944487358056), t4).fma(s[5], t6));
-    let t8 = t7.fnma(s[11], t5.fnma(s[9], t1));
-    result(0, t8);
-    let t10 = c(3);
-    let t11 = t0.fma(s[8], t3.fma(s[6], t10));
-    let t12 = t11.fma(T::lit(1.5491933384829668), t7).fnma(s[12], t5.fma(s[10], t0));
-    result(2, t12);
-    let t14 = t5.fma(s[11], t7.fnma(s[9], t4));
-    result(6, t14);
-    let t16 = t5.fma(s[12], t11.fnma(T::lit(1.5491933384829668), t7).fma(s[10], t3));
-    result(4, t16);
-    let t18 = t16.fma(T::lit(1.2909944487358056), t14).fnma(s[7], t12.fnma(T::lit(1.2909944487358056), t8).fma(s[5], t5));
-    result(1, t18);
-    result(3, t12.fma(s[8], t16.fma(s[6], t11)));
-    let t21 = t12.fma(T::lit(1.2909944487358056), t8).fma(s[7], t16.fnma(T::lit(1.2909944487358056), t14).fma(s[5], t7));
-    result(5, t21);
+    let t2 = s[0].fma(s[0], s[1] * s[1]);
+    let t3 = T::lit(0.9185586535436918).fma(t2, T::lit(1.224744871391589));
+    let t4 = s[0] * t3;
+    let t5 = T::lit(0.5) * t4;
+    let t6 = c(1);
+    let t7 = c(4);
+    let t8 = c(6);
+    let t9 = s[1] * t3;
+    let t10 = T::lit(0.5) * t9;
+    let t11 = t7.fma(T::lit(1.2909944487358056), t8).fnma(t10, t0.fnma(T::lit(1.2909944487358056), t1).fma(t5, t6));
+    let t12 = T::lit(1.5811388300841898).fnma(t2, T::lit(1.5811388300841898));
+    let t13 = s[0] * t12;
+    let t14 = T::lit(0.7745966692414834) * t13;
+    let t15 = c(5);
+    let t16 = t0.fma(T::lit(1.2909944487358056), t1).fma(t10, t7.fnma(T::lit(1.2909944487358056), t8).fma(t5, t15));
+    let t17 = s[1] * t12;
+    let t18 = T::lit(0.7745966692414834) * t17;
+    let t19 = t16.fnma(t18, t11.fnma(t14, t1));
+    result(0, t19);
+    let t21 = c(3);
+    let t22 = t0.fma(t9, t7.fma(t4, t21));
+    let t23 = t22.fma(T::lit(1.5491933384829668), t16).fnma(t17, t11.fma(t13, t0));
+    result(2, t23);
+    let t25 = t11.fma(t18, t16.fnma(t14, t8));
+    result(6, t25);
+    let t27 = t11.fma(t17, t22.fnma(T::lit(1.5491933384829668), t16).fma(t13, t7));
+    result(4, t27);
+    let t29 = t27.fma(T::lit(1.2909944487358056), t25).fnma(t10, t23.fnma(T::lit(1.2909944487358056), t19).fma(t5, t11));
+    result(1, t29);
+    result(3, t23.fma(t9, t27.fma(t4, t22)));
+    let t32 = t23.fma(T::lit(1.2909944487358056), t19).fma(t10, t27.fnma(T::lit(1.2909944487358056), t25).fma(t5, t16));
+    result(5, t32);
 }
 
 /// `basis:4`: The spherical harmonics of order 4 at a direction, accurate also near the poles (Sloan

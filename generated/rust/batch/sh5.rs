@@ -4,12 +4,12 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:5:setup`: The numbers that every band of `rotate:5` takes, once for all of them. Rotates
-/// order 5 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:5:setup`: The numbers that bands of `rotate:5` take, once for all of them. Rotates order 5
+/// exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 26 numbers that each band takes.
-/// - Operations: 55 (29 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 2 constants, 14
+/// - Returns the 20 numbers that each band takes.
+/// - Operations: 42 (22 mul, 5 add, 15 fma) and 1 inverse square root or reciprocal; 1 constants, 13
 ///   live values.
 /// - Error: with its other pieces f32 rounding at most 8.1e-6 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 7.8e-7).
@@ -44,7 +44,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     let t25 = t24 + t24;
     result(7, t25);
     let t27 = t18 * t18;
-    result(8, T::lit(0.5) * t27);
+    result(8, t27);
     let t29 = t16 * t18;
     result(9, t29);
     let t31 = t14 * t20;
@@ -54,26 +54,14 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     result(11, t34);
     let t36 = t16.fms(t16, t27);
     result(12, t36);
-    let t38 = t9.fms(t22, t12 * t25);
-    result(13, t38);
-    let t40 = t9.fma(t25, t12 * t22);
-    result(14, t40);
-    let t42 = T::lit(2.0) * t29;
-    result(15, t42);
-    let t44 = t14.fms(t34, t20 * t32);
-    result(16, t44);
-    let t46 = t16.fms(t36, t18 * t42);
-    result(17, t46);
-    let t48 = t16.fma(t42, t18 * t36);
-    result(18, t48);
-    let t50 = t14.fma(t32, t20 * t34);
-    result(19, t50);
-    result(20, t9.fms(t38, t12 * t40));
-    result(21, t9.fma(t40, t12 * t38));
-    result(22, t14.fms(t44, t20 * t50));
-    result(23, t16.fma(t48, t18 * t46));
-    result(24, t16.fms(t46, t18 * t48));
-    result(25, t14.fma(t50, t20 * t44));
+    result(13, t9.fms(t22, t12 * t25));
+    result(14, t9.fma(t25, t12 * t22));
+    let t40 = T::lit(2.0) * t29;
+    result(15, t40);
+    result(16, t14.fms(t34, t20 * t32));
+    result(17, t16.fms(t36, t18 * t40));
+    result(18, t16.fma(t40, t18 * t36));
+    result(19, t14.fma(t32, t20 * t34));
 }
 
 /// `rotate:5:band=1`: Band 1 of `rotate:5` alone, so that a band is loaded, changed and stored at a
@@ -89,7 +77,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -108,13 +96,13 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 28 (13 mul, 1 add, 14 fma); 2 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 8.1e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(4);
     let t2 = t1.fms(s[6], t0 * s[7]);
@@ -123,7 +111,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V
     let t5 = c(1);
     let t6 = c(3);
     let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
+    let t8 = t4.fma(T::lit(0.5) * s[8], t7 * s[9]);
     let t9 = t2 - t8;
     let t10 = t5.fma(s[0], t6 * s[1]);
     let t11 = t0.fma(s[6], t1 * s[7]);
@@ -150,7 +138,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V
 ///   7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(6);
     let t1 = c(0);
     let t2 = t1.fma(s[13], t0 * s[14]);
@@ -198,73 +186,79 @@ pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 4, m from -4 to 4.
 /// - Returns band 4 of the result, m from -4 to 4.
-/// - Operations: 78 (24 mul, 0 add, 54 fma); 8 constants, 15 live values.
+/// - Operations: 90 (30 mul, 0 add, 60 fma); 8 constants, 19 live values.
 /// - Error: with its other pieces f32 rounding at most 8.1e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   7.8e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(8);
-    let t1 = c(0);
-    let t2 = t1.fma(s[20], t0 * s[21]);
-    let t3 = c(6);
-    let t4 = c(2);
-    let t5 = t2.fnma(T::lit(0.18267581368159952), t4.fma(s[6], t3 * s[7]));
-    let t6 = t5.fma(T::lit(0.3535533905932738), t2);
-    let t7 = c(5);
-    let t8 = c(3);
-    let t9 = t8.fma(s[0], t7 * s[1]);
-    let t10 = c(7);
-    let t11 = c(1);
-    let t12 = t9.fnma(T::lit(0.37796447300922725), t11.fma(s[13], t10 * s[14]));
-    let t13 = t12.fma(T::lit(0.6614378277661477), t9);
-    let t14 = t6.fnma(T::lit(0.18267581368159952), t5);
-    let t15 = t13.fnma(T::lit(0.37796447300922725), t12);
-    let t16 = t14.fma(s[17], t15 * s[18]);
-    let t17 = t16.fnma(T::lit(0.18267581368159952), t6.fms(s[3], t13 * s[4]));
-    let t18 = t17.fma(T::lit(0.3535533905932738), t16);
-    let t19 = t18.fnma(T::lit(0.18267581368159952), t17);
-    let t20 = t0.fms(s[20], t1 * s[21]);
-    let t21 = t10.fms(s[13], t11 * s[14]);
-    let t22 = t21.fnma(T::lit(0.18267581368159952), t7.fms(s[0], t8 * s[1]));
-    let t23 = t22.fma(T::lit(0.3535533905932738), t21);
-    let t24 = t23.fnma(T::lit(0.18267581368159952), t22);
-    let t25 = t3.fms(s[6], t4 * s[7]);
-    let t26 = c(4);
-    let t27 = t26.fma(T::lit(0.739509972887452), t20.fms(T::lit(0.125), t25 * T::lit(0.6614378277661477)));
-    let t28 = t24.fma(s[23], t27.fms(s[24], t27));
-    let t29 = t26.fma(T::lit(0.5590169943749475), t25.fms(T::lit(0.5), t20 * T::lit(0.6614378277661477)));
-    let t30 = t23.fma(s[15], t29.fms(s[12], t29));
-    let t31 = t30.fnma(T::lit(0.6614378277661477), t28.fma(T::lit(0.125), t20));
-    result(0, t19.fma(s[22], t31 * s[25]));
-    let t33 = t13.fma(s[3], t6 * s[4]);
-    let t34 = t33.fma(T::lit(0.37796447300922725), t15.fms(s[17], t14 * s[18]));
-    let t35 = t34.fnma(T::lit(0.6614378277661477), t33);
-    let t36 = t35.fma(T::lit(0.37796447300922725), t34);
-    let t37 = t24.fms(s[24], t27 * s[23]);
-    let t38 = t37.fnma(T::lit(0.18267581368159952), t23.fms(s[12], t29 * s[15]));
-    let t39 = t38.fma(T::lit(0.3535533905932738), t37);
-    let t40 = t39.fnma(T::lit(0.18267581368159952), t38);
-    result(1, t36.fma(s[16], t40 * s[19]));
-    let t42 = t30.fma(T::lit(0.5), t28.fnma(T::lit(0.6614378277661477), t25));
-    result(2, t18.fma(s[11], t42 * s[10]));
-    result(3, t35.fma(s[2], t39 * s[5]));
-    result(4, t30.fma(T::lit(0.5590169943749475), t28.fma(T::lit(0.739509972887452), t26)));
-    result(5, t39.fms(s[2], t35 * s[5]));
-    result(6, t42.fms(s[11], t18 * s[10]));
-    result(7, t40.fms(s[16], t36 * s[19]));
-    result(8, t31.fms(s[22], t19 * s[25]));
+pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 20], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[13], s[1] * s[14]);
+    let t1 = s[0].fma(s[14], s[1] * s[13]);
+    let t2 = c(8);
+    let t3 = c(0);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = c(6);
+    let t6 = c(2);
+    let t7 = t4.fnma(T::lit(0.18267581368159952), t6.fma(s[6], t5 * s[7]));
+    let t8 = t7.fma(T::lit(0.3535533905932738), t4);
+    let t9 = c(5);
+    let t10 = c(3);
+    let t11 = t10.fma(s[0], t9 * s[1]);
+    let t12 = c(7);
+    let t13 = c(1);
+    let t14 = t11.fnma(T::lit(0.37796447300922725), t13.fma(s[13], t12 * s[14]));
+    let t15 = t14.fma(T::lit(0.6614378277661477), t11);
+    let t16 = t8.fnma(T::lit(0.18267581368159952), t7);
+    let t17 = t15.fnma(T::lit(0.37796447300922725), t14);
+    let t18 = t16.fma(s[17], t17 * s[18]);
+    let t19 = t18.fnma(T::lit(0.18267581368159952), t8.fms(s[3], t15 * s[4]));
+    let t20 = t19.fma(T::lit(0.3535533905932738), t18);
+    let t21 = t20.fnma(T::lit(0.18267581368159952), t19);
+    let t22 = s[2].fms(s[16], s[5] * s[19]);
+    let t23 = t2.fms(t0, t3 * t1);
+    let t24 = t12.fms(s[13], t13 * s[14]);
+    let t25 = t24.fnma(T::lit(0.18267581368159952), t9.fms(s[0], t10 * s[1]));
+    let t26 = t25.fma(T::lit(0.3535533905932738), t24);
+    let t27 = t26.fnma(T::lit(0.18267581368159952), t25);
+    let t28 = s[3].fma(s[18], s[4] * s[17]);
+    let t29 = t5.fms(s[6], t6 * s[7]);
+    let t30 = c(4);
+    let t31 = t30.fma(T::lit(0.739509972887452), t23.fms(T::lit(0.125), t29 * T::lit(0.6614378277661477)));
+    let t32 = s[3].fms(s[17], s[4] * s[18]);
+    let t33 = t27.fma(t28, t31.fms(t32, t31));
+    let t34 = t30.fma(T::lit(0.5590169943749475), t29.fms(T::lit(0.5), t23 * T::lit(0.6614378277661477)));
+    let t35 = t26.fma(s[15], t34.fms(s[12], t34));
+    let t36 = t35.fnma(T::lit(0.6614378277661477), t33.fma(T::lit(0.125), t23));
+    let t37 = s[2].fma(s[19], s[5] * s[16]);
+    result(0, t21.fma(t22, t36 * t37));
+    let t39 = t15.fma(s[3], t8 * s[4]);
+    let t40 = t39.fma(T::lit(0.37796447300922725), t17.fms(s[17], t16 * s[18]));
+    let t41 = t40.fnma(T::lit(0.6614378277661477), t39);
+    let t42 = t41.fma(T::lit(0.37796447300922725), t40);
+    let t43 = t27.fms(t32, t31 * t28);
+    let t44 = t43.fnma(T::lit(0.18267581368159952), t26.fms(s[12], t34 * s[15]));
+    let t45 = t44.fma(T::lit(0.3535533905932738), t43);
+    let t46 = t45.fnma(T::lit(0.18267581368159952), t44);
+    result(1, t42.fma(s[16], t46 * s[19]));
+    let t48 = t35.fma(T::lit(0.5), t33.fnma(T::lit(0.6614378277661477), t29));
+    result(2, t20.fma(s[11], t48 * s[10]));
+    result(3, t41.fma(s[2], t45 * s[5]));
+    result(4, t35.fma(T::lit(0.5590169943749475), t33.fma(T::lit(0.739509972887452), t30)));
+    result(5, t45.fms(s[2], t41 * s[5]));
+    result(6, t48.fms(s[11], t20 * s[10]));
+    result(7, t46.fms(s[16], t42 * s[19]));
+    result(8, t36.fms(t22, t21 * t37));
 }
 
-/// `tilt:5:setup`: The numbers that every band of `tilt:5` takes, once for all of them. Tilts order 5:
-/// the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
+/// `tilt:5:setup`: The numbers that bands of `tilt:5` take, once for all of them. Tilts order 5: the
+/// shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
 /// shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 23 numbers that each band takes.
-/// - Operations: 26 (20 mul, 1 add, 5 fma) and 1 inverse square root or reciprocal; 12 constants, 4
-///   live values.
+/// - Returns the 5 numbers that each band takes.
+/// - Operations: 3 (1 mul, 1 add, 1 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 4.3e-6 of the norm of a band, for an angle up to
 ///   25 degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ///   Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15, 2.4e-1
@@ -275,40 +269,8 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
-    let t6 = n[0].fma(n[0], n[1] * n[1]);
-    let t7 = T::lit(0.9185586535436918).fma(t6, T::lit(1.224744871391589));
-    let t8 = n[0] * t7;
-    result(6, t8);
-    result(5, T::lit(0.5) * t8);
-    let t11 = n[1] * t7;
-    result(8, t11);
-    result(7, T::lit(0.5) * t11);
-    let t14 = T::lit(1.5811388300841898).fnma(t6, T::lit(1.5811388300841898));
-    let t15 = n[0] * t14;
-    result(10, t15);
-    result(9, T::lit(0.7745966692414834) * t15);
-    let t18 = n[1] * t14;
-    result(12, t18);
-    result(11, T::lit(0.7745966692414834) * t18);
-    let t21 = T::lit(1.8446619684315546).fma(t6, T::lit(1.5811388300841898));
-    let t22 = n[0] * t21;
-    result(14, t22);
-    result(13, T::lit(0.4472135954999579) * t22);
-    let t25 = n[1] * t21;
-    result(16, t25);
-    result(15, T::lit(0.4472135954999579) * t25);
-    result(17, T::lit(0.5916079783099616) * t22);
-    result(18, T::lit(0.5916079783099616) * t25);
-    let t30 = T::lit(3.8890872965260113).fnma(t6, T::lit(2.1213203435596424));
-    let t31 = n[0] * t30;
-    result(20, t31);
-    result(19, T::lit(0.6666666666666666) * t31);
-    let t34 = n[1] * t30;
-    result(22, t34);
-    result(21, T::lit(0.6666666666666666) * t34);
+    result(2, T::recip(n[2] + T::lit(1.0)));
+    result(4, n[0].fma(n[0], n[1] * n[1]));
 }
 
 /// `tilt:5:band=1`: Band 1 of `tilt:5` alone, so that a band is loaded, changed and stored at a time.
@@ -326,7 +288,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   2.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -345,14 +307,14 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 4.3e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2e-7). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15,
 ///   2.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -362,7 +324,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, 
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -382,37 +344,47 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 30 (0 mul, 0 add, 30 fma); 2 constants, 8 live values.
+/// - Operations: 40 (8 mul, 0 add, 32 fma); 7 constants, 14 live values.
 /// - Error: with its other pieces f32 rounding at most 4.3e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2e-7). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15,
 ///   2.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(4);
-    let t4 = c(6);
-    let t5 = t3.fma(T::lit(1.2909944487358056), t4).fnma(s[7], t0.fnma(T::lit(1.2909944487358056), t1).fma(s[5], t2));
-    let t6 = c(5);
-    let t7 = t0.fma(T::lit(1.2909944487358056), t1).fma(s[7], t3.fnma(T::lit(1.2909944487358056), t4).fma(s[5], t6));
-    let t8 = t7.fnma(s[11], t5.fnma(s[9], t1));
-    result(0, t8);
-    let t10 = c(3);
-    let t11 = t0.fma(s[8], t3.fma(s[6], t10));
-    let t12 = t11.fma(T::lit(1.5491933384829668), t7).fnma(s[12], t5.fma(s[10], t0));
-    result(2, t12);
-    let t14 = t5.fma(s[11], t7.fnma(s[9], t4));
-    result(6, t14);
-    let t16 = t5.fma(s[12], t11.fnma(T::lit(1.5491933384829668), t7).fma(s[10], t3));
-    result(4, t16);
-    let t18 = t16.fma(T::lit(1.2909944487358056), t14).fnma(s[7], t12.fnma(T::lit(1.2909944487358056), t8).fma(s[5], t5));
-    result(1, t18);
-    result(3, t12.fma(s[8], t16.fma(s[6], t11)));
-    let t21 = t12.fma(T::lit(1.2909944487358056), t8).fma(s[7], t16.fnma(T::lit(1.2909944487358056), t14).fma(s[5], t7));
-    result(5, t21);
+    let t2 = T::lit(0.9185586535436918).fma(s[4], T::lit(1.224744871391589));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.5) * t3;
+    let t5 = c(1);
+    let t6 = c(4);
+    let t7 = c(6);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.5) * t8;
+    let t10 = t6.fma(T::lit(1.2909944487358056), t7).fnma(t9, t0.fnma(T::lit(1.2909944487358056), t1).fma(t4, t5));
+    let t11 = T::lit(1.5811388300841898).fnma(s[4], T::lit(1.5811388300841898));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.7745966692414834) * t12;
+    let t14 = c(5);
+    let t15 = t0.fma(T::lit(1.2909944487358056), t1).fma(t9, t6.fnma(T::lit(1.2909944487358056), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.7745966692414834) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(3);
+    let t21 = t0.fma(t8, t6.fma(t3, t20));
+    let t22 = t21.fma(T::lit(1.5491933384829668), t15).fnma(t16, t10.fma(t12, t0));
+    result(2, t22);
+    let t24 = t10.fma(t17, t15.fnma(t13, t7));
+    result(6, t24);
+    let t26 = t10.fma(t16, t21.fnma(T::lit(1.5491933384829668), t15).fma(t12, t6));
+    result(4, t26);
+    let t28 = t26.fma(T::lit(1.2909944487358056), t24).fnma(t9, t22.fnma(T::lit(1.2909944487358056), t18).fma(t4, t10));
+    result(1, t28);
+    result(3, t22.fma(t8, t26.fma(t3, t21)));
+    let t31 = t22.fma(T::lit(1.2909944487358056), t18).fma(t9, t26.fnma(T::lit(1.2909944487358056), t24).fma(t4, t15));
+    result(5, t31);
 }
 
 /// `tilt:5:band=4`: Band 4 of `tilt:5` alone, so that a band is loaded, changed and stored at a time.
@@ -423,43 +395,55 @@ pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 4, m from -4 to 4.
 /// - Returns band 4 of the result, m from -4 to 4.
-/// - Operations: 42 (0 mul, 0 add, 42 fma); 3 constants, 9 live values.
+/// - Operations: 54 (10 mul, 0 add, 44 fma); 10 constants, 17 live values.
 /// - Error: with its other pieces f32 rounding at most 4.3e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2e-7). Method error, the worst band's in spectral norm: 1.8e-3 at 5, 1.5e-2 at 10, 4.9e-2 at 15,
 ///   2.4e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 23], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(7);
-    let t3 = t2.fnma(s[15], t0.fnma(s[13], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(5);
-    let t7 = t6.fma(T::lit(1.1338934190276817), t2).fnma(s[18], t4.fnma(T::lit(1.1338934190276817), t0).fma(s[17], t5));
-    let t8 = c(8);
-    let t9 = t0.fma(s[15], t2.fnma(s[13], t8));
-    let t10 = c(6);
-    let t11 = t4.fma(T::lit(1.1338934190276817), t0).fma(s[18], t6.fnma(T::lit(1.1338934190276817), t2).fma(s[17], t10));
-    let t12 = t11.fma(T::lit(1.3228756555322954), t9).fnma(s[21], t7.fnma(T::lit(1.3228756555322954), t3).fma(s[19], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3228756555322954), t3).fma(s[21], t11.fnma(T::lit(1.3228756555322954), t9).fma(s[19], t2));
-    result(7, t14);
-    result(0, t14.fnma(s[15], t12.fnma(s[13], t3)));
-    let t17 = c(4);
-    let t18 = t4.fma(s[16], t6.fma(s[14], t17));
-    let t19 = t18.fma(T::lit(1.4907119849998598), t11).fnma(s[22], t7.fma(s[20], t4));
-    result(3, t19);
-    let t21 = t7.fma(s[22], t18.fnma(T::lit(1.4907119849998598), t11).fma(s[20], t6));
-    result(5, t21);
-    let t23 = t21.fma(T::lit(1.1338934190276817), t14).fnma(s[18], t19.fnma(T::lit(1.1338934190276817), t12).fma(s[17], t7));
-    result(2, t23);
-    result(4, t19.fma(s[16], t21.fma(s[14], t18)));
-    let t26 = t19.fma(T::lit(1.1338934190276817), t12).fma(s[18], t21.fnma(T::lit(1.1338934190276817), t14).fma(s[17], t11));
-    result(6, t26);
-    result(8, t12.fma(s[15], t14.fnma(s[13], t9)));
+pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(1.8446619684315546).fma(s[4], T::lit(1.5811388300841898));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.4472135954999579) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.4472135954999579) * t5;
+    let t7 = c(7);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.5916079783099616) * t1;
+    let t11 = c(2);
+    let t12 = c(5);
+    let t13 = T::lit(0.5916079783099616) * t5;
+    let t14 = t12.fma(T::lit(1.1338934190276817), t7).fnma(t13, t9.fnma(T::lit(1.1338934190276817), t3).fma(t10, t11));
+    let t15 = T::lit(3.8890872965260113).fnma(s[4], T::lit(2.1213203435596424));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.6666666666666666) * t16;
+    let t18 = c(8);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(6);
+    let t21 = t9.fma(T::lit(1.1338934190276817), t3).fma(t13, t12.fnma(T::lit(1.1338934190276817), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.6666666666666666) * t22;
+    let t24 = t21.fma(T::lit(1.3228756555322954), t19).fnma(t23, t14.fnma(T::lit(1.3228756555322954), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3228756555322954), t8).fma(t23, t21.fnma(T::lit(1.3228756555322954), t19).fma(t17, t7));
+    result(7, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(4);
+    let t30 = t9.fma(t5, t12.fma(t1, t29));
+    let t31 = t30.fma(T::lit(1.4907119849998598), t21).fnma(t22, t14.fma(t16, t9));
+    result(3, t31);
+    let t33 = t14.fma(t22, t30.fnma(T::lit(1.4907119849998598), t21).fma(t16, t12));
+    result(5, t33);
+    let t35 = t33.fma(T::lit(1.1338934190276817), t26).fnma(t13, t31.fnma(T::lit(1.1338934190276817), t24).fma(t10, t14));
+    result(2, t35);
+    result(4, t31.fma(t5, t33.fma(t1, t30)));
+    let t38 = t31.fma(T::lit(1.1338934190276817), t24).fma(t13, t33.fnma(T::lit(1.1338934190276817), t26).fma(t10, t21));
+    result(6, t38);
+    result(8, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `basis:5`: The spherical harmonics of order 5 at a direction, accurate also near the poles (Sloan

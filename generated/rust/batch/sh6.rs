@@ -4,12 +4,12 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:6:setup`: The numbers that every band of `rotate:6` takes, once for all of them. Rotates
-/// order 6 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:6:setup`: The numbers that bands of `rotate:6` take, once for all of them. Rotates order 6
+/// exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 32 numbers that each band takes.
-/// - Operations: 67 (35 mul, 5 add, 27 fma) and 1 inverse square root or reciprocal; 2 constants, 14
+/// - Returns the 26 numbers that each band takes.
+/// - Operations: 54 (28 mul, 5 add, 21 fma) and 1 inverse square root or reciprocal; 1 constants, 14
 ///   live values.
 /// - Error: with its other pieces f32 rounding at most 9.9e-6 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 9.3e-7).
@@ -44,7 +44,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     let t25 = t24 + t24;
     result(7, t25);
     let t27 = t18 * t18;
-    result(8, T::lit(0.5) * t27);
+    result(8, t27);
     let t29 = t16 * t18;
     result(9, t29);
     let t31 = t14 * t20;
@@ -68,24 +68,12 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     result(18, t48);
     let t50 = t14.fma(t32, t20 * t34);
     result(19, t50);
-    let t52 = t9.fms(t38, t12 * t40);
-    result(20, t52);
-    let t54 = t9.fma(t40, t12 * t38);
-    result(21, t54);
-    let t56 = t14.fms(t44, t20 * t50);
-    result(22, t56);
-    let t58 = t16.fma(t48, t18 * t46);
-    result(23, t58);
-    let t60 = t16.fms(t46, t18 * t48);
-    result(24, t60);
-    let t62 = t14.fma(t50, t20 * t44);
-    result(25, t62);
-    result(26, t9.fms(t52, t12 * t54));
-    result(27, t9.fma(t54, t12 * t52));
-    result(28, t14.fms(t56, t20 * t62));
-    result(29, t16.fms(t60, t18 * t58));
-    result(30, t16.fma(t58, t18 * t60));
-    result(31, t14.fma(t62, t20 * t56));
+    result(20, t9.fms(t38, t12 * t40));
+    result(21, t9.fma(t40, t12 * t38));
+    result(22, t14.fms(t44, t20 * t50));
+    result(23, t16.fma(t48, t18 * t46));
+    result(24, t16.fms(t46, t18 * t48));
+    result(25, t14.fma(t50, t20 * t44));
 }
 
 /// `rotate:6:band=1`: Band 1 of `rotate:6` alone, so that a band is loaded, changed and stored at a
@@ -101,7 +89,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -120,13 +108,13 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 28 (13 mul, 1 add, 14 fma); 2 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 9.9e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(4);
     let t2 = t1.fms(s[6], t0 * s[7]);
@@ -135,7 +123,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V
     let t5 = c(1);
     let t6 = c(3);
     let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
+    let t8 = t4.fma(T::lit(0.5) * s[8], t7 * s[9]);
     let t9 = t2 - t8;
     let t10 = t5.fma(s[0], t6 * s[1]);
     let t11 = t0.fma(s[6], t1 * s[7]);
@@ -162,7 +150,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V
 ///   9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(6);
     let t1 = c(0);
     let t2 = t1.fma(s[13], t0 * s[14]);
@@ -216,7 +204,7 @@ pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V
 ///   9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(8);
     let t1 = c(0);
     let t2 = t1.fma(s[20], t0 * s[21]);
@@ -276,92 +264,98 @@ pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 5, m from -5 to 5.
 /// - Returns band 5 of the result, m from -5 to 5.
-/// - Operations: 106 (30 mul, 0 add, 76 fma); 20 constants, 19 live values.
+/// - Operations: 118 (36 mul, 0 add, 82 fma); 20 constants, 23 live values.
 /// - Error: with its other pieces f32 rounding at most 9.9e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   9.3e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 32], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(10);
-    let t1 = c(0);
-    let t2 = t1.fma(s[26], t0 * s[27]);
-    let t3 = c(9);
-    let t4 = c(1);
-    let t5 = t4.fma(s[20], t3 * s[21]);
-    let t6 = c(7);
-    let t7 = c(3);
-    let t8 = t5.fms(T::lit(0.2679491924311227), t7.fma(s[6], t6 * s[7]));
-    let t9 = t8.fms(T::lit(0.5), t5);
-    let t10 = t9.fnma(T::lit(0.2679491924311227), t8);
-    let t11 = c(8);
-    let t12 = c(2);
-    let t13 = t12.fma(s[13], t11 * s[14]);
-    let t14 = c(6);
-    let t15 = c(4);
-    let t16 = t15.fma(s[0], t14 * s[1]);
-    let t17 = t16.fnma(T::lit(0.57282196186948), t13.fms(T::lit(0.795495128834866), t2 * T::lit(0.19764235376052372)));
-    let t18 = t10.fma(s[23], t17.fms(s[24], t17));
-    let t19 = t16.fnma(T::lit(0.6614378277661477), t2.fms(T::lit(0.6846531968814576), t13 * T::lit(0.30618621784789724)));
-    let t20 = t9.fma(s[15], t19.fms(s[12], t19));
-    let t21 = t20.fma(T::lit(0.6846531968814576), t18.fnma(T::lit(0.19764235376052372), t2));
-    let t22 = t0.fms(s[26], t1 * s[27]);
-    let t23 = t22.fma(T::lit(0.9660917830792959), t14.fms(s[0], t15 * s[1]));
-    let t24 = t22.fnma(T::lit(0.4472135954999579), t11.fms(s[13], t12 * s[14]));
-    let t25 = t23.fms(T::lit(0.9057110466368399), t24.fma(T::lit(0.4192627457812106), t22));
-    let t26 = t25.fnma(T::lit(0.9660917830792959), t23);
-    let t27 = t6.fms(s[6], t7 * s[7]);
-    let t28 = c(5);
-    let t29 = t27.fms(T::lit(0.07470077493066175), t28);
-    let t30 = t29.fms(T::lit(0.14857248482346963), t27);
-    let t31 = t3.fms(s[20], t4 * s[21]);
-    let t32 = t30.fnma(T::lit(0.07470077493066175), t29);
-    let t33 = t30.fma(T::lit(0.4782913363666992), t32.fnma(T::lit(0.6642175991330467), t31));
-    let t34 = t33.fnma(T::lit(0.57282196186948), t30);
-    let t35 = t33.fnma(T::lit(1.1976423537605236), t31);
-    let t36 = t25.fma(s[29], t35 * s[30]);
-    let t37 = t36.fma(T::lit(0.9660917830792959), t26.fma(s[3], t34 * s[4]));
-    let t38 = t25.fma(T::lit(0.4472135954999579), t24);
-    let t39 = t33.fma(T::lit(0.795495128834866), t32);
-    let t40 = t36.fnma(T::lit(0.4472135954999579), t38.fma(s[17], t39 * s[18]));
-    let t41 = t37.fms(T::lit(0.9057110466368399), t40.fma(T::lit(0.4192627457812106), t36));
-    result(0, t21.fma(s[28], t41 * s[31]));
-    let t43 = t10.fms(s[24], t17 * s[23]);
-    let t44 = t43.fms(T::lit(0.2679491924311227), t9.fms(s[12], t19 * s[15]));
-    let t45 = t44.fms(T::lit(0.5), t43);
-    let t46 = t45.fnma(T::lit(0.2679491924311227), t44);
-    let t47 = t35.fms(s[29], t25 * s[30]);
-    let t48 = t39.fms(s[17], t38 * s[18]);
-    let t49 = t48.fms(T::lit(0.07470077493066175), t34.fms(s[3], t26 * s[4]));
-    let t50 = t49.fms(T::lit(0.14857248482346963), t48);
-    let t51 = t50.fnma(T::lit(0.07470077493066175), t49);
-    let t52 = t50.fma(T::lit(0.5857848612461443), t51.fnma(T::lit(0.5716674888222586), t47));
-    let t53 = t52.fnma(T::lit(1.1976423537605236), t47);
-    result(1, t46.fma(s[22], t53 * s[25]));
-    let t55 = t20.fnma(T::lit(0.30618621784789724), t18.fma(T::lit(0.795495128834866), t13));
-    let t56 = t41.fma(T::lit(0.4472135954999579), t40);
-    result(2, t55.fma(s[16], t56 * s[19]));
-    let t58 = t52.fma(T::lit(0.6846531968814576), t51);
-    result(3, t45.fma(s[11], t58 * s[10]));
-    let t60 = t20.fnma(T::lit(0.6614378277661477), t18.fnma(T::lit(0.57282196186948), t16));
-    let t61 = t41.fnma(T::lit(0.9660917830792959), t37);
-    result(4, t60.fma(s[2], t61 * s[5]));
-    result(5, t52.fnma(T::lit(0.701560760020114), t50));
-    result(6, t61.fms(s[2], t60 * s[5]));
-    result(7, t58.fms(s[11], t45 * s[10]));
-    result(8, t56.fms(s[16], t55 * s[19]));
-    result(9, t53.fms(s[22], t46 * s[25]));
-    result(10, t41.fms(s[28], t21 * s[31]));
+pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 26], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[20], s[1] * s[21]);
+    let t1 = s[0].fma(s[21], s[1] * s[20]);
+    let t2 = c(10);
+    let t3 = c(0);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = c(9);
+    let t6 = c(1);
+    let t7 = t6.fma(s[20], t5 * s[21]);
+    let t8 = c(7);
+    let t9 = c(3);
+    let t10 = t7.fms(T::lit(0.2679491924311227), t9.fma(s[6], t8 * s[7]));
+    let t11 = t10.fms(T::lit(0.5), t7);
+    let t12 = t11.fnma(T::lit(0.2679491924311227), t10);
+    let t13 = c(8);
+    let t14 = c(2);
+    let t15 = t14.fma(s[13], t13 * s[14]);
+    let t16 = c(6);
+    let t17 = c(4);
+    let t18 = t17.fma(s[0], t16 * s[1]);
+    let t19 = t18.fnma(T::lit(0.57282196186948), t15.fms(T::lit(0.795495128834866), t4 * T::lit(0.19764235376052372)));
+    let t20 = t12.fma(s[23], t19.fms(s[24], t19));
+    let t21 = t18.fnma(T::lit(0.6614378277661477), t4.fms(T::lit(0.6846531968814576), t15 * T::lit(0.30618621784789724)));
+    let t22 = t11.fma(s[15], t21.fms(s[12], t21));
+    let t23 = t22.fma(T::lit(0.6846531968814576), t20.fnma(T::lit(0.19764235376052372), t4));
+    let t24 = s[2].fms(s[22], s[5] * s[25]);
+    let t25 = t2.fms(t0, t3 * t1);
+    let t26 = t25.fma(T::lit(0.9660917830792959), t16.fms(s[0], t17 * s[1]));
+    let t27 = t25.fnma(T::lit(0.4472135954999579), t13.fms(s[13], t14 * s[14]));
+    let t28 = t26.fms(T::lit(0.9057110466368399), t27.fma(T::lit(0.4192627457812106), t25));
+    let t29 = t28.fnma(T::lit(0.9660917830792959), t26);
+    let t30 = t8.fms(s[6], t9 * s[7]);
+    let t31 = c(5);
+    let t32 = t30.fms(T::lit(0.07470077493066175), t31);
+    let t33 = t32.fms(T::lit(0.14857248482346963), t30);
+    let t34 = t5.fms(s[20], t6 * s[21]);
+    let t35 = t33.fnma(T::lit(0.07470077493066175), t32);
+    let t36 = t33.fma(T::lit(0.4782913363666992), t35.fnma(T::lit(0.6642175991330467), t34));
+    let t37 = t36.fnma(T::lit(0.57282196186948), t33);
+    let t38 = s[3].fms(s[24], s[4] * s[23]);
+    let t39 = t36.fnma(T::lit(1.1976423537605236), t34);
+    let t40 = s[3].fma(s[23], s[4] * s[24]);
+    let t41 = t28.fma(t38, t39 * t40);
+    let t42 = t41.fma(T::lit(0.9660917830792959), t29.fma(s[3], t37 * s[4]));
+    let t43 = t28.fma(T::lit(0.4472135954999579), t27);
+    let t44 = t36.fma(T::lit(0.795495128834866), t35);
+    let t45 = t41.fnma(T::lit(0.4472135954999579), t43.fma(s[17], t44 * s[18]));
+    let t46 = t42.fms(T::lit(0.9057110466368399), t45.fma(T::lit(0.4192627457812106), t41));
+    let t47 = s[2].fma(s[25], s[5] * s[22]);
+    result(0, t23.fma(t24, t46 * t47));
+    let t49 = t12.fms(s[24], t19 * s[23]);
+    let t50 = t49.fms(T::lit(0.2679491924311227), t11.fms(s[12], t21 * s[15]));
+    let t51 = t50.fms(T::lit(0.5), t49);
+    let t52 = t51.fnma(T::lit(0.2679491924311227), t50);
+    let t53 = t39.fms(t38, t28 * t40);
+    let t54 = t44.fms(s[17], t43 * s[18]);
+    let t55 = t54.fms(T::lit(0.07470077493066175), t37.fms(s[3], t29 * s[4]));
+    let t56 = t55.fms(T::lit(0.14857248482346963), t54);
+    let t57 = t56.fnma(T::lit(0.07470077493066175), t55);
+    let t58 = t56.fma(T::lit(0.5857848612461443), t57.fnma(T::lit(0.5716674888222586), t53));
+    let t59 = t58.fnma(T::lit(1.1976423537605236), t53);
+    result(1, t52.fma(s[22], t59 * s[25]));
+    let t61 = t22.fnma(T::lit(0.30618621784789724), t20.fma(T::lit(0.795495128834866), t15));
+    let t62 = t46.fma(T::lit(0.4472135954999579), t45);
+    result(2, t61.fma(s[16], t62 * s[19]));
+    let t64 = t58.fma(T::lit(0.6846531968814576), t57);
+    result(3, t51.fma(s[11], t64 * s[10]));
+    let t66 = t22.fnma(T::lit(0.6614378277661477), t20.fnma(T::lit(0.57282196186948), t18));
+    let t67 = t46.fnma(T::lit(0.9660917830792959), t42);
+    result(4, t66.fma(s[2], t67 * s[5]));
+    result(5, t58.fnma(T::lit(0.701560760020114), t56));
+    result(6, t67.fms(s[2], t66 * s[5]));
+    result(7, t64.fms(s[11], t51 * s[10]));
+    result(8, t62.fms(s[16], t61 * s[19]));
+    result(9, t59.fms(s[22], t52 * s[25]));
+    result(10, t46.fms(t24, t23 * t47));
 }
 
-/// `tilt:6:setup`: The numbers that every band of `tilt:6` takes, once for all of them. Tilts order 6:
-/// the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
+/// `tilt:6:setup`: The numbers that bands of `tilt:6` take, once for all of them. Tilts order 6: the
+/// shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
 /// shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 35 numbers that each band takes.
-/// - Operations: 40 (32 mul, 1 add, 7 fma) and 1 inverse square root or reciprocal; 20 constants, 5
-///   live values.
+/// - Returns the 5 numbers that each band takes.
+/// - Operations: 3 (1 mul, 1 add, 1 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 6.6e-6 of the norm of a band, for an angle up to
 ///   25 degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2.6e-7).
 ///   Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15, 5.9e-1
@@ -372,58 +366,8 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
-    let t6 = n[0].fma(n[0], n[1] * n[1]);
-    let t7 = T::lit(0.9185586535436918).fma(t6, T::lit(1.224744871391589));
-    let t8 = n[0] * t7;
-    result(6, t8);
-    result(5, T::lit(0.5) * t8);
-    let t11 = n[1] * t7;
-    result(8, t11);
-    result(7, T::lit(0.5) * t11);
-    let t14 = T::lit(1.5811388300841898).fnma(t6, T::lit(1.5811388300841898));
-    let t15 = n[0] * t14;
-    result(10, t15);
-    result(9, T::lit(0.7745966692414834) * t15);
-    let t18 = n[1] * t14;
-    result(12, t18);
-    result(11, T::lit(0.7745966692414834) * t18);
-    let t21 = T::lit(1.8446619684315546).fma(t6, T::lit(1.5811388300841898));
-    let t22 = n[0] * t21;
-    result(14, t22);
-    result(13, T::lit(0.4472135954999579) * t22);
-    let t25 = n[1] * t21;
-    result(16, t25);
-    result(15, T::lit(0.4472135954999579) * t25);
-    result(17, T::lit(0.5916079783099616) * t22);
-    result(18, T::lit(0.5916079783099616) * t25);
-    let t30 = T::lit(3.8890872965260113).fnma(t6, T::lit(2.1213203435596424));
-    let t31 = n[0] * t30;
-    result(20, t31);
-    result(19, T::lit(0.6666666666666666) * t31);
-    let t34 = n[1] * t30;
-    result(22, t34);
-    result(21, T::lit(0.6666666666666666) * t34);
-    let t37 = T::lit(3.3888604279314896).fma(t6, T::lit(1.9364916731037085));
-    let t38 = n[0] * t37;
-    result(24, t38);
-    result(23, T::lit(0.408248290463863) * t38);
-    let t41 = n[1] * t37;
-    result(26, t41);
-    result(25, T::lit(0.408248290463863) * t41);
-    let t44 = T::lit(7.937253933193772).fnma(t6, T::lit(2.6457513110645907));
-    let t45 = n[0] * t44;
-    result(28, t45);
-    result(27, T::lit(0.5976143046671968) * t45);
-    let t48 = n[1] * t44;
-    result(30, t48);
-    result(29, T::lit(0.5976143046671968) * t48);
-    result(31, T::lit(0.6324555320336759) * t38);
-    result(32, T::lit(0.6324555320336759) * t41);
-    result(33, T::lit(0.8017837257372732) * t45);
-    result(34, T::lit(0.8017837257372732) * t48);
+    result(2, T::recip(n[2] + T::lit(1.0)));
+    result(4, n[0].fma(n[0], n[1] * n[1]));
 }
 
 /// `tilt:6:band=1`: Band 1 of `tilt:6` alone, so that a band is loaded, changed and stored at a time.
@@ -441,7 +385,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   5.9e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -460,14 +404,14 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 6.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2.6e-7). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15,
 ///   5.9e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -477,7 +421,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, 
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -497,37 +441,47 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 30 (0 mul, 0 add, 30 fma); 2 constants, 8 live values.
+/// - Operations: 40 (8 mul, 0 add, 32 fma); 7 constants, 14 live values.
 /// - Error: with its other pieces f32 rounding at most 6.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2.6e-7). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15,
 ///   5.9e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(4);
-    let t4 = c(6);
-    let t5 = t3.fma(T::lit(1.2909944487358056), t4).fnma(s[7], t0.fnma(T::lit(1.2909944487358056), t1).fma(s[5], t2));
-    let t6 = c(5);
-    let t7 = t0.fma(T::lit(1.2909944487358056), t1).fma(s[7], t3.fnma(T::lit(1.2909944487358056), t4).fma(s[5], t6));
-    let t8 = t7.fnma(s[11], t5.fnma(s[9], t1));
-    result(0, t8);
-    let t10 = c(3);
-    let t11 = t0.fma(s[8], t3.fma(s[6], t10));
-    let t12 = t11.fma(T::lit(1.5491933384829668), t7).fnma(s[12], t5.fma(s[10], t0));
-    result(2, t12);
-    let t14 = t5.fma(s[11], t7.fnma(s[9], t4));
-    result(6, t14);
-    let t16 = t5.fma(s[12], t11.fnma(T::lit(1.5491933384829668), t7).fma(s[10], t3));
-    result(4, t16);
-    let t18 = t16.fma(T::lit(1.2909944487358056), t14).fnma(s[7], t12.fnma(T::lit(1.2909944487358056), t8).fma(s[5], t5));
-    result(1, t18);
-    result(3, t12.fma(s[8], t16.fma(s[6], t11)));
-    let t21 = t12.fma(T::lit(1.2909944487358056), t8).fma(s[7], t16.fnma(T::lit(1.2909944487358056), t14).fma(s[5], t7));
-    result(5, t21);
+    let t2 = T::lit(0.9185586535436918).fma(s[4], T::lit(1.224744871391589));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.5) * t3;
+    let t5 = c(1);
+    let t6 = c(4);
+    let t7 = c(6);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.5) * t8;
+    let t10 = t6.fma(T::lit(1.2909944487358056), t7).fnma(t9, t0.fnma(T::lit(1.2909944487358056), t1).fma(t4, t5));
+    let t11 = T::lit(1.5811388300841898).fnma(s[4], T::lit(1.5811388300841898));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.7745966692414834) * t12;
+    let t14 = c(5);
+    let t15 = t0.fma(T::lit(1.2909944487358056), t1).fma(t9, t6.fnma(T::lit(1.2909944487358056), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.7745966692414834) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(3);
+    let t21 = t0.fma(t8, t6.fma(t3, t20));
+    let t22 = t21.fma(T::lit(1.5491933384829668), t15).fnma(t16, t10.fma(t12, t0));
+    result(2, t22);
+    let t24 = t10.fma(t17, t15.fnma(t13, t7));
+    result(6, t24);
+    let t26 = t10.fma(t16, t21.fnma(T::lit(1.5491933384829668), t15).fma(t12, t6));
+    result(4, t26);
+    let t28 = t26.fma(T::lit(1.2909944487358056), t24).fnma(t9, t22.fnma(T::lit(1.2909944487358056), t18).fma(t4, t10));
+    result(1, t28);
+    result(3, t22.fma(t8, t26.fma(t3, t21)));
+    let t31 = t22.fma(T::lit(1.2909944487358056), t18).fma(t9, t26.fnma(T::lit(1.2909944487358056), t24).fma(t4, t15));
+    result(5, t31);
 }
 
 /// `tilt:6:band=4`: Band 4 of `tilt:6` alone, so that a band is loaded, changed and stored at a time.
@@ -538,43 +492,55 @@ pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 4, m from -4 to 4.
 /// - Returns band 4 of the result, m from -4 to 4.
-/// - Operations: 42 (0 mul, 0 add, 42 fma); 3 constants, 9 live values.
+/// - Operations: 54 (10 mul, 0 add, 44 fma); 10 constants, 17 live values.
 /// - Error: with its other pieces f32 rounding at most 6.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2.6e-7). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15,
 ///   5.9e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(7);
-    let t3 = t2.fnma(s[15], t0.fnma(s[13], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(5);
-    let t7 = t6.fma(T::lit(1.1338934190276817), t2).fnma(s[18], t4.fnma(T::lit(1.1338934190276817), t0).fma(s[17], t5));
-    let t8 = c(8);
-    let t9 = t0.fma(s[15], t2.fnma(s[13], t8));
-    let t10 = c(6);
-    let t11 = t4.fma(T::lit(1.1338934190276817), t0).fma(s[18], t6.fnma(T::lit(1.1338934190276817), t2).fma(s[17], t10));
-    let t12 = t11.fma(T::lit(1.3228756555322954), t9).fnma(s[21], t7.fnma(T::lit(1.3228756555322954), t3).fma(s[19], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3228756555322954), t3).fma(s[21], t11.fnma(T::lit(1.3228756555322954), t9).fma(s[19], t2));
-    result(7, t14);
-    result(0, t14.fnma(s[15], t12.fnma(s[13], t3)));
-    let t17 = c(4);
-    let t18 = t4.fma(s[16], t6.fma(s[14], t17));
-    let t19 = t18.fma(T::lit(1.4907119849998598), t11).fnma(s[22], t7.fma(s[20], t4));
-    result(3, t19);
-    let t21 = t7.fma(s[22], t18.fnma(T::lit(1.4907119849998598), t11).fma(s[20], t6));
-    result(5, t21);
-    let t23 = t21.fma(T::lit(1.1338934190276817), t14).fnma(s[18], t19.fnma(T::lit(1.1338934190276817), t12).fma(s[17], t7));
-    result(2, t23);
-    result(4, t19.fma(s[16], t21.fma(s[14], t18)));
-    let t26 = t19.fma(T::lit(1.1338934190276817), t12).fma(s[18], t21.fnma(T::lit(1.1338934190276817), t14).fma(s[17], t11));
-    result(6, t26);
-    result(8, t12.fma(s[15], t14.fnma(s[13], t9)));
+pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(1.8446619684315546).fma(s[4], T::lit(1.5811388300841898));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.4472135954999579) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.4472135954999579) * t5;
+    let t7 = c(7);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.5916079783099616) * t1;
+    let t11 = c(2);
+    let t12 = c(5);
+    let t13 = T::lit(0.5916079783099616) * t5;
+    let t14 = t12.fma(T::lit(1.1338934190276817), t7).fnma(t13, t9.fnma(T::lit(1.1338934190276817), t3).fma(t10, t11));
+    let t15 = T::lit(3.8890872965260113).fnma(s[4], T::lit(2.1213203435596424));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.6666666666666666) * t16;
+    let t18 = c(8);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(6);
+    let t21 = t9.fma(T::lit(1.1338934190276817), t3).fma(t13, t12.fnma(T::lit(1.1338934190276817), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.6666666666666666) * t22;
+    let t24 = t21.fma(T::lit(1.3228756555322954), t19).fnma(t23, t14.fnma(T::lit(1.3228756555322954), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3228756555322954), t8).fma(t23, t21.fnma(T::lit(1.3228756555322954), t19).fma(t17, t7));
+    result(7, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(4);
+    let t30 = t9.fma(t5, t12.fma(t1, t29));
+    let t31 = t30.fma(T::lit(1.4907119849998598), t21).fnma(t22, t14.fma(t16, t9));
+    result(3, t31);
+    let t33 = t14.fma(t22, t30.fnma(T::lit(1.4907119849998598), t21).fma(t16, t12));
+    result(5, t33);
+    let t35 = t33.fma(T::lit(1.1338934190276817), t26).fnma(t13, t31.fnma(T::lit(1.1338934190276817), t24).fma(t10, t14));
+    result(2, t35);
+    result(4, t31.fma(t5, t33.fma(t1, t30)));
+    let t38 = t31.fma(T::lit(1.1338934190276817), t24).fma(t13, t33.fnma(T::lit(1.1338934190276817), t26).fma(t10, t21));
+    result(6, t38);
+    result(8, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:6:band=5`: Band 5 of `tilt:6` alone, so that a band is loaded, changed and stored at a time.
@@ -585,51 +551,65 @@ pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 5, m from -5 to 5.
 /// - Returns band 5 of the result, m from -5 to 5.
-/// - Operations: 54 (0 mul, 0 add, 54 fma); 4 constants, 11 live values.
+/// - Operations: 68 (12 mul, 0 add, 56 fma); 12 constants, 19 live values.
 /// - Error: with its other pieces f32 rounding at most 6.6e-6 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   2.6e-7). Method error, the worst band's in spectral norm: 3.4e-3 at 5, 2.8e-2 at 10, 9.8e-2 at 15,
 ///   5.9e-1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 35], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(8);
-    let t4 = c(10);
-    let t5 = t3.fma(T::lit(1.3416407864998738), t4).fnma(s[25], t0.fnma(T::lit(1.3416407864998738), t1).fma(s[23], t2));
-    let t6 = c(9);
-    let t7 = t0.fma(T::lit(1.3416407864998738), t1).fma(s[25], t3.fnma(T::lit(1.3416407864998738), t4).fma(s[23], t6));
-    let t8 = t7.fnma(s[29], t5.fnma(s[27], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(6);
-    let t13 = t12.fma(T::lit(1.0801234497346435), t3).fnma(s[32], t10.fnma(T::lit(1.0801234497346435), t0).fma(s[31], t11));
-    let t14 = c(7);
-    let t15 = t10.fma(T::lit(1.0801234497346435), t0).fma(s[32], t12.fnma(T::lit(1.0801234497346435), t3).fma(s[31], t14));
-    let t16 = t15.fma(T::lit(1.1547005383792515), t7).fnma(s[34], t13.fnma(T::lit(1.1547005383792515), t5).fma(s[33], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[29], t7.fnma(s[27], t4));
-    result(10, t18);
-    let t20 = t13.fma(T::lit(1.1547005383792515), t5).fma(s[34], t15.fnma(T::lit(1.1547005383792515), t7).fma(s[33], t3));
-    result(8, t20);
-    let t22 = t20.fma(T::lit(1.3416407864998738), t18).fnma(s[25], t16.fnma(T::lit(1.3416407864998738), t8).fma(s[23], t5));
-    result(1, t22);
-    let t24 = c(5);
-    let t25 = t10.fma(s[26], t12.fma(s[24], t24));
-    let t26 = t25.fma(T::lit(1.4638501094227998), t15).fnma(s[30], t13.fma(s[28], t10));
-    result(4, t26);
-    let t28 = t13.fma(s[30], t25.fnma(T::lit(1.4638501094227998), t15).fma(s[28], t12));
-    result(6, t28);
-    let t30 = t28.fma(T::lit(1.0801234497346435), t20).fnma(s[32], t26.fnma(T::lit(1.0801234497346435), t16).fma(s[31], t13));
-    result(3, t30);
-    result(5, t26.fma(s[26], t28.fma(s[24], t25)));
-    let t33 = t26.fma(T::lit(1.0801234497346435), t16).fma(s[32], t28.fnma(T::lit(1.0801234497346435), t20).fma(s[31], t15));
-    result(7, t33);
-    let t35 = t16.fma(T::lit(1.3416407864998738), t8).fma(s[25], t20.fnma(T::lit(1.3416407864998738), t18).fma(s[23], t7));
-    result(9, t35);
+    let t2 = T::lit(3.3888604279314896).fma(s[4], T::lit(1.9364916731037085));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.408248290463863) * t3;
+    let t5 = c(1);
+    let t6 = c(8);
+    let t7 = c(10);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.408248290463863) * t8;
+    let t10 = t6.fma(T::lit(1.3416407864998738), t7).fnma(t9, t0.fnma(T::lit(1.3416407864998738), t1).fma(t4, t5));
+    let t11 = T::lit(7.937253933193772).fnma(s[4], T::lit(2.6457513110645907));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.5976143046671968) * t12;
+    let t14 = c(9);
+    let t15 = t0.fma(T::lit(1.3416407864998738), t1).fma(t9, t6.fnma(T::lit(1.3416407864998738), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.5976143046671968) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.6324555320336759) * t3;
+    let t22 = c(3);
+    let t23 = c(6);
+    let t24 = T::lit(0.6324555320336759) * t8;
+    let t25 = t23.fma(T::lit(1.0801234497346435), t6).fnma(t24, t20.fnma(T::lit(1.0801234497346435), t0).fma(t21, t22));
+    let t26 = T::lit(0.8017837257372732) * t12;
+    let t27 = c(7);
+    let t28 = t20.fma(T::lit(1.0801234497346435), t0).fma(t24, t23.fnma(T::lit(1.0801234497346435), t6).fma(t21, t27));
+    let t29 = T::lit(0.8017837257372732) * t16;
+    let t30 = t28.fma(T::lit(1.1547005383792515), t15).fnma(t29, t25.fnma(T::lit(1.1547005383792515), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(10, t32);
+    let t34 = t25.fma(T::lit(1.1547005383792515), t10).fma(t29, t28.fnma(T::lit(1.1547005383792515), t15).fma(t26, t6));
+    result(8, t34);
+    let t36 = t34.fma(T::lit(1.3416407864998738), t32).fnma(t9, t30.fnma(T::lit(1.3416407864998738), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(5);
+    let t39 = t20.fma(t8, t23.fma(t3, t38));
+    let t40 = t39.fma(T::lit(1.4638501094227998), t28).fnma(t16, t25.fma(t12, t20));
+    result(4, t40);
+    let t42 = t25.fma(t16, t39.fnma(T::lit(1.4638501094227998), t28).fma(t12, t23));
+    result(6, t42);
+    let t44 = t42.fma(T::lit(1.0801234497346435), t34).fnma(t24, t40.fnma(T::lit(1.0801234497346435), t30).fma(t21, t25));
+    result(3, t44);
+    result(5, t40.fma(t8, t42.fma(t3, t39)));
+    let t47 = t40.fma(T::lit(1.0801234497346435), t30).fma(t24, t42.fnma(T::lit(1.0801234497346435), t34).fma(t21, t28));
+    result(7, t47);
+    let t49 = t30.fma(T::lit(1.3416407864998738), t18).fma(t9, t34.fnma(T::lit(1.3416407864998738), t32).fma(t4, t15));
+    result(9, t49);
 }
 
 /// `basis:6`: The spherical harmonics of order 6 at a direction, accurate also near the poles (Sloan

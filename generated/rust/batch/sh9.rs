@@ -4,12 +4,12 @@
 // order n = bands 0 to n-1 = n^2 coefficients; a rotation R takes c to D(R) c, with y(R w) = D(R) y(w).
 
 use super::real::{Real, Signal};
-/// `rotate:9:setup`: The numbers that every band of `rotate:9` takes, once for all of them. Rotates
-/// order 9 exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
+/// `rotate:9:setup`: The numbers that bands of `rotate:9` take, once for all of them. Rotates order 9
+/// exactly, by z, y, z from a quaternion: no trigonometry, no branch, every angle.
 ///
 /// - q: the rotation, a unit quaternion (x, y, z, w).
-/// - Returns the 50 numbers that each band takes.
-/// - Operations: 103 (53 mul, 5 add, 45 fma) and 1 inverse square root or reciprocal; 2 constants, 14
+/// - Returns the 44 numbers that each band takes.
+/// - Operations: 90 (46 mul, 5 add, 39 fma) and 1 inverse square root or reciprocal; 1 constants, 14
 ///   live values.
 /// - Error: with its other pieces f32 rounding at most 1.8e-5 of the norm of a band, for every unit q
 ///   (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-6).
@@ -44,7 +44,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     let t25 = t24 + t24;
     result(7, t25);
     let t27 = t18 * t18;
-    result(8, T::lit(0.5) * t27);
+    result(8, t27);
     let t29 = t16 * t18;
     result(9, t29);
     let t31 = t14 * t20;
@@ -104,24 +104,12 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
     result(36, t84);
     let t86 = t14.fma(t74, t20 * t68);
     result(37, t86);
-    let t88 = t9.fms(t76, t12 * t78);
-    result(38, t88);
-    let t90 = t9.fma(t78, t12 * t76);
-    result(39, t90);
-    let t92 = t14.fms(t80, t20 * t86);
-    result(40, t92);
-    let t94 = t16.fms(t82, t18 * t84);
-    result(41, t94);
-    let t96 = t16.fma(t84, t18 * t82);
-    result(42, t96);
-    let t98 = t14.fma(t86, t20 * t80);
-    result(43, t98);
-    result(44, t9.fms(t88, t12 * t90));
-    result(45, t9.fma(t90, t12 * t88));
-    result(46, t14.fms(t92, t20 * t98));
-    result(47, t16.fms(t94, t18 * t96));
-    result(48, t16.fma(t96, t18 * t94));
-    result(49, t14.fma(t98, t20 * t92));
+    result(38, t9.fms(t76, t12 * t78));
+    result(39, t9.fma(t78, t12 * t76));
+    result(40, t14.fms(t80, t20 * t86));
+    result(41, t16.fms(t82, t18 * t84));
+    result(42, t16.fma(t84, t18 * t82));
+    result(43, t14.fma(t86, t20 * t80));
 }
 
 /// `rotate:9:band=1`: Band 1 of `rotate:9` alone, so that a band is loaded, changed and stored at a
@@ -137,7 +125,7 @@ pub fn rotate_setup<T: Real>(q: [T; 4], result: &mut impl FnMut(usize, T)) {
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -156,13 +144,13 @@ pub fn band_1_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 27 (12 mul, 1 add, 14 fma); 1 constants, 8 live values.
+/// - Operations: 28 (13 mul, 1 add, 14 fma); 2 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 1.8e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(4);
     let t2 = t1.fms(s[6], t0 * s[7]);
@@ -171,7 +159,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
     let t5 = c(1);
     let t6 = c(3);
     let t7 = t6.fms(s[0], t5 * s[1]);
-    let t8 = t4.fma(s[8], t7 * s[9]);
+    let t8 = t4.fma(T::lit(0.5) * s[8], t7 * s[9]);
     let t9 = t2 - t8;
     let t10 = t5.fma(s[0], t6 * s[1]);
     let t11 = t0.fma(s[6], t1 * s[7]);
@@ -198,7 +186,7 @@ pub fn band_2_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(6);
     let t1 = c(0);
     let t2 = t1.fma(s[13], t0 * s[14]);
@@ -252,7 +240,7 @@ pub fn band_3_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(8);
     let t1 = c(0);
     let t2 = t1.fma(s[20], t0 * s[21]);
@@ -318,7 +306,7 @@ pub fn band_4_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(10);
     let t1 = c(0);
     let t2 = t1.fma(s[26], t0 * s[27]);
@@ -403,7 +391,7 @@ pub fn band_5_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(12);
     let t1 = c(0);
     let t2 = t1.fma(s[32], t0 * s[33]);
@@ -507,7 +495,7 @@ pub fn band_6_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(14);
     let t1 = c(0);
     let t2 = t1.fma(s[38], t0 * s[39]);
@@ -620,152 +608,158 @@ pub fn band_7_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 8, m from -8 to 8.
 /// - Returns band 8 of the result, m from -8 to 8.
-/// - Operations: 214 (48 mul, 0 add, 166 fma); 42 constants, 27 live values.
+/// - Operations: 226 (54 mul, 0 add, 172 fma); 42 constants, 31 live values.
 /// - Error: with its other pieces f32 rounding at most 1.8e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.6e-6).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_8_rotate<T: Real, V: Signal<T>>(s: &[T; 50], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(16);
-    let t1 = c(0);
-    let t2 = t1.fma(s[44], t0 * s[45]);
-    let t3 = c(14);
-    let t4 = c(2);
-    let t5 = t4.fma(s[32], t3 * s[33]);
-    let t6 = c(12);
-    let t7 = c(4);
-    let t8 = c(10);
-    let t9 = c(6);
-    let t10 = t9.fma(s[6], t8 * s[7]);
-    let t11 = t10.fma(T::lit(0.08993260086675513), t7.fma(s[20], t6 * s[21]));
-    let t12 = t11.fnma(T::lit(0.17842214612899737), t10);
-    let t13 = t12.fma(T::lit(0.08993260086675513), t11);
-    let t14 = t12.fnma(T::lit(0.40035952127233077), t13.fnma(T::lit(0.20615658802137818), t5));
-    let t15 = t14.fnma(T::lit(1.6628030259735311), t5);
-    let t16 = t14.fma(T::lit(0.3427977983863263), t13);
-    let t17 = t14.fma(T::lit(0.6657190234489458), t12);
-    let t18 = t17.fnma(T::lit(0.8102873913406629), t16.fma(T::lit(0.5006882315714638), t15.fnma(T::lit(0.17927514494241262), t2)));
-    let t19 = t18.fnma(T::lit(1.03125), t2);
-    let t20 = c(15);
-    let t21 = c(1);
-    let t22 = c(11);
-    let t23 = c(5);
-    let t24 = t23.fma(s[13], t22 * s[14]);
-    let t25 = c(9);
-    let t26 = c(7);
-    let t27 = t26.fma(s[0], t25 * s[1]);
-    let t28 = t27.fnma(T::lit(0.5609681940050744), t24.fma(T::lit(0.8473185457363234), t21.fma(s[38], t20 * s[39])));
-    let t29 = c(13);
-    let t30 = c(3);
-    let t31 = t27.fnma(T::lit(0.4424976788687098), t24.fma(T::lit(0.35805743701971643), t30.fma(s[26], t29 * s[27])));
-    let t32 = t31.fma(T::lit(0.2181912506838897), t28.fms(T::lit(0.7745021082121081), t24));
-    let t33 = t31.fma(T::lit(0.4943528756111367), t28.fma(T::lit(0.4178044361600293), t27));
-    let t34 = t33.fnma(T::lit(0.5609681940050744), t32.fnma(T::lit(0.8473185457363234), t28));
-    let t35 = t19.fma(s[41], t34 * s[42]);
-    let t36 = t18.fma(T::lit(0.184877493221863), t15);
-    let t37 = t33.fnma(T::lit(0.4424976788687098), t32.fnma(T::lit(0.35805743701971643), t31));
-    let t38 = t36.fma(s[29], t37 * s[30]);
-    let t39 = t18.fnma(T::lit(0.516334738808072), t16);
-    let t40 = t18.fma(T::lit(0.8356088723200586), t17);
-    let t41 = t40.fms(s[3], t33 * s[4]);
-    let t42 = t41.fnma(T::lit(0.08993260086675513), t39.fma(s[17], t32 * s[18]));
-    let t43 = t42.fma(T::lit(0.17842214612899737), t41);
-    let t44 = t43.fnma(T::lit(0.08993260086675513), t42);
-    let t45 = t43.fnma(T::lit(0.4307182662175864), t44.fnma(T::lit(0.13141560106982153), t38));
-    let t46 = t45.fnma(T::lit(1.6628030259735311), t38);
-    let t47 = t45.fma(T::lit(0.21851825911902967), t44);
-    let t48 = t45.fma(T::lit(0.7161996364086757), t43);
-    let t49 = t48.fnma(T::lit(0.6779350703393059), t47.fma(T::lit(0.6463857275061073), t46.fnma(T::lit(0.2489647988659846), t35)));
-    let t50 = t49.fnma(T::lit(1.03125), t35);
-    let t51 = t6.fms(s[20], t7 * s[21]);
-    let t52 = t8.fms(s[6], t9 * s[7]);
-    let t53 = t52.fnma(T::lit(1.4750675156833248), t51.fnma(T::lit(0.11720180773462385), t0.fms(s[44], t1 * s[45])));
-    let t54 = t52.fnma(T::lit(0.44884875121270135), t51.fnma(T::lit(0.6847367880174606), t3.fms(s[32], t4 * s[33])));
-    let t55 = c(8);
-    let t56 = t52.fma(T::lit(1.1952286093343936), t51.fma(T::lit(0.6267831705280087), t55));
-    let t57 = t56.fma(T::lit(0.4113264556590057), t54.fnma(T::lit(0.7302075903467452), t53.fms(T::lit(0.3332926407453366), t51)));
-    let t58 = t56.fms(T::lit(0.3921843874378479), t53.fma(T::lit(0.6991205412874092), t52));
-    let t59 = t58.fma(T::lit(1.4750675156833248), t57.fma(T::lit(0.11720180773462385), t53));
-    let t60 = t20.fms(s[38], t21 * s[39]);
-    let t61 = t29.fms(s[26], t30 * s[27]);
-    let t62 = t25.fms(s[0], t26 * s[1]);
-    let t63 = t62.fnma(T::lit(0.08993260086675513), t22.fms(s[13], t23 * s[14]));
-    let t64 = t63.fma(T::lit(0.17842214612899737), t62);
-    let t65 = t64.fnma(T::lit(0.08993260086675513), t63);
-    let t66 = t64.fnma(T::lit(0.4307182662175864), t65.fnma(T::lit(0.13141560106982153), t61));
-    let t67 = t66.fnma(T::lit(1.6628030259735311), t61);
-    let t68 = t66.fma(T::lit(0.21851825911902967), t65);
-    let t69 = t66.fma(T::lit(0.7161996364086757), t64);
-    let t70 = t69.fnma(T::lit(0.6779350703393059), t68.fma(T::lit(0.6463857275061073), t67.fnma(T::lit(0.2489647988659846), t60)));
-    let t71 = t70.fnma(T::lit(1.03125), t60);
-    let t72 = t70.fnma(T::lit(0.6665852814906732), t68);
-    let t73 = t57.fma(s[24], t72 * s[23]);
-    let t74 = t70.fma(T::lit(0.6991205412874092), t69);
-    let t75 = t58.fma(s[12], t74 * s[15]);
-    let t76 = t75.fnma(T::lit(1.4750675156833248), t73.fnma(T::lit(0.11720180773462385), t59.fma(s[47], t71 * s[48])));
-    let t77 = t58.fma(T::lit(0.44884875121270135), t57.fma(T::lit(0.6847367880174606), t54));
-    let t78 = t70.fma(T::lit(0.2567449488305466), t67);
-    let t79 = t75.fnma(T::lit(0.44884875121270135), t73.fnma(T::lit(0.6847367880174606), t77.fma(s[35], t78 * s[36])));
-    let t80 = t73.fma(T::lit(0.6267831705280087), t58.fnma(T::lit(1.1952286093343936), t57.fnma(T::lit(0.6267831705280087), t56)));
-    let t81 = t75.fma(T::lit(1.1952286093343936), t80);
-    let t82 = t81.fma(T::lit(0.4113264556590057), t79.fnma(T::lit(0.7302075903467452), t76.fms(T::lit(0.3332926407453366), t73)));
-    let t83 = t81.fms(T::lit(0.3921843874378479), t76.fma(T::lit(0.6991205412874092), t75));
-    let t84 = t83.fma(T::lit(1.4750675156833248), t82.fma(T::lit(0.11720180773462385), t76));
-    result(0, t50.fma(s[46], t84 * s[49]));
-    let t86 = t32.fms(s[17], t39 * s[18]);
-    let t87 = t33.fma(s[3], t40 * s[4]);
-    let t88 = t87.fma(T::lit(0.5609681940050744), t86.fma(T::lit(0.8473185457363234), t34.fms(s[41], t19 * s[42])));
-    let t89 = t87.fma(T::lit(0.4424976788687098), t86.fma(T::lit(0.35805743701971643), t37.fms(s[29], t36 * s[30])));
-    let t90 = t89.fma(T::lit(0.2181912506838897), t88.fms(T::lit(0.7745021082121081), t86));
-    let t91 = t89.fnma(T::lit(0.4943528756111367), t88.fnma(T::lit(0.4178044361600293), t87));
-    let t92 = t91.fma(T::lit(0.5609681940050744), t90.fnma(T::lit(0.8473185457363234), t88));
-    let t93 = t71.fms(s[47], t59 * s[48]);
-    let t94 = t78.fms(s[35], t77 * s[36]);
-    let t95 = t74.fms(s[12], t58 * s[15]);
-    let t96 = t95.fma(T::lit(0.08993260086675513), t72.fms(s[24], t57 * s[23]));
-    let t97 = t96.fnma(T::lit(0.17842214612899737), t95);
-    let t98 = t97.fma(T::lit(0.08993260086675513), t96);
-    let t99 = t97.fnma(T::lit(0.40035952127233077), t98.fnma(T::lit(0.20615658802137818), t94));
-    let t100 = t99.fnma(T::lit(1.6628030259735311), t94);
-    let t101 = t99.fma(T::lit(0.3427977983863263), t98);
-    let t102 = t99.fma(T::lit(0.6657190234489458), t97);
-    let t103 = t102.fnma(T::lit(0.8102873913406629), t101.fma(T::lit(0.5006882315714638), t100.fnma(T::lit(0.17927514494241262), t93)));
-    let t104 = t103.fnma(T::lit(1.03125), t93);
-    result(1, t92.fma(s[40], t104 * s[43]));
-    let t106 = t49.fma(T::lit(0.2567449488305466), t46);
-    let t107 = t83.fma(T::lit(0.44884875121270135), t82.fma(T::lit(0.6847367880174606), t79));
-    result(2, t106.fma(s[34], t107 * s[37]));
-    let t109 = t91.fma(T::lit(0.4424976788687098), t90.fnma(T::lit(0.35805743701971643), t89));
-    let t110 = t103.fma(T::lit(0.184877493221863), t100);
-    result(3, t109.fma(s[28], t110 * s[31]));
-    let t112 = t49.fnma(T::lit(0.6665852814906732), t47);
-    result(4, t112.fma(s[22], t82 * s[25]));
-    let t114 = t103.fnma(T::lit(0.516334738808072), t101);
-    result(5, t90.fma(s[16], t114 * s[19]));
-    let t116 = t49.fma(T::lit(0.6991205412874092), t48);
-    result(6, t116.fma(s[11], t83 * s[10]));
-    let t118 = t103.fma(T::lit(0.8356088723200586), t102);
-    result(7, t91.fma(s[2], t118 * s[5]));
-    result(8, t83.fnma(T::lit(1.1952286093343936), t82.fnma(T::lit(0.6267831705280087), t81)));
-    result(9, t118.fms(s[2], t91 * s[5]));
-    result(10, t83.fms(s[11], t116 * s[10]));
-    result(11, t114.fms(s[16], t90 * s[19]));
-    result(12, t82.fms(s[22], t112 * s[25]));
-    result(13, t110.fms(s[28], t109 * s[31]));
-    result(14, t107.fms(s[34], t106 * s[37]));
-    result(15, t104.fms(s[40], t92 * s[43]));
-    result(16, t84.fms(s[46], t50 * s[49]));
+pub fn band_8_rotate<T: Real, V: Signal<T>>(s: &[T; 44], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = s[0].fms(s[38], s[1] * s[39]);
+    let t1 = s[0].fma(s[39], s[1] * s[38]);
+    let t2 = c(16);
+    let t3 = c(0);
+    let t4 = t3.fma(t0, t2 * t1);
+    let t5 = c(14);
+    let t6 = c(2);
+    let t7 = t6.fma(s[32], t5 * s[33]);
+    let t8 = c(12);
+    let t9 = c(4);
+    let t10 = c(10);
+    let t11 = c(6);
+    let t12 = t11.fma(s[6], t10 * s[7]);
+    let t13 = t12.fma(T::lit(0.08993260086675513), t9.fma(s[20], t8 * s[21]));
+    let t14 = t13.fnma(T::lit(0.17842214612899737), t12);
+    let t15 = t14.fma(T::lit(0.08993260086675513), t13);
+    let t16 = t14.fnma(T::lit(0.40035952127233077), t15.fnma(T::lit(0.20615658802137818), t7));
+    let t17 = t16.fnma(T::lit(1.6628030259735311), t7);
+    let t18 = t16.fma(T::lit(0.3427977983863263), t15);
+    let t19 = t16.fma(T::lit(0.6657190234489458), t14);
+    let t20 = t19.fnma(T::lit(0.8102873913406629), t18.fma(T::lit(0.5006882315714638), t17.fnma(T::lit(0.17927514494241262), t4)));
+    let t21 = t20.fnma(T::lit(1.03125), t4);
+    let t22 = c(15);
+    let t23 = c(1);
+    let t24 = c(11);
+    let t25 = c(5);
+    let t26 = t25.fma(s[13], t24 * s[14]);
+    let t27 = c(9);
+    let t28 = c(7);
+    let t29 = t28.fma(s[0], t27 * s[1]);
+    let t30 = t29.fnma(T::lit(0.5609681940050744), t26.fma(T::lit(0.8473185457363234), t23.fma(s[38], t22 * s[39])));
+    let t31 = c(13);
+    let t32 = c(3);
+    let t33 = t29.fnma(T::lit(0.4424976788687098), t26.fma(T::lit(0.35805743701971643), t32.fma(s[26], t31 * s[27])));
+    let t34 = t33.fma(T::lit(0.2181912506838897), t30.fms(T::lit(0.7745021082121081), t26));
+    let t35 = t33.fma(T::lit(0.4943528756111367), t30.fma(T::lit(0.4178044361600293), t29));
+    let t36 = t35.fnma(T::lit(0.5609681940050744), t34.fnma(T::lit(0.8473185457363234), t30));
+    let t37 = t21.fma(s[41], t36 * s[42]);
+    let t38 = t20.fma(T::lit(0.184877493221863), t17);
+    let t39 = t35.fnma(T::lit(0.4424976788687098), t34.fnma(T::lit(0.35805743701971643), t33));
+    let t40 = t38.fma(s[29], t39 * s[30]);
+    let t41 = t20.fnma(T::lit(0.516334738808072), t18);
+    let t42 = t20.fma(T::lit(0.8356088723200586), t19);
+    let t43 = t42.fms(s[3], t35 * s[4]);
+    let t44 = t43.fnma(T::lit(0.08993260086675513), t41.fma(s[17], t34 * s[18]));
+    let t45 = t44.fma(T::lit(0.17842214612899737), t43);
+    let t46 = t45.fnma(T::lit(0.08993260086675513), t44);
+    let t47 = t45.fnma(T::lit(0.4307182662175864), t46.fnma(T::lit(0.13141560106982153), t40));
+    let t48 = t47.fnma(T::lit(1.6628030259735311), t40);
+    let t49 = t47.fma(T::lit(0.21851825911902967), t46);
+    let t50 = t47.fma(T::lit(0.7161996364086757), t45);
+    let t51 = t50.fnma(T::lit(0.6779350703393059), t49.fma(T::lit(0.6463857275061073), t48.fnma(T::lit(0.2489647988659846), t37)));
+    let t52 = t51.fnma(T::lit(1.03125), t37);
+    let t53 = s[2].fms(s[40], s[5] * s[43]);
+    let t54 = t8.fms(s[20], t9 * s[21]);
+    let t55 = t10.fms(s[6], t11 * s[7]);
+    let t56 = t55.fnma(T::lit(1.4750675156833248), t54.fnma(T::lit(0.11720180773462385), t2.fms(t0, t3 * t1)));
+    let t57 = t55.fnma(T::lit(0.44884875121270135), t54.fnma(T::lit(0.6847367880174606), t5.fms(s[32], t6 * s[33])));
+    let t58 = c(8);
+    let t59 = t55.fma(T::lit(1.1952286093343936), t54.fma(T::lit(0.6267831705280087), t58));
+    let t60 = t59.fma(T::lit(0.4113264556590057), t57.fnma(T::lit(0.7302075903467452), t56.fms(T::lit(0.3332926407453366), t54)));
+    let t61 = t59.fms(T::lit(0.3921843874378479), t56.fma(T::lit(0.6991205412874092), t55));
+    let t62 = t61.fma(T::lit(1.4750675156833248), t60.fma(T::lit(0.11720180773462385), t56));
+    let t63 = s[3].fms(s[41], s[4] * s[42]);
+    let t64 = t22.fms(s[38], t23 * s[39]);
+    let t65 = t31.fms(s[26], t32 * s[27]);
+    let t66 = t27.fms(s[0], t28 * s[1]);
+    let t67 = t66.fnma(T::lit(0.08993260086675513), t24.fms(s[13], t25 * s[14]));
+    let t68 = t67.fma(T::lit(0.17842214612899737), t66);
+    let t69 = t68.fnma(T::lit(0.08993260086675513), t67);
+    let t70 = t68.fnma(T::lit(0.4307182662175864), t69.fnma(T::lit(0.13141560106982153), t65));
+    let t71 = t70.fnma(T::lit(1.6628030259735311), t65);
+    let t72 = t70.fma(T::lit(0.21851825911902967), t69);
+    let t73 = t70.fma(T::lit(0.7161996364086757), t68);
+    let t74 = t73.fnma(T::lit(0.6779350703393059), t72.fma(T::lit(0.6463857275061073), t71.fnma(T::lit(0.2489647988659846), t64)));
+    let t75 = t74.fnma(T::lit(1.03125), t64);
+    let t76 = s[3].fma(s[42], s[4] * s[41]);
+    let t77 = t74.fnma(T::lit(0.6665852814906732), t72);
+    let t78 = t60.fma(s[24], t77 * s[23]);
+    let t79 = t74.fma(T::lit(0.6991205412874092), t73);
+    let t80 = t61.fma(s[12], t79 * s[15]);
+    let t81 = t80.fnma(T::lit(1.4750675156833248), t78.fnma(T::lit(0.11720180773462385), t62.fma(t63, t75 * t76)));
+    let t82 = t61.fma(T::lit(0.44884875121270135), t60.fma(T::lit(0.6847367880174606), t57));
+    let t83 = t74.fma(T::lit(0.2567449488305466), t71);
+    let t84 = t80.fnma(T::lit(0.44884875121270135), t78.fnma(T::lit(0.6847367880174606), t82.fma(s[35], t83 * s[36])));
+    let t85 = t78.fma(T::lit(0.6267831705280087), t61.fnma(T::lit(1.1952286093343936), t60.fnma(T::lit(0.6267831705280087), t59)));
+    let t86 = t80.fma(T::lit(1.1952286093343936), t85);
+    let t87 = t86.fma(T::lit(0.4113264556590057), t84.fnma(T::lit(0.7302075903467452), t81.fms(T::lit(0.3332926407453366), t78)));
+    let t88 = t86.fms(T::lit(0.3921843874378479), t81.fma(T::lit(0.6991205412874092), t80));
+    let t89 = t88.fma(T::lit(1.4750675156833248), t87.fma(T::lit(0.11720180773462385), t81));
+    let t90 = s[2].fma(s[43], s[5] * s[40]);
+    result(0, t52.fma(t53, t89 * t90));
+    let t92 = t34.fms(s[17], t41 * s[18]);
+    let t93 = t35.fma(s[3], t42 * s[4]);
+    let t94 = t93.fma(T::lit(0.5609681940050744), t92.fma(T::lit(0.8473185457363234), t36.fms(s[41], t21 * s[42])));
+    let t95 = t93.fma(T::lit(0.4424976788687098), t92.fma(T::lit(0.35805743701971643), t39.fms(s[29], t38 * s[30])));
+    let t96 = t95.fma(T::lit(0.2181912506838897), t94.fms(T::lit(0.7745021082121081), t92));
+    let t97 = t95.fnma(T::lit(0.4943528756111367), t94.fnma(T::lit(0.4178044361600293), t93));
+    let t98 = t97.fma(T::lit(0.5609681940050744), t96.fnma(T::lit(0.8473185457363234), t94));
+    let t99 = t75.fms(t63, t62 * t76);
+    let t100 = t83.fms(s[35], t82 * s[36]);
+    let t101 = t79.fms(s[12], t61 * s[15]);
+    let t102 = t101.fma(T::lit(0.08993260086675513), t77.fms(s[24], t60 * s[23]));
+    let t103 = t102.fnma(T::lit(0.17842214612899737), t101);
+    let t104 = t103.fma(T::lit(0.08993260086675513), t102);
+    let t105 = t103.fnma(T::lit(0.40035952127233077), t104.fnma(T::lit(0.20615658802137818), t100));
+    let t106 = t105.fnma(T::lit(1.6628030259735311), t100);
+    let t107 = t105.fma(T::lit(0.3427977983863263), t104);
+    let t108 = t105.fma(T::lit(0.6657190234489458), t103);
+    let t109 = t108.fnma(T::lit(0.8102873913406629), t107.fma(T::lit(0.5006882315714638), t106.fnma(T::lit(0.17927514494241262), t99)));
+    let t110 = t109.fnma(T::lit(1.03125), t99);
+    result(1, t98.fma(s[40], t110 * s[43]));
+    let t112 = t51.fma(T::lit(0.2567449488305466), t48);
+    let t113 = t88.fma(T::lit(0.44884875121270135), t87.fma(T::lit(0.6847367880174606), t84));
+    result(2, t112.fma(s[34], t113 * s[37]));
+    let t115 = t97.fma(T::lit(0.4424976788687098), t96.fnma(T::lit(0.35805743701971643), t95));
+    let t116 = t109.fma(T::lit(0.184877493221863), t106);
+    result(3, t115.fma(s[28], t116 * s[31]));
+    let t118 = t51.fnma(T::lit(0.6665852814906732), t49);
+    result(4, t118.fma(s[22], t87 * s[25]));
+    let t120 = t109.fnma(T::lit(0.516334738808072), t107);
+    result(5, t96.fma(s[16], t120 * s[19]));
+    let t122 = t51.fma(T::lit(0.6991205412874092), t50);
+    result(6, t122.fma(s[11], t88 * s[10]));
+    let t124 = t109.fma(T::lit(0.8356088723200586), t108);
+    result(7, t97.fma(s[2], t124 * s[5]));
+    result(8, t88.fnma(T::lit(1.1952286093343936), t87.fnma(T::lit(0.6267831705280087), t86)));
+    result(9, t124.fms(s[2], t97 * s[5]));
+    result(10, t88.fms(s[11], t122 * s[10]));
+    result(11, t120.fms(s[16], t96 * s[19]));
+    result(12, t87.fms(s[22], t118 * s[25]));
+    result(13, t116.fms(s[28], t115 * s[31]));
+    result(14, t113.fms(s[34], t112 * s[37]));
+    result(15, t110.fms(s[40], t98 * s[43]));
+    result(16, t89.fms(t53, t52 * t90));
 }
 
-/// `tilt:9:setup`: The numbers that every band of `tilt:9` takes, once for all of them. Tilts order 9:
-/// the shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
+/// `tilt:9:setup`: The numbers that bands of `tilt:9` take, once for all of them. Tilts order 9: the
+/// shortest rotation from z to a normal, with no trigonometry; bands 1 and 2 exactly, the others by
 /// shears that are regular at n = z (lf3). The inverse is the same with (-n.x, -n.y, n.z).
 ///
 /// - n: where the z axis goes, of unit length.
-/// - Returns the 83 numbers that each band takes.
-/// - Operations: 94 (80 mul, 1 add, 13 fma) and 1 inverse square root or reciprocal; 48 constants, 6
-///   live values.
+/// - Returns the 5 numbers that each band takes.
+/// - Operations: 3 (1 mul, 1 add, 1 fma) and 1 inverse square root or reciprocal; 1 constants, 1 live
+///   values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for an angle up to
 ///   25 degrees (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.4e-6).
 ///   Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15, 2e1 at
@@ -776,124 +770,8 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, n[0]);
     result(1, n[1]);
     result(3, n[2]);
-    let t3 = T::recip(n[2] + T::lit(1.0));
-    result(2, t3);
-    result(4, T::lit(0.5) * t3);
-    let t6 = n[0].fma(n[0], n[1] * n[1]);
-    let t7 = T::lit(0.9185586535436918).fma(t6, T::lit(1.224744871391589));
-    let t8 = n[0] * t7;
-    result(6, t8);
-    result(5, T::lit(0.5) * t8);
-    let t11 = n[1] * t7;
-    result(8, t11);
-    result(7, T::lit(0.5) * t11);
-    let t14 = T::lit(1.5811388300841898).fnma(t6, T::lit(1.5811388300841898));
-    let t15 = n[0] * t14;
-    result(10, t15);
-    result(9, T::lit(0.7745966692414834) * t15);
-    let t18 = n[1] * t14;
-    result(12, t18);
-    result(11, T::lit(0.7745966692414834) * t18);
-    let t21 = T::lit(1.8446619684315546).fma(t6, T::lit(1.5811388300841898));
-    let t22 = n[0] * t21;
-    result(14, t22);
-    result(13, T::lit(0.4472135954999579) * t22);
-    let t25 = n[1] * t21;
-    result(16, t25);
-    result(15, T::lit(0.4472135954999579) * t25);
-    result(17, T::lit(0.5916079783099616) * t22);
-    result(18, T::lit(0.5916079783099616) * t25);
-    let t30 = T::lit(3.8890872965260113).fnma(t6, T::lit(2.1213203435596424));
-    let t31 = n[0] * t30;
-    result(20, t31);
-    result(19, T::lit(0.6666666666666666) * t31);
-    let t34 = n[1] * t30;
-    result(22, t34);
-    result(21, T::lit(0.6666666666666666) * t34);
-    let t37 = T::lit(3.3888604279314896).fma(t6, T::lit(1.9364916731037085));
-    let t38 = n[0] * t37;
-    result(24, t38);
-    result(23, T::lit(0.408248290463863) * t38);
-    let t41 = n[1] * t37;
-    result(26, t41);
-    result(25, T::lit(0.408248290463863) * t41);
-    let t44 = T::lit(7.937253933193772).fnma(t6, T::lit(2.6457513110645907));
-    let t45 = n[0] * t44;
-    result(28, t45);
-    result(27, T::lit(0.5976143046671968) * t45);
-    let t48 = n[1] * t44;
-    result(30, t48);
-    result(29, T::lit(0.5976143046671968) * t48);
-    result(31, T::lit(0.6324555320336759) * t38);
-    result(32, T::lit(0.6324555320336759) * t41);
-    result(33, T::lit(0.8017837257372732) * t45);
-    result(34, T::lit(0.8017837257372732) * t48);
-    let t55 = T::lit(5.537278964738307).fma(t6, T::lit(2.29128784747792));
-    let t56 = n[0] * t55;
-    result(36, t56);
-    result(35, T::lit(0.37796447300922725) * t56);
-    let t59 = n[1] * t55;
-    result(38, t59);
-    result(37, T::lit(0.37796447300922725) * t59);
-    result(39, T::lit(0.511766315719159) * t56);
-    result(40, T::lit(0.511766315719159) * t59);
-    let t64 = T::lit(13.703203194062977).fnma(t6, T::lit(3.1622776601683795));
-    let t65 = n[0] * t64;
-    result(42, t65);
-    result(41, T::lit(0.5477225575051661) * t65);
-    let t68 = n[1] * t64;
-    result(44, t68);
-    result(43, T::lit(0.5477225575051661) * t68);
-    result(45, T::lit(0.6546536707079772) * t56);
-    result(46, T::lit(0.6546536707079772) * t59);
-    result(47, T::lit(0.8660254037844386) * t65);
-    result(48, T::lit(0.8660254037844386) * t68);
-    let t75 = T::lit(8.59869176095992).fma(t6, T::lit(2.6457513110645907));
-    let t76 = n[0] * t75;
-    result(50, t76);
-    result(49, T::lit(0.3535533905932738) * t76);
-    let t79 = n[1] * t75;
-    result(52, t79);
-    result(51, T::lit(0.3535533905932738) * t79);
-    let t82 = T::lit(22.045407685048602).fnma(t6, T::lit(3.6742346141747673));
-    let t83 = n[0] * t82;
-    result(54, t83);
-    result(53, T::lit(0.5091750772173156) * t83);
-    let t86 = n[1] * t82;
-    result(56, t86);
-    result(55, T::lit(0.5091750772173156) * t86);
-    result(57, T::lit(0.5669467095138409) * t76);
-    result(58, T::lit(0.5669467095138409) * t79);
-    result(59, T::lit(0.693888666488711) * t83);
-    result(60, T::lit(0.693888666488711) * t86);
-    result(61, T::lit(0.6681531047810609) * t76);
-    result(62, T::lit(0.6681531047810609) * t79);
-    result(63, T::lit(0.90267093384844) * t83);
-    result(64, T::lit(0.90267093384844) * t86);
-    let t97 = T::lit(12.5).fma(t6, T::lit(3.0));
-    let t98 = n[0] * t97;
-    result(66, t98);
-    result(65, T::lit(0.3333333333333333) * t98);
-    let t101 = n[1] * t97;
-    result(68, t101);
-    result(67, T::lit(0.3333333333333333) * t101);
-    result(69, T::lit(0.45643546458763845) * t98);
-    result(70, T::lit(0.45643546458763845) * t101);
-    let t106 = T::lit(32.769184372584625).fnma(t6, T::lit(4.183300132670378));
-    let t107 = n[0] * t106;
-    result(72, t107);
-    result(71, T::lit(0.47809144373375745) * t107);
-    let t110 = n[1] * t106;
-    result(74, t110);
-    result(73, T::lit(0.47809144373375745) * t110);
-    result(75, T::lit(0.6009252125773316) * t98);
-    result(76, T::lit(0.6009252125773316) * t101);
-    result(77, T::lit(0.7745966692414834) * t107);
-    result(78, T::lit(0.7745966692414834) * t110);
-    result(79, T::lit(0.67700320038633) * t98);
-    result(80, T::lit(0.67700320038633) * t101);
-    result(81, T::lit(0.9258200997725514) * t107);
-    result(82, T::lit(0.9258200997725514) * t110);
+    result(2, T::recip(n[2] + T::lit(1.0)));
+    result(4, n[0].fma(n[0], n[1] * n[1]));
 }
 
 /// `tilt:9:band=1`: Band 1 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -911,7 +789,7 @@ pub fn tilt_setup<T: Real>(n: [T; 3], result: &mut impl FnMut(usize, T)) {
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(0);
     let t1 = c(2);
     let t2 = t1.fma(s[0], t0 * s[1]);
@@ -930,14 +808,14 @@ pub fn band_1_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 2, m from -2 to 2.
 /// - Returns band 2 of the result, m from -2 to 2.
-/// - Operations: 29 (7 mul, 1 add, 21 fma); 2 constants, 8 live values.
+/// - Operations: 30 (8 mul, 1 add, 21 fma); 3 constants, 8 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(4);
     let t2 = c(0);
@@ -947,7 +825,7 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
     let t6 = c(3);
     let t7 = t6.fma(s[0], t5 * s[1]);
     let t8 = t3.fma(s[0], t4 * s[1]).fma(s[2], t7 * T::lit(2.0));
-    let t9 = t8 * s[4];
+    let t9 = t8 * (T::lit(0.5) * s[2]);
     let t10 = t9.fms(s[1], t4.fma(s[2], t5));
     let t11 = t9.fms(s[0], t3.fma(s[2], t6));
     result(0, t11.fma(s[1], t10.fma(s[0], t2)));
@@ -967,37 +845,47 @@ pub fn band_2_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 3, m from -3 to 3.
 /// - Returns band 3 of the result, m from -3 to 3.
-/// - Operations: 30 (0 mul, 0 add, 30 fma); 2 constants, 8 live values.
+/// - Operations: 40 (8 mul, 0 add, 32 fma); 7 constants, 14 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(4);
-    let t4 = c(6);
-    let t5 = t3.fma(T::lit(1.2909944487358056), t4).fnma(s[7], t0.fnma(T::lit(1.2909944487358056), t1).fma(s[5], t2));
-    let t6 = c(5);
-    let t7 = t0.fma(T::lit(1.2909944487358056), t1).fma(s[7], t3.fnma(T::lit(1.2909944487358056), t4).fma(s[5], t6));
-    let t8 = t7.fnma(s[11], t5.fnma(s[9], t1));
-    result(0, t8);
-    let t10 = c(3);
-    let t11 = t0.fma(s[8], t3.fma(s[6], t10));
-    let t12 = t11.fma(T::lit(1.5491933384829668), t7).fnma(s[12], t5.fma(s[10], t0));
-    result(2, t12);
-    let t14 = t5.fma(s[11], t7.fnma(s[9], t4));
-    result(6, t14);
-    let t16 = t5.fma(s[12], t11.fnma(T::lit(1.5491933384829668), t7).fma(s[10], t3));
-    result(4, t16);
-    let t18 = t16.fma(T::lit(1.2909944487358056), t14).fnma(s[7], t12.fnma(T::lit(1.2909944487358056), t8).fma(s[5], t5));
-    result(1, t18);
-    result(3, t12.fma(s[8], t16.fma(s[6], t11)));
-    let t21 = t12.fma(T::lit(1.2909944487358056), t8).fma(s[7], t16.fnma(T::lit(1.2909944487358056), t14).fma(s[5], t7));
-    result(5, t21);
+    let t2 = T::lit(0.9185586535436918).fma(s[4], T::lit(1.224744871391589));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.5) * t3;
+    let t5 = c(1);
+    let t6 = c(4);
+    let t7 = c(6);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.5) * t8;
+    let t10 = t6.fma(T::lit(1.2909944487358056), t7).fnma(t9, t0.fnma(T::lit(1.2909944487358056), t1).fma(t4, t5));
+    let t11 = T::lit(1.5811388300841898).fnma(s[4], T::lit(1.5811388300841898));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.7745966692414834) * t12;
+    let t14 = c(5);
+    let t15 = t0.fma(T::lit(1.2909944487358056), t1).fma(t9, t6.fnma(T::lit(1.2909944487358056), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.7745966692414834) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(3);
+    let t21 = t0.fma(t8, t6.fma(t3, t20));
+    let t22 = t21.fma(T::lit(1.5491933384829668), t15).fnma(t16, t10.fma(t12, t0));
+    result(2, t22);
+    let t24 = t10.fma(t17, t15.fnma(t13, t7));
+    result(6, t24);
+    let t26 = t10.fma(t16, t21.fnma(T::lit(1.5491933384829668), t15).fma(t12, t6));
+    result(4, t26);
+    let t28 = t26.fma(T::lit(1.2909944487358056), t24).fnma(t9, t22.fnma(T::lit(1.2909944487358056), t18).fma(t4, t10));
+    result(1, t28);
+    result(3, t22.fma(t8, t26.fma(t3, t21)));
+    let t31 = t22.fma(T::lit(1.2909944487358056), t18).fma(t9, t26.fnma(T::lit(1.2909944487358056), t24).fma(t4, t15));
+    result(5, t31);
 }
 
 /// `tilt:9:band=4`: Band 4 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -1008,43 +896,55 @@ pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 4, m from -4 to 4.
 /// - Returns band 4 of the result, m from -4 to 4.
-/// - Operations: 42 (0 mul, 0 add, 42 fma); 3 constants, 9 live values.
+/// - Operations: 54 (10 mul, 0 add, 44 fma); 10 constants, 17 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(7);
-    let t3 = t2.fnma(s[15], t0.fnma(s[13], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(5);
-    let t7 = t6.fma(T::lit(1.1338934190276817), t2).fnma(s[18], t4.fnma(T::lit(1.1338934190276817), t0).fma(s[17], t5));
-    let t8 = c(8);
-    let t9 = t0.fma(s[15], t2.fnma(s[13], t8));
-    let t10 = c(6);
-    let t11 = t4.fma(T::lit(1.1338934190276817), t0).fma(s[18], t6.fnma(T::lit(1.1338934190276817), t2).fma(s[17], t10));
-    let t12 = t11.fma(T::lit(1.3228756555322954), t9).fnma(s[21], t7.fnma(T::lit(1.3228756555322954), t3).fma(s[19], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3228756555322954), t3).fma(s[21], t11.fnma(T::lit(1.3228756555322954), t9).fma(s[19], t2));
-    result(7, t14);
-    result(0, t14.fnma(s[15], t12.fnma(s[13], t3)));
-    let t17 = c(4);
-    let t18 = t4.fma(s[16], t6.fma(s[14], t17));
-    let t19 = t18.fma(T::lit(1.4907119849998598), t11).fnma(s[22], t7.fma(s[20], t4));
-    result(3, t19);
-    let t21 = t7.fma(s[22], t18.fnma(T::lit(1.4907119849998598), t11).fma(s[20], t6));
-    result(5, t21);
-    let t23 = t21.fma(T::lit(1.1338934190276817), t14).fnma(s[18], t19.fnma(T::lit(1.1338934190276817), t12).fma(s[17], t7));
-    result(2, t23);
-    result(4, t19.fma(s[16], t21.fma(s[14], t18)));
-    let t26 = t19.fma(T::lit(1.1338934190276817), t12).fma(s[18], t21.fnma(T::lit(1.1338934190276817), t14).fma(s[17], t11));
-    result(6, t26);
-    result(8, t12.fma(s[15], t14.fnma(s[13], t9)));
+pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(1.8446619684315546).fma(s[4], T::lit(1.5811388300841898));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.4472135954999579) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.4472135954999579) * t5;
+    let t7 = c(7);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.5916079783099616) * t1;
+    let t11 = c(2);
+    let t12 = c(5);
+    let t13 = T::lit(0.5916079783099616) * t5;
+    let t14 = t12.fma(T::lit(1.1338934190276817), t7).fnma(t13, t9.fnma(T::lit(1.1338934190276817), t3).fma(t10, t11));
+    let t15 = T::lit(3.8890872965260113).fnma(s[4], T::lit(2.1213203435596424));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.6666666666666666) * t16;
+    let t18 = c(8);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(6);
+    let t21 = t9.fma(T::lit(1.1338934190276817), t3).fma(t13, t12.fnma(T::lit(1.1338934190276817), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.6666666666666666) * t22;
+    let t24 = t21.fma(T::lit(1.3228756555322954), t19).fnma(t23, t14.fnma(T::lit(1.3228756555322954), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3228756555322954), t8).fma(t23, t21.fnma(T::lit(1.3228756555322954), t19).fma(t17, t7));
+    result(7, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(4);
+    let t30 = t9.fma(t5, t12.fma(t1, t29));
+    let t31 = t30.fma(T::lit(1.4907119849998598), t21).fnma(t22, t14.fma(t16, t9));
+    result(3, t31);
+    let t33 = t14.fma(t22, t30.fnma(T::lit(1.4907119849998598), t21).fma(t16, t12));
+    result(5, t33);
+    let t35 = t33.fma(T::lit(1.1338934190276817), t26).fnma(t13, t31.fnma(T::lit(1.1338934190276817), t24).fma(t10, t14));
+    result(2, t35);
+    result(4, t31.fma(t5, t33.fma(t1, t30)));
+    let t38 = t31.fma(T::lit(1.1338934190276817), t24).fma(t13, t33.fnma(T::lit(1.1338934190276817), t26).fma(t10, t21));
+    result(6, t38);
+    result(8, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:9:band=5`: Band 5 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -1055,51 +955,65 @@ pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 5, m from -5 to 5.
 /// - Returns band 5 of the result, m from -5 to 5.
-/// - Operations: 54 (0 mul, 0 add, 54 fma); 4 constants, 11 live values.
+/// - Operations: 68 (12 mul, 0 add, 56 fma); 12 constants, 19 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(8);
-    let t4 = c(10);
-    let t5 = t3.fma(T::lit(1.3416407864998738), t4).fnma(s[25], t0.fnma(T::lit(1.3416407864998738), t1).fma(s[23], t2));
-    let t6 = c(9);
-    let t7 = t0.fma(T::lit(1.3416407864998738), t1).fma(s[25], t3.fnma(T::lit(1.3416407864998738), t4).fma(s[23], t6));
-    let t8 = t7.fnma(s[29], t5.fnma(s[27], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(6);
-    let t13 = t12.fma(T::lit(1.0801234497346435), t3).fnma(s[32], t10.fnma(T::lit(1.0801234497346435), t0).fma(s[31], t11));
-    let t14 = c(7);
-    let t15 = t10.fma(T::lit(1.0801234497346435), t0).fma(s[32], t12.fnma(T::lit(1.0801234497346435), t3).fma(s[31], t14));
-    let t16 = t15.fma(T::lit(1.1547005383792515), t7).fnma(s[34], t13.fnma(T::lit(1.1547005383792515), t5).fma(s[33], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[29], t7.fnma(s[27], t4));
-    result(10, t18);
-    let t20 = t13.fma(T::lit(1.1547005383792515), t5).fma(s[34], t15.fnma(T::lit(1.1547005383792515), t7).fma(s[33], t3));
-    result(8, t20);
-    let t22 = t20.fma(T::lit(1.3416407864998738), t18).fnma(s[25], t16.fnma(T::lit(1.3416407864998738), t8).fma(s[23], t5));
-    result(1, t22);
-    let t24 = c(5);
-    let t25 = t10.fma(s[26], t12.fma(s[24], t24));
-    let t26 = t25.fma(T::lit(1.4638501094227998), t15).fnma(s[30], t13.fma(s[28], t10));
-    result(4, t26);
-    let t28 = t13.fma(s[30], t25.fnma(T::lit(1.4638501094227998), t15).fma(s[28], t12));
-    result(6, t28);
-    let t30 = t28.fma(T::lit(1.0801234497346435), t20).fnma(s[32], t26.fnma(T::lit(1.0801234497346435), t16).fma(s[31], t13));
-    result(3, t30);
-    result(5, t26.fma(s[26], t28.fma(s[24], t25)));
-    let t33 = t26.fma(T::lit(1.0801234497346435), t16).fma(s[32], t28.fnma(T::lit(1.0801234497346435), t20).fma(s[31], t15));
-    result(7, t33);
-    let t35 = t16.fma(T::lit(1.3416407864998738), t8).fma(s[25], t20.fnma(T::lit(1.3416407864998738), t18).fma(s[23], t7));
-    result(9, t35);
+    let t2 = T::lit(3.3888604279314896).fma(s[4], T::lit(1.9364916731037085));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.408248290463863) * t3;
+    let t5 = c(1);
+    let t6 = c(8);
+    let t7 = c(10);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.408248290463863) * t8;
+    let t10 = t6.fma(T::lit(1.3416407864998738), t7).fnma(t9, t0.fnma(T::lit(1.3416407864998738), t1).fma(t4, t5));
+    let t11 = T::lit(7.937253933193772).fnma(s[4], T::lit(2.6457513110645907));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.5976143046671968) * t12;
+    let t14 = c(9);
+    let t15 = t0.fma(T::lit(1.3416407864998738), t1).fma(t9, t6.fnma(T::lit(1.3416407864998738), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.5976143046671968) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.6324555320336759) * t3;
+    let t22 = c(3);
+    let t23 = c(6);
+    let t24 = T::lit(0.6324555320336759) * t8;
+    let t25 = t23.fma(T::lit(1.0801234497346435), t6).fnma(t24, t20.fnma(T::lit(1.0801234497346435), t0).fma(t21, t22));
+    let t26 = T::lit(0.8017837257372732) * t12;
+    let t27 = c(7);
+    let t28 = t20.fma(T::lit(1.0801234497346435), t0).fma(t24, t23.fnma(T::lit(1.0801234497346435), t6).fma(t21, t27));
+    let t29 = T::lit(0.8017837257372732) * t16;
+    let t30 = t28.fma(T::lit(1.1547005383792515), t15).fnma(t29, t25.fnma(T::lit(1.1547005383792515), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(10, t32);
+    let t34 = t25.fma(T::lit(1.1547005383792515), t10).fma(t29, t28.fnma(T::lit(1.1547005383792515), t15).fma(t26, t6));
+    result(8, t34);
+    let t36 = t34.fma(T::lit(1.3416407864998738), t32).fnma(t9, t30.fnma(T::lit(1.3416407864998738), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(5);
+    let t39 = t20.fma(t8, t23.fma(t3, t38));
+    let t40 = t39.fma(T::lit(1.4638501094227998), t28).fnma(t16, t25.fma(t12, t20));
+    result(4, t40);
+    let t42 = t25.fma(t16, t39.fnma(T::lit(1.4638501094227998), t28).fma(t12, t23));
+    result(6, t42);
+    let t44 = t42.fma(T::lit(1.0801234497346435), t34).fnma(t24, t40.fnma(T::lit(1.0801234497346435), t30).fma(t21, t25));
+    result(3, t44);
+    result(5, t40.fma(t8, t42.fma(t3, t39)));
+    let t47 = t40.fma(T::lit(1.0801234497346435), t30).fma(t24, t42.fnma(T::lit(1.0801234497346435), t34).fma(t21, t28));
+    result(7, t47);
+    let t49 = t30.fma(T::lit(1.3416407864998738), t18).fma(t9, t34.fnma(T::lit(1.3416407864998738), t32).fma(t4, t15));
+    result(9, t49);
 }
 
 /// `tilt:9:band=6`: Band 6 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -1110,57 +1024,73 @@ pub fn band_5_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 6, m from -6 to 6.
 /// - Returns band 6 of the result, m from -6 to 6.
-/// - Operations: 66 (0 mul, 0 add, 66 fma); 5 constants, 12 live values.
+/// - Operations: 82 (14 mul, 0 add, 68 fma); 14 constants, 22 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(11);
-    let t3 = t2.fnma(s[37], t0.fnma(s[35], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(9);
-    let t7 = t6.fma(T::lit(1.1677484162422844), t2).fnma(s[40], t4.fnma(T::lit(1.1677484162422844), t0).fma(s[39], t5));
-    let t8 = c(12);
-    let t9 = t0.fma(s[37], t2.fnma(s[35], t8));
-    let t10 = c(10);
-    let t11 = t4.fma(T::lit(1.1677484162422844), t0).fma(s[40], t6.fnma(T::lit(1.1677484162422844), t2).fma(s[39], t10));
-    let t12 = t11.fma(T::lit(1.35400640077266), t9).fnma(s[43], t7.fnma(T::lit(1.35400640077266), t3).fma(s[41], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.35400640077266), t3).fma(s[43], t11.fnma(T::lit(1.35400640077266), t9).fma(s[41], t2));
-    result(11, t14);
-    result(0, t14.fnma(s[37], t12.fnma(s[35], t3)));
-    let t17 = c(5);
-    let t18 = c(4);
-    let t19 = c(7);
-    let t20 = t19.fma(T::lit(1.0540925533894598), t6).fnma(s[46], t17.fnma(T::lit(1.0540925533894598), t4).fma(s[45], t18));
-    let t21 = c(8);
-    let t22 = t17.fma(T::lit(1.0540925533894598), t4).fma(s[46], t19.fnma(T::lit(1.0540925533894598), t6).fma(s[45], t21));
-    let t23 = t22.fma(T::lit(1.0954451150103321), t11).fnma(s[48], t20.fnma(T::lit(1.0954451150103321), t7).fma(s[47], t4));
-    result(3, t23);
-    let t25 = t20.fma(T::lit(1.0954451150103321), t7).fma(s[48], t22.fnma(T::lit(1.0954451150103321), t11).fma(s[47], t6));
-    result(9, t25);
-    let t27 = t25.fma(T::lit(1.1677484162422844), t14).fnma(s[40], t23.fnma(T::lit(1.1677484162422844), t12).fma(s[39], t7));
-    result(2, t27);
-    let t29 = c(6);
-    let t30 = t17.fma(s[38], t19.fma(s[36], t29));
-    let t31 = t30.fma(T::lit(1.449137674618944), t22).fnma(s[44], t20.fma(s[42], t17));
-    result(5, t31);
-    let t33 = t20.fma(s[44], t30.fnma(T::lit(1.449137674618944), t22).fma(s[42], t19));
-    result(7, t33);
-    let t35 = t33.fma(T::lit(1.0540925533894598), t25).fnma(s[46], t31.fnma(T::lit(1.0540925533894598), t23).fma(s[45], t20));
-    result(4, t35);
-    result(6, t31.fma(s[38], t33.fma(s[36], t30)));
-    let t38 = t31.fma(T::lit(1.0540925533894598), t23).fma(s[46], t33.fnma(T::lit(1.0540925533894598), t25).fma(s[45], t22));
-    result(8, t38);
-    let t40 = t23.fma(T::lit(1.1677484162422844), t12).fma(s[40], t25.fnma(T::lit(1.1677484162422844), t14).fma(s[39], t11));
-    result(10, t40);
-    result(12, t12.fma(s[37], t14.fnma(s[35], t9)));
+pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(5.537278964738307).fma(s[4], T::lit(2.29128784747792));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.37796447300922725) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.37796447300922725) * t5;
+    let t7 = c(11);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.511766315719159) * t1;
+    let t11 = c(2);
+    let t12 = c(9);
+    let t13 = T::lit(0.511766315719159) * t5;
+    let t14 = t12.fma(T::lit(1.1677484162422844), t7).fnma(t13, t9.fnma(T::lit(1.1677484162422844), t3).fma(t10, t11));
+    let t15 = T::lit(13.703203194062977).fnma(s[4], T::lit(3.1622776601683795));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.5477225575051661) * t16;
+    let t18 = c(12);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(10);
+    let t21 = t9.fma(T::lit(1.1677484162422844), t3).fma(t13, t12.fnma(T::lit(1.1677484162422844), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.5477225575051661) * t22;
+    let t24 = t21.fma(T::lit(1.35400640077266), t19).fnma(t23, t14.fnma(T::lit(1.35400640077266), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.35400640077266), t8).fma(t23, t21.fnma(T::lit(1.35400640077266), t19).fma(t17, t7));
+    result(11, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(5);
+    let t30 = T::lit(0.6546536707079772) * t1;
+    let t31 = c(4);
+    let t32 = c(7);
+    let t33 = T::lit(0.6546536707079772) * t5;
+    let t34 = t32.fma(T::lit(1.0540925533894598), t12).fnma(t33, t29.fnma(T::lit(1.0540925533894598), t9).fma(t30, t31));
+    let t35 = T::lit(0.8660254037844386) * t16;
+    let t36 = c(8);
+    let t37 = t29.fma(T::lit(1.0540925533894598), t9).fma(t33, t32.fnma(T::lit(1.0540925533894598), t12).fma(t30, t36));
+    let t38 = T::lit(0.8660254037844386) * t22;
+    let t39 = t37.fma(T::lit(1.0954451150103321), t21).fnma(t38, t34.fnma(T::lit(1.0954451150103321), t14).fma(t35, t9));
+    result(3, t39);
+    let t41 = t34.fma(T::lit(1.0954451150103321), t14).fma(t38, t37.fnma(T::lit(1.0954451150103321), t21).fma(t35, t12));
+    result(9, t41);
+    let t43 = t41.fma(T::lit(1.1677484162422844), t26).fnma(t13, t39.fnma(T::lit(1.1677484162422844), t24).fma(t10, t14));
+    result(2, t43);
+    let t45 = c(6);
+    let t46 = t29.fma(t5, t32.fma(t1, t45));
+    let t47 = t46.fma(T::lit(1.449137674618944), t37).fnma(t22, t34.fma(t16, t29));
+    result(5, t47);
+    let t49 = t34.fma(t22, t46.fnma(T::lit(1.449137674618944), t37).fma(t16, t32));
+    result(7, t49);
+    let t51 = t49.fma(T::lit(1.0540925533894598), t41).fnma(t33, t47.fnma(T::lit(1.0540925533894598), t39).fma(t30, t34));
+    result(4, t51);
+    result(6, t47.fma(t5, t49.fma(t1, t46)));
+    let t54 = t47.fma(T::lit(1.0540925533894598), t39).fma(t33, t49.fnma(T::lit(1.0540925533894598), t41).fma(t30, t37));
+    result(8, t54);
+    let t56 = t39.fma(T::lit(1.1677484162422844), t24).fma(t13, t41.fnma(T::lit(1.1677484162422844), t26).fma(t10, t21));
+    result(10, t56);
+    result(12, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `tilt:9:band=7`: Band 7 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -1171,65 +1101,83 @@ pub fn band_6_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 7, m from -7 to 7.
 /// - Returns band 7 of the result, m from -7 to 7.
-/// - Operations: 78 (0 mul, 0 add, 78 fma); 6 constants, 14 live values.
+/// - Operations: 96 (16 mul, 0 add, 80 fma); 16 constants, 24 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
     let t0 = c(2);
     let t1 = c(0);
-    let t2 = c(1);
-    let t3 = c(12);
-    let t4 = c(14);
-    let t5 = t3.fma(T::lit(1.3627702877384937), t4).fnma(s[51], t0.fnma(T::lit(1.3627702877384937), t1).fma(s[49], t2));
-    let t6 = c(13);
-    let t7 = t0.fma(T::lit(1.3627702877384937), t1).fma(s[51], t3.fnma(T::lit(1.3627702877384937), t4).fma(s[49], t6));
-    let t8 = t7.fnma(s[55], t5.fnma(s[53], t1));
-    result(0, t8);
-    let t10 = c(4);
-    let t11 = c(3);
-    let t12 = c(10);
-    let t13 = t12.fma(T::lit(1.1055415967851332), t3).fnma(s[58], t10.fnma(T::lit(1.1055415967851332), t0).fma(s[57], t11));
-    let t14 = c(11);
-    let t15 = t10.fma(T::lit(1.1055415967851332), t0).fma(s[58], t12.fnma(T::lit(1.1055415967851332), t3).fma(s[57], t14));
-    let t16 = t15.fma(T::lit(1.1766968108291043), t7).fnma(s[60], t13.fnma(T::lit(1.1766968108291043), t5).fma(s[59], t0));
-    result(2, t16);
-    let t18 = t5.fma(s[55], t7.fnma(s[53], t4));
-    result(14, t18);
-    let t20 = t13.fma(T::lit(1.1766968108291043), t5).fma(s[60], t15.fnma(T::lit(1.1766968108291043), t7).fma(s[59], t3));
-    result(12, t20);
-    let t22 = t20.fma(T::lit(1.3627702877384937), t18).fnma(s[51], t16.fnma(T::lit(1.3627702877384937), t8).fma(s[49], t5));
-    result(1, t22);
-    let t24 = c(6);
-    let t25 = c(5);
-    let t26 = c(8);
-    let t27 = t26.fma(T::lit(1.0392304845413263), t12).fnma(s[62], t24.fnma(T::lit(1.0392304845413263), t10).fma(s[61], t25));
-    let t28 = c(9);
-    let t29 = t24.fma(T::lit(1.0392304845413263), t10).fma(s[62], t26.fnma(T::lit(1.0392304845413263), t12).fma(s[61], t28));
-    let t30 = t29.fma(T::lit(1.0660035817780522), t15).fnma(s[64], t27.fnma(T::lit(1.0660035817780522), t13).fma(s[63], t10));
-    result(4, t30);
-    let t32 = t27.fma(T::lit(1.0660035817780522), t13).fma(s[64], t29.fnma(T::lit(1.0660035817780522), t15).fma(s[63], t12));
-    result(10, t32);
-    let t34 = t32.fma(T::lit(1.1055415967851332), t20).fnma(s[58], t30.fnma(T::lit(1.1055415967851332), t16).fma(s[57], t13));
-    result(3, t34);
-    let t36 = c(7);
-    let t37 = t24.fma(s[52], t26.fma(s[50], t36));
-    let t38 = t37.fma(T::lit(1.4401645996461911), t29).fnma(s[56], t27.fma(s[54], t24));
-    result(6, t38);
-    let t40 = t27.fma(s[56], t37.fnma(T::lit(1.4401645996461911), t29).fma(s[54], t26));
-    result(8, t40);
-    let t42 = t40.fma(T::lit(1.0392304845413263), t32).fnma(s[62], t38.fnma(T::lit(1.0392304845413263), t30).fma(s[61], t27));
-    result(5, t42);
-    result(7, t38.fma(s[52], t40.fma(s[50], t37)));
-    let t45 = t38.fma(T::lit(1.0392304845413263), t30).fma(s[62], t40.fnma(T::lit(1.0392304845413263), t32).fma(s[61], t29));
-    result(9, t45);
-    let t47 = t30.fma(T::lit(1.1055415967851332), t16).fma(s[58], t32.fnma(T::lit(1.1055415967851332), t20).fma(s[57], t15));
-    result(11, t47);
-    let t49 = t16.fma(T::lit(1.3627702877384937), t8).fma(s[51], t20.fnma(T::lit(1.3627702877384937), t18).fma(s[49], t7));
-    result(13, t49);
+    let t2 = T::lit(8.59869176095992).fma(s[4], T::lit(2.6457513110645907));
+    let t3 = s[0] * t2;
+    let t4 = T::lit(0.3535533905932738) * t3;
+    let t5 = c(1);
+    let t6 = c(12);
+    let t7 = c(14);
+    let t8 = s[1] * t2;
+    let t9 = T::lit(0.3535533905932738) * t8;
+    let t10 = t6.fma(T::lit(1.3627702877384937), t7).fnma(t9, t0.fnma(T::lit(1.3627702877384937), t1).fma(t4, t5));
+    let t11 = T::lit(22.045407685048602).fnma(s[4], T::lit(3.6742346141747673));
+    let t12 = s[0] * t11;
+    let t13 = T::lit(0.5091750772173156) * t12;
+    let t14 = c(13);
+    let t15 = t0.fma(T::lit(1.3627702877384937), t1).fma(t9, t6.fnma(T::lit(1.3627702877384937), t7).fma(t4, t14));
+    let t16 = s[1] * t11;
+    let t17 = T::lit(0.5091750772173156) * t16;
+    let t18 = t15.fnma(t17, t10.fnma(t13, t1));
+    result(0, t18);
+    let t20 = c(4);
+    let t21 = T::lit(0.5669467095138409) * t3;
+    let t22 = c(3);
+    let t23 = c(10);
+    let t24 = T::lit(0.5669467095138409) * t8;
+    let t25 = t23.fma(T::lit(1.1055415967851332), t6).fnma(t24, t20.fnma(T::lit(1.1055415967851332), t0).fma(t21, t22));
+    let t26 = T::lit(0.693888666488711) * t12;
+    let t27 = c(11);
+    let t28 = t20.fma(T::lit(1.1055415967851332), t0).fma(t24, t23.fnma(T::lit(1.1055415967851332), t6).fma(t21, t27));
+    let t29 = T::lit(0.693888666488711) * t16;
+    let t30 = t28.fma(T::lit(1.1766968108291043), t15).fnma(t29, t25.fnma(T::lit(1.1766968108291043), t10).fma(t26, t0));
+    result(2, t30);
+    let t32 = t10.fma(t17, t15.fnma(t13, t7));
+    result(14, t32);
+    let t34 = t25.fma(T::lit(1.1766968108291043), t10).fma(t29, t28.fnma(T::lit(1.1766968108291043), t15).fma(t26, t6));
+    result(12, t34);
+    let t36 = t34.fma(T::lit(1.3627702877384937), t32).fnma(t9, t30.fnma(T::lit(1.3627702877384937), t18).fma(t4, t10));
+    result(1, t36);
+    let t38 = c(6);
+    let t39 = T::lit(0.6681531047810609) * t3;
+    let t40 = c(5);
+    let t41 = c(8);
+    let t42 = T::lit(0.6681531047810609) * t8;
+    let t43 = t41.fma(T::lit(1.0392304845413263), t23).fnma(t42, t38.fnma(T::lit(1.0392304845413263), t20).fma(t39, t40));
+    let t44 = T::lit(0.90267093384844) * t12;
+    let t45 = c(9);
+    let t46 = t38.fma(T::lit(1.0392304845413263), t20).fma(t42, t41.fnma(T::lit(1.0392304845413263), t23).fma(t39, t45));
+    let t47 = T::lit(0.90267093384844) * t16;
+    let t48 = t46.fma(T::lit(1.0660035817780522), t28).fnma(t47, t43.fnma(T::lit(1.0660035817780522), t25).fma(t44, t20));
+    result(4, t48);
+    let t50 = t43.fma(T::lit(1.0660035817780522), t25).fma(t47, t46.fnma(T::lit(1.0660035817780522), t28).fma(t44, t23));
+    result(10, t50);
+    let t52 = t50.fma(T::lit(1.1055415967851332), t34).fnma(t24, t48.fnma(T::lit(1.1055415967851332), t30).fma(t21, t25));
+    result(3, t52);
+    let t54 = c(7);
+    let t55 = t38.fma(t8, t41.fma(t3, t54));
+    let t56 = t55.fma(T::lit(1.4401645996461911), t46).fnma(t16, t43.fma(t12, t38));
+    result(6, t56);
+    let t58 = t43.fma(t16, t55.fnma(T::lit(1.4401645996461911), t46).fma(t12, t41));
+    result(8, t58);
+    let t60 = t58.fma(T::lit(1.0392304845413263), t50).fnma(t42, t56.fnma(T::lit(1.0392304845413263), t48).fma(t39, t43));
+    result(5, t60);
+    result(7, t56.fma(t8, t58.fma(t3, t55)));
+    let t63 = t56.fma(T::lit(1.0392304845413263), t48).fma(t42, t58.fnma(T::lit(1.0392304845413263), t50).fma(t39, t46));
+    result(9, t63);
+    let t65 = t48.fma(T::lit(1.1055415967851332), t30).fma(t24, t50.fnma(T::lit(1.1055415967851332), t34).fma(t21, t28));
+    result(11, t65);
+    let t67 = t30.fma(T::lit(1.3627702877384937), t18).fma(t9, t34.fnma(T::lit(1.3627702877384937), t32).fma(t4, t15));
+    result(13, t67);
 }
 
 /// `tilt:9:band=8`: Band 8 of `tilt:9` alone, so that a band is loaded, changed and stored at a time.
@@ -1240,71 +1188,91 @@ pub fn band_7_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, 
 /// - s: what the set-up returns.
 /// - c: the coefficients of band 8, m from -8 to 8.
 /// - Returns band 8 of the result, m from -8 to 8.
-/// - Operations: 90 (0 mul, 0 add, 90 fma); 7 constants, 15 live values.
+/// - Operations: 110 (18 mul, 0 add, 92 fma); 18 constants, 27 live values.
 /// - Error: with its other pieces f32 rounding at most 5.2e-5 of the norm of a band, for s as the
 ///   set-up makes it (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is
 ///   1.4e-6). Method error, the worst band's in spectral norm: 1.5e-2 at 5, 1.3e-1 at 10, 5.5e-1 at 15,
 ///   2e1 at 25 degrees; it grows without bound beyond.
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
-pub fn band_8_tilt<T: Real, V: Signal<T>>(s: &[T; 83], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
-    let t0 = c(1);
-    let t1 = c(0);
-    let t2 = c(15);
-    let t3 = t2.fnma(s[67], t0.fnma(s[65], t1));
-    let t4 = c(3);
-    let t5 = c(2);
-    let t6 = c(13);
-    let t7 = t6.fma(T::lit(1.1832159566199232), t2).fnma(s[70], t4.fnma(T::lit(1.1832159566199232), t0).fma(s[69], t5));
-    let t8 = c(16);
-    let t9 = t0.fma(s[67], t2.fnma(s[65], t8));
-    let t10 = c(14);
-    let t11 = t4.fma(T::lit(1.1832159566199232), t0).fma(s[70], t6.fnma(T::lit(1.1832159566199232), t2).fma(s[69], t10));
-    let t12 = t11.fma(T::lit(1.3693063937629153), t9).fnma(s[73], t7.fnma(T::lit(1.3693063937629153), t3).fma(s[71], t0));
-    result(1, t12);
-    let t14 = t7.fma(T::lit(1.3693063937629153), t3).fma(s[73], t11.fnma(T::lit(1.3693063937629153), t9).fma(s[71], t2));
-    result(15, t14);
-    result(0, t14.fnma(s[67], t12.fnma(s[65], t3)));
-    let t17 = c(5);
-    let t18 = c(4);
-    let t19 = c(11);
-    let t20 = t19.fma(T::lit(1.0741723110591492), t6).fnma(s[76], t17.fnma(T::lit(1.0741723110591492), t4).fma(s[75], t18));
-    let t21 = c(12);
-    let t22 = t17.fma(T::lit(1.0741723110591492), t4).fma(s[76], t19.fnma(T::lit(1.0741723110591492), t6).fma(s[75], t21));
-    let t23 = t22.fma(T::lit(1.1126972805283737), t11).fnma(s[78], t20.fnma(T::lit(1.1126972805283737), t7).fma(s[77], t4));
-    result(3, t23);
-    let t25 = t20.fma(T::lit(1.1126972805283737), t7).fma(s[78], t22.fnma(T::lit(1.1126972805283737), t11).fma(s[77], t6));
-    result(13, t25);
-    let t27 = t25.fma(T::lit(1.1832159566199232), t14).fnma(s[70], t23.fnma(T::lit(1.1832159566199232), t12).fma(s[69], t7));
-    result(2, t27);
-    let t29 = c(7);
-    let t30 = c(6);
-    let t31 = c(9);
-    let t32 = t31.fma(T::lit(1.0298573010888745), t19).fnma(s[80], t29.fnma(T::lit(1.0298573010888745), t17).fma(s[79], t30));
-    let t33 = c(10);
-    let t34 = t29.fma(T::lit(1.0298573010888745), t17).fma(s[80], t31.fnma(T::lit(1.0298573010888745), t19).fma(s[79], t33));
-    let t35 = t34.fma(T::lit(1.0488088481701516), t22).fnma(s[82], t32.fnma(T::lit(1.0488088481701516), t20).fma(s[81], t17));
-    result(5, t35);
-    let t37 = t32.fma(T::lit(1.0488088481701516), t20).fma(s[82], t34.fnma(T::lit(1.0488088481701516), t22).fma(s[81], t19));
-    result(11, t37);
-    let t39 = t37.fma(T::lit(1.0741723110591492), t25).fnma(s[76], t35.fnma(T::lit(1.0741723110591492), t23).fma(s[75], t20));
-    result(4, t39);
-    let t41 = c(8);
-    let t42 = t29.fma(s[68], t31.fma(s[66], t41));
-    let t43 = t42.fma(T::lit(1.4342743312012725), t34).fnma(s[74], t32.fma(s[72], t29));
-    result(7, t43);
-    let t45 = t32.fma(s[74], t42.fnma(T::lit(1.4342743312012725), t34).fma(s[72], t31));
-    result(9, t45);
-    let t47 = t45.fma(T::lit(1.0298573010888745), t37).fnma(s[80], t43.fnma(T::lit(1.0298573010888745), t35).fma(s[79], t32));
-    result(6, t47);
-    result(8, t43.fma(s[68], t45.fma(s[66], t42)));
-    let t50 = t43.fma(T::lit(1.0298573010888745), t35).fma(s[80], t45.fnma(T::lit(1.0298573010888745), t37).fma(s[79], t34));
-    result(10, t50);
-    let t52 = t35.fma(T::lit(1.0741723110591492), t23).fma(s[76], t37.fnma(T::lit(1.0741723110591492), t25).fma(s[75], t22));
-    result(12, t52);
-    let t54 = t23.fma(T::lit(1.1832159566199232), t12).fma(s[70], t25.fnma(T::lit(1.1832159566199232), t14).fma(s[69], t11));
-    result(14, t54);
-    result(16, t12.fma(s[67], t14.fnma(s[65], t9)));
+pub fn band_8_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, result: &mut impl FnMut(usize, V)) {
+    let t0 = T::lit(12.5).fma(s[4], T::lit(3.0));
+    let t1 = s[0] * t0;
+    let t2 = T::lit(0.3333333333333333) * t1;
+    let t3 = c(1);
+    let t4 = c(0);
+    let t5 = s[1] * t0;
+    let t6 = T::lit(0.3333333333333333) * t5;
+    let t7 = c(15);
+    let t8 = t7.fnma(t6, t3.fnma(t2, t4));
+    let t9 = c(3);
+    let t10 = T::lit(0.45643546458763845) * t1;
+    let t11 = c(2);
+    let t12 = c(13);
+    let t13 = T::lit(0.45643546458763845) * t5;
+    let t14 = t12.fma(T::lit(1.1832159566199232), t7).fnma(t13, t9.fnma(T::lit(1.1832159566199232), t3).fma(t10, t11));
+    let t15 = T::lit(32.769184372584625).fnma(s[4], T::lit(4.183300132670378));
+    let t16 = s[0] * t15;
+    let t17 = T::lit(0.47809144373375745) * t16;
+    let t18 = c(16);
+    let t19 = t3.fma(t6, t7.fnma(t2, t18));
+    let t20 = c(14);
+    let t21 = t9.fma(T::lit(1.1832159566199232), t3).fma(t13, t12.fnma(T::lit(1.1832159566199232), t7).fma(t10, t20));
+    let t22 = s[1] * t15;
+    let t23 = T::lit(0.47809144373375745) * t22;
+    let t24 = t21.fma(T::lit(1.3693063937629153), t19).fnma(t23, t14.fnma(T::lit(1.3693063937629153), t8).fma(t17, t3));
+    result(1, t24);
+    let t26 = t14.fma(T::lit(1.3693063937629153), t8).fma(t23, t21.fnma(T::lit(1.3693063937629153), t19).fma(t17, t7));
+    result(15, t26);
+    result(0, t26.fnma(t6, t24.fnma(t2, t8)));
+    let t29 = c(5);
+    let t30 = T::lit(0.6009252125773316) * t1;
+    let t31 = c(4);
+    let t32 = c(11);
+    let t33 = T::lit(0.6009252125773316) * t5;
+    let t34 = t32.fma(T::lit(1.0741723110591492), t12).fnma(t33, t29.fnma(T::lit(1.0741723110591492), t9).fma(t30, t31));
+    let t35 = T::lit(0.7745966692414834) * t16;
+    let t36 = c(12);
+    let t37 = t29.fma(T::lit(1.0741723110591492), t9).fma(t33, t32.fnma(T::lit(1.0741723110591492), t12).fma(t30, t36));
+    let t38 = T::lit(0.7745966692414834) * t22;
+    let t39 = t37.fma(T::lit(1.1126972805283737), t21).fnma(t38, t34.fnma(T::lit(1.1126972805283737), t14).fma(t35, t9));
+    result(3, t39);
+    let t41 = t34.fma(T::lit(1.1126972805283737), t14).fma(t38, t37.fnma(T::lit(1.1126972805283737), t21).fma(t35, t12));
+    result(13, t41);
+    let t43 = t41.fma(T::lit(1.1832159566199232), t26).fnma(t13, t39.fnma(T::lit(1.1832159566199232), t24).fma(t10, t14));
+    result(2, t43);
+    let t45 = c(7);
+    let t46 = T::lit(0.67700320038633) * t1;
+    let t47 = c(6);
+    let t48 = c(9);
+    let t49 = T::lit(0.67700320038633) * t5;
+    let t50 = t48.fma(T::lit(1.0298573010888745), t32).fnma(t49, t45.fnma(T::lit(1.0298573010888745), t29).fma(t46, t47));
+    let t51 = T::lit(0.9258200997725514) * t16;
+    let t52 = c(10);
+    let t53 = t45.fma(T::lit(1.0298573010888745), t29).fma(t49, t48.fnma(T::lit(1.0298573010888745), t32).fma(t46, t52));
+    let t54 = T::lit(0.9258200997725514) * t22;
+    let t55 = t53.fma(T::lit(1.0488088481701516), t37).fnma(t54, t50.fnma(T::lit(1.0488088481701516), t34).fma(t51, t29));
+    result(5, t55);
+    let t57 = t50.fma(T::lit(1.0488088481701516), t34).fma(t54, t53.fnma(T::lit(1.0488088481701516), t37).fma(t51, t32));
+    result(11, t57);
+    let t59 = t57.fma(T::lit(1.0741723110591492), t41).fnma(t33, t55.fnma(T::lit(1.0741723110591492), t39).fma(t30, t34));
+    result(4, t59);
+    let t61 = c(8);
+    let t62 = t45.fma(t5, t48.fma(t1, t61));
+    let t63 = t62.fma(T::lit(1.4342743312012725), t53).fnma(t22, t50.fma(t16, t45));
+    result(7, t63);
+    let t65 = t50.fma(t22, t62.fnma(T::lit(1.4342743312012725), t53).fma(t16, t48));
+    result(9, t65);
+    let t67 = t65.fma(T::lit(1.0298573010888745), t57).fnma(t49, t63.fnma(T::lit(1.0298573010888745), t55).fma(t46, t50));
+    result(6, t67);
+    result(8, t63.fma(t5, t65.fma(t1, t62)));
+    let t70 = t63.fma(T::lit(1.0298573010888745), t55).fma(t49, t65.fnma(T::lit(1.0298573010888745), t57).fma(t46, t53));
+    result(10, t70);
+    let t72 = t55.fma(T::lit(1.0741723110591492), t39).fma(t33, t57.fnma(T::lit(1.0741723110591492), t41).fma(t30, t37));
+    result(12, t72);
+    let t74 = t39.fma(T::lit(1.1832159566199232), t24).fma(t13, t41.fnma(T::lit(1.1832159566199232), t26).fma(t10, t21));
+    result(14, t74);
+    result(16, t24.fma(t6, t26.fnma(t2, t19)));
 }
 
 /// `basis:9`: The spherical harmonics of order 9 at a direction, accurate also near the poles (Sloan
