@@ -18,7 +18,7 @@ struct Arguments {
     #[arg(long, value_delimiter = ',', default_value = "2,3,4,5,6,7,8,9,10")]
     orders: Vec<usize>,
     /// How many rounds, of which the fastest counts.
-    #[arg(long, default_value_t = 25)]
+    #[arg(long, default_value_t = 60)]
     rounds: usize,
     /// Time a function, a layout or both alone, and write nothing.
     #[arg(long, value_delimiter = ',')]

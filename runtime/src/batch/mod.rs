@@ -24,13 +24,16 @@
 //!
 //! A batch does the operations of the kernel that the function of the crate's root names, in `f32` or `f64`, and errs by no more
 //! than that kernel's proven bound, which holds whether a product and a sum are rounded together or not; `f16` is rounded once
-//! more when it is written. Nothing is allocated. `docs/BATCHES.md` has what each function takes beside a copy of the
+//! more when it is written. Every layout gives the same bits, but for [`rotate_all`] of rows of order 4 with AVX-512, which
+//! multiplies by the rotation's matrix. Nothing is allocated. `docs/BATCHES.md` has what each function takes beside a copy of the
 //! same bytes.
 //!
 //! # Errors
 //!
 //! Every function checks all sizes before it touches anything.
 
+#[cfg(all(target_arch = "x86_64", feature = "order4"))]
+mod diagonals;
 mod kernels;
 mod registers;
 mod rows;
@@ -369,7 +372,7 @@ macro_rules! functions {
 fn here<S: Storage, D: Storage<Number = S::Number>>(task: &Task<'_, S, D>) -> Result<(), Error> {
     task.check()?;
     // SAFETY: it is checked, and what made the views is borrowed by the function that calls.
-    unsafe { task.over(&task.moves(), 0..task.to.block_count()) };
+    unsafe { task.all() };
     Ok(())
 }
 

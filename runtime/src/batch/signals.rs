@@ -163,6 +163,24 @@ impl<T> View<T> {
         Self { planes, lengths, plane_count, places, count, channels, signals }
     }
 
+    /// Returns it as a view of f32, if that is what it is.
+    #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+    pub fn singles(&self) -> Option<View<f32>>
+    where
+        T: 'static,
+    {
+        let is_single = core::any::TypeId::of::<T>() == core::any::TypeId::of::<f32>();
+        is_single.then(|| View {
+            planes: self.planes.map(<*mut T>::cast),
+            lengths: self.lengths,
+            plane_count: self.plane_count,
+            places: self.places,
+            count: self.count,
+            channels: self.channels,
+            signals: self.signals,
+        })
+    }
+
     /// How many blocks hold the signals.
     pub fn block_count(&self) -> usize {
         self.signals.div_ceil(BLOCK)

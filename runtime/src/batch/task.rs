@@ -8,7 +8,7 @@ use super::kernels::{Aside, Lines, MOST_CHANNELS, Pass};
 use super::registers::BLOCK;
 use super::rows::{MOST_LINES, Row, Rows, Tiles};
 use super::signals::{Places, Storage, View};
-use super::units::{Moves, Number, Run, Unit};
+use super::units::{Moves, Number, Run, Unit, fence};
 use crate::error::Error;
 
 /// From how many bytes of signals and results on results are written past the caches.
@@ -414,6 +414,22 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         Ok(())
     }
 
+    /// Returns the rotation of all rows as diagonals, if it is one and they are rows for it.
+    #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+    fn diagonals(&self) -> Option<super::diagonals::Diagonals> {
+        let (Params::Shared(quaternion), Input::Each(from)) = (&self.params, &self.from) else { return None };
+        let (from, to) = (from.singles()?, self.to.singles()?);
+        let q = <[S::Number; 4]>::try_from(*quaternion).ok()?.map(|x| x.into() as f32);
+        let streams = self.is_large() && from.planes[0] != to.planes[0];
+        super::diagonals::Diagonals::new(self.unit, q, &from, &to, streams)
+    }
+
+    /// Whether there are so many bytes that results are written past the caches.
+    fn is_large(&self) -> bool {
+        let bytes = if let Input::Each(view) = &self.from { view.bytes() } else { 0 };
+        bytes + self.to.bytes() >= STREAMS_FROM.load(Ordering::Relaxed)
+    }
+
     /// Returns what reads and writes rows, for all of the blocks.
     #[inline(always)]
     pub fn moves(&self) -> Moved<S, D> {
@@ -436,12 +452,46 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         Moving::fill(&mut moves.to, self.to, self.unit, false);
     }
 
+    /// Runs the kernel over all blocks.
+    ///
+    /// # Safety
+    ///
+    /// As [`over`](Self::over).
+    pub unsafe fn all(&self) {
+        let blocks = 0..self.to.block_count();
+        // SAFETY: the caller's. What lies in lines needs none of the tables for rows.
+        unsafe {
+            match self.in_lines(&blocks) {
+                Some(pass) => self.call(&pass),
+                None => self.all_over(blocks),
+            }
+        }
+    }
+
+    /// # Safety
+    ///
+    /// As [`over`](Self::over).
+    #[inline(never)]
+    unsafe fn all_over(&self, blocks: Range<usize>) {
+        // SAFETY: the caller's.
+        unsafe { self.over(&self.moves(), blocks) }
+    }
+
     /// Runs the kernel over some of the blocks.
     ///
     /// # Safety
     ///
     /// [`check`](Self::check) has passed, the views' memory is borrowed, and nobody else touches these blocks of the results.
     pub unsafe fn over(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+        if blocks.is_empty() {
+            return;
+        }
+        #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+        if let Some(diagonals) = self.diagonals() {
+            // SAFETY: the caller's; they are there where the processor has the unit.
+            unsafe { diagonals.over(blocks) }
+            return;
+        }
         // A last block that is not full is worked on by itself.
         let views = [self.to.signals].into_iter().chain(self.signals());
         let is_full = views.into_iter().all(|signals| signals.is_multiple_of(BLOCK));
@@ -462,10 +512,62 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         params.into_iter().chain(from).chain(self.other.map(|view| view.signals))
     }
 
+    /// Returns the pass over blocks all of which lie in lines, if they do.
+    fn in_lines(&self, blocks: &Range<usize>) -> Option<Pass<S::Number>> {
+        let params = match &self.params {
+            Params::None => nowhere(),
+            Params::Shared(numbers) => Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0 },
+            Params::Each(view) => shared(&direct(view, blocks)?),
+        };
+        let from = match &self.from {
+            Input::None => nowhere(),
+            Input::Shared(at) => Lines { at: *at, step: 0 },
+            Input::Each(view) => shared(&direct(view, blocks)?),
+        };
+        let other = match &self.other {
+            None => nowhere(),
+            Some(view) => shared(&direct(view, blocks)?),
+        };
+        let to = direct(&self.to, blocks)?;
+        let is_aligned = |at: &*mut S::Number| at.is_null() || at.align_offset(64) == 0;
+        let is_in_place = matches!(&self.from, Input::Each(view) if view.planes[0].cast::<D>() == self.to.planes[0]);
+        let streams = self.is_large() && !is_in_place && to.at.iter().all(is_aligned);
+        Some(Pass { blocks: blocks.len(), channels: self.to.channels, params, from, other, to, streams })
+    }
+
     /// # Safety
     ///
     /// As [`over`](Self::over).
     unsafe fn part(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+        // SAFETY: the caller's.
+        unsafe {
+            match self.in_lines(&blocks) {
+                Some(pass) => self.call(&pass),
+                None => self.through_lines(moves, blocks),
+            }
+        }
+    }
+
+    /// # Safety
+    ///
+    /// As [`over`](Self::over), and the pass is over its blocks.
+    unsafe fn call(&self, pass: &Pass<S::Number>) {
+        // SAFETY: the caller's.
+        unsafe {
+            match self.run {
+                Some(run) => run(pass),
+                None => super::kernels::copy_lines(pass, self.to.count),
+            }
+        }
+    }
+
+    /// Works on some blocks at a time, what is no lines by way of lines on the stack.
+    ///
+    /// # Safety
+    ///
+    /// As [`over`](Self::over).
+    #[inline(never)]
+    unsafe fn through_lines(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
         let unit = self.unit;
         let as_lines = if let Input::Each(view) = &self.from { direct(view, &blocks) } else { None };
         let other_lines = self.other.as_ref().and_then(|view| direct(view, &blocks));
@@ -479,8 +581,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let param_lines = if let Params::Each(view) = &self.params { direct(view, &blocks) } else { None };
         let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows } = moves;
         let is_in_place = matches!(&self.from, Input::Each(view) if view.planes[0].cast::<D>() == self.to.planes[0]);
-        let bytes = if let Input::Each(view) = &self.from { view.bytes() } else { 0 };
-        let is_large = bytes + self.to.bytes() >= STREAMS_FROM.load(Ordering::Relaxed) && !is_in_place;
+        let is_large = self.is_large() && !is_in_place;
         let is_aligned = |at: &*mut S::Number| at.is_null() || at.align_offset(64) == 0;
         let streams = is_large && to_lines.as_ref().is_some_and(|lines| lines.at.iter().all(is_aligned));
         let (mut params_aside, mut from_aside, mut other_aside, mut to_aside) =
@@ -540,10 +641,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     None => aside(first, self.to.count, step),
                 };
                 let pass = Pass { blocks: end - start, channels: self.to.channels, params, from, other, to, streams };
-                match self.run {
-                    Some(run) => run(&pass),
-                    None => super::kernels::copy_lines(&pass, self.to.count),
-                }
+                self.call(&pass);
                 if to_lines.is_none() {
                     let lines = |block: usize| first.add((block - start) * step);
                     match to_rows {
@@ -556,6 +654,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                 }
             }
             start = end;
+        }
+        if is_large {
+            fence();
         }
     }
 }

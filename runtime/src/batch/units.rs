@@ -103,14 +103,14 @@ pub struct Moves<T> {
 }
 
 /// A precision that batches work in: `f32` or `f64`.
-pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> {
+pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> + Into<f64> {
     /// Returns the kernels of an order for a unit, if the order is compiled.
     #[doc(hidden)]
     fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>>;
     /// Returns how rows are read and written, if a unit does it.
     #[doc(hidden)]
     fn moves(unit: Unit) -> Option<Moves<Self>>;
-    /// Returns what writes so many numbers past the caches.
+    /// Returns what writes so many numbers past the caches; a [`fence`] makes them seen.
     #[doc(hidden)]
     fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize);
 }
@@ -165,7 +165,6 @@ macro_rules! unit {
                     let done = before + lines;
                     from.add(done).copy_to_nonoverlapping(to.add(done), count - done);
                 }
-                R::fence();
             }
 
             pub const MOVES: Moves<f32> = Moves { gather: gather::<$single>, scatter: scatter::<$single> };
@@ -231,6 +230,11 @@ macro_rules! of {
             _ => base::$what $(($order))?,
         }
     };
+}
+
+/// Makes what was written past the caches visible to other threads before what is written after.
+pub fn fence() {
+    F32x4::fence();
 }
 
 impl Number for f32 {
