@@ -264,6 +264,8 @@ FORMS = {
     "call": "a call",
     "into": "a call, in place",
     "loop": "a plain loop",
+    "arrays": "a batch of arrays",
+    "blocks": "a batch of blocks",
 }
 SECTIONS = [
     (
@@ -363,7 +365,8 @@ def page(best, errors, copies, missing, far):
         "largest of any coefficient at the orders of the table, for coefficients from −1 to 1, against zonal in f64 from "
         "the same inputs, of length one. *Baseline*: compiled for the architecture's baseline; *native*: with "
         "`-C target-cpu=native`, which fuses multiply-adds; *without SLP*: the baseline with `-C no-vectorize-slp`. *A call* returns its result by value, *in place* writes it "
-        "where it belongs, *a plain loop* has the kernel inlined. Absolute times do not carry over to another machine.\n\n"
+        "where it belongs, *a plain loop* has the kernel inlined; *a batch* works on all "
+        "signals in one call of `zonal::batch`, by the widest vector unit whatever the flags. Absolute times do not carry over to another machine.\n\n"
         f"Compared with {', '.join(versions)}. No test reads these figures.\n"
     )
     if missing:

@@ -14,7 +14,8 @@ use std::hint::black_box;
 use std::io::{self, BufRead, Write};
 use std::path::Path;
 use std::time::Instant;
-use zonal::{Coefficients, Rotation};
+use zonal::batch::{self, Block, Signals, SignalsMut};
+use zonal::{Coefficients, Error, Rotation};
 
 /// A round is the fastest of so many passes.
 const PASSES: usize = 5;
@@ -100,6 +101,125 @@ where
     Row { function: "splats", form: "call", order, make }
 }
 
+/// A batch, and what it wrote, signal after signal.
+struct Batched<B, W> {
+    run: B,
+    written: W,
+    rows: std::cell::OnceCell<Vec<f32>>,
+}
+
+/// What batches write to.
+trait Written {
+    fn rows(&self) -> Vec<f32>;
+}
+
+impl Written for Vec<f32> {
+    fn rows(&self) -> Vec<f32> {
+        self.clone()
+    }
+}
+
+impl<const N: usize> Written for Vec<[f32; N]> {
+    fn rows(&self) -> Vec<f32> {
+        self.as_flattened().to_vec()
+    }
+}
+
+impl<const N: usize> Written for Vec<Block<f32, N>> {
+    fn rows(&self) -> Vec<f32> {
+        (0..self.len() * 16).flat_map(|k| self[k / 16].0.map(|line| line[k % 16])).collect()
+    }
+}
+
+impl<W: Written, B: FnMut(&mut W) -> Result<(), Error>> Work for Batched<B, W> {
+    fn run(&mut self) {
+        (self.run)(&mut self.written).expect("sizes fit");
+    }
+
+    fn written(&self) -> &[f32] {
+        self.rows.get_or_init(|| self.written.rows())
+    }
+}
+
+fn batched<W: Written + 'static>(
+    written: W,
+    run: impl FnMut(&mut W) -> Result<(), Error> + 'static,
+) -> Box<dyn Work> {
+    Box::new(Batched { run, written, rows: std::cell::OnceCell::new() })
+}
+
+/// Signals of an order as arrays.
+fn arrays<const N: usize>(inputs: &Inputs) -> Vec<[f32; N]> {
+    inputs.signals.iter().map(|c| std::array::from_fn(|i| c[i])).collect()
+}
+
+/// The same, or parameters, in blocks.
+fn blocks<const N: usize>(arrays: &[[f32; N]]) -> Vec<Block<f32, N>> {
+    let mut blocks = vec![Block::zero(); Block::<f32, N>::count(arrays.len())];
+    batch::copy_each(arrays, &mut blocks).expect("as many blocks as hold the arrays");
+    blocks
+}
+
+/// The batches of an order: of arrays, and of blocks.
+fn batches<const N: usize>(order: usize) -> Vec<Row> {
+    let row = |function, form, make: fn(&Inputs) -> Box<dyn Work>| Row { function, form, order, make: Box::new(make) };
+    vec![
+        row("rotate", "arrays", |inputs| {
+            let (q, c) = (inputs.quaternions.clone(), arrays::<N>(inputs));
+            batched(c.clone(), move |to| batch::rotate_each(&q, &c, to))
+        }),
+        row("rotate", "blocks", |inputs| {
+            let (q, c) = (blocks(&inputs.quaternions), blocks(&arrays::<N>(inputs)));
+            batched(c.clone(), move |to| batch::rotate_each(&q, &c, to))
+        }),
+        row("apply", "arrays", |inputs| {
+            let (q, c) = (inputs.quaternions[0], arrays::<N>(inputs));
+            batched(c.clone(), move |to| batch::rotate_all(q, &c, to))
+        }),
+        row("apply", "blocks", |inputs| {
+            let (q, c) = (inputs.quaternions[0], blocks(&arrays::<N>(inputs)));
+            batched(c.clone(), move |to| batch::rotate_all(q, &c, to))
+        }),
+        row("evaluate_basis", "arrays", |inputs| {
+            let directions = inputs.directions.clone();
+            batched(arrays::<N>(inputs), move |to| batch::basis_each(&directions, to))
+        }),
+        row("evaluate_basis", "blocks", |inputs| {
+            let directions = blocks(&inputs.directions);
+            batched(blocks(&arrays::<N>(inputs)), move |to| batch::basis_each(&directions, to))
+        }),
+        row("evaluate", "arrays", |inputs| {
+            let (directions, c) = (inputs.directions.clone(), arrays::<N>(inputs));
+            batched(vec![0.0_f32; c.len()], move |to: &mut Vec<f32>| batch::eval_each(&directions, &c, to.as_mut_slice()))
+        }),
+        row("evaluate", "blocks", |inputs| {
+            let (directions, c) = (blocks(&inputs.directions), blocks(&arrays::<N>(inputs)));
+            batched(vec![Block::<f32, 1>::zero(); c.len()], move |to| batch::eval_each(&directions, &c, to))
+        }),
+        row("tilt", "arrays", |inputs| {
+            let (n, c) = (inputs.normals.clone(), arrays::<N>(inputs));
+            batched(c.clone(), move |to| batch::tilt_each(&n, &c, to))
+        }),
+        row("tilt", "blocks", |inputs| {
+            let (n, c) = (blocks(&inputs.normals), blocks(&arrays::<N>(inputs)));
+            batched(c.clone(), move |to| batch::tilt_each(&n, &c, to))
+        }),
+    ]
+}
+
+/// Rows of splats by a batch.
+fn splat_batch<const N: usize>(order: usize) -> Row {
+    let make: Make = Box::new(|inputs| {
+        let row = |numbers: &[f32; 100]| splat::<f32, N>([0, 1, 2].map(|place| channel(numbers, place)));
+        let rows: Vec<f32> = inputs.signals.iter().flat_map(row).collect();
+        let (q, places) = (inputs.quaternions[0], zonal::batch::Row::splat(N));
+        batched(rows.clone(), move |to: &mut Vec<f32>| {
+            batch::rotate_all(q, Signals::rows(&rows, 3 * N, places)?, SignalsMut::rows(to, 3 * N, places)?)
+        })
+    });
+    Row { function: "splats", form: "arrays", order, make }
+}
+
 fn bytes(numbers: impl IntoIterator<Item = f64>) -> Vec<u8> {
     numbers.into_iter().flat_map(f64::to_le_bytes).collect()
 }
@@ -178,7 +298,11 @@ fn main() -> io::Result<()> {
     let mut rows = calls::rows();
     rows.extend((2..=10).map(sphrs));
     rows.extend([splats::<4>(2), splats::<9>(3), splats::<16>(4)]);
-    // A further form of zonal's functions, the batches among them, is a row here: its work, its name and its form.
+    rows.extend([splat_batch::<4>(2), splat_batch::<9>(3), splat_batch::<16>(4)]);
+    macro_rules! batches {
+        ($($order:literal),*) => { $(rows.extend(batches::<{ $order * $order }>($order));)* };
+    }
+    batches!(2, 3, 4, 5, 6, 7, 8, 9, 10);
 
     let mut output = io::stdout().lock();
     rows.iter().try_for_each(|row| writeln!(output, "{} {} {}", row.function, row.order, row.form))?;
