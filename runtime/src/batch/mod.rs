@@ -323,7 +323,7 @@ macro_rules! functions {
         /// use zonal::batch;
         ///
         /// let constant = [[2.0 * 3.544_907_7_f32, 0.0, 0.0, 0.0]];
-        /// let mut product = [[0.0; 4]];
+        /// let mut product = [[0.0_f32; 4]];
         /// batch::product_each(&constant[..], &[[1.0_f32, 2.0, 3.0, 4.0]][..], &mut product[..])?;
         /// assert!((product[0][3] - 8.0).abs() < 1e-5);
         /// # Ok::<(), zonal::Error>(())
