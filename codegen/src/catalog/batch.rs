@@ -1,6 +1,7 @@
 //! The kernels that work on many signals at once: in pieces where bands are apart, each number handed over as soon as it is
 //! known, so that a vector unit's registers suffice. The runtime's batches are made of them.
 
+// Names a language: batches are made of Rust.
 use crate::emit::language::{Arrays, RUST};
 use crate::emit::validate::validate;
 use crate::emit::{Function, Module};

@@ -51,10 +51,10 @@ fn root(orders: &BTreeSet<usize>) -> String {
     }
     text += "/// The kernels for many signals at once: in pieces where bands are apart, each number handed over as soon as it is\n\
              /// known. A signal is a function of the index, a result is given to a function of the index and the number.\n\
-             #[cfg(feature = \"batch\")]\npub mod batch {\n    use super::real;\n";
+             #[cfg(feature = \"batch\")]\n#[rustfmt::skip]\npub mod batch {\n    use super::real;\n";
     for &order in orders {
         text += &format!(
-            "    /// Of {}.\n    {}    #[rustfmt::skip]\n    pub mod sh{order};\n",
+            "    /// Of {}.\n    {}    pub mod sh{order};\n",
             bands(order),
             only_with(order)
         );

@@ -10,7 +10,7 @@ use std::time::Duration;
 use zonal_codegen::catalog;
 use zonal_measure_gpu::compile::{self, GPUS, Report};
 use zonal_measure_gpu::kernels::shaders;
-use zonal_measure_gpu::{loops, page, registers};
+use zonal_measure_gpu::{loops, nvidia, page, registers};
 
 /// Compile every kernel of the catalogue for AMD's GPUs, by the driver's own compiler, and write what it counts.
 #[derive(Parser)]
@@ -25,6 +25,10 @@ struct Arguments {
     /// Write the page and the table of the figures that are there, and compile nothing.
     #[arg(long)]
     page: bool,
+    /// Compile rotations, tilts and evaluations by NVIDIA's assembler, which is installed from PyPI below this folder if it is not
+    /// there, and write `NVIDIA.md` alone.
+    #[arg(long, value_name = "FOLDER", num_args = 0..=1, default_missing_value = "target/nvidia")]
+    nvidia: Option<PathBuf>,
     /// Compile a folder of shaders and print what is counted: how the program calls itself.
     #[arg(long, hide = true)]
     child: Option<PathBuf>,
@@ -52,6 +56,12 @@ fn measured() -> Result<Report, Box<dyn Error>> {
 fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     if let Some(folder) = &arguments.child {
         return compile::child(folder);
+    }
+    if let Some(folder) = &arguments.nvidia {
+        let report = nvidia::measured(folder)?;
+        std::fs::write(arguments.output.join(nvidia::JSON), serde_json::to_string_pretty(&report)? + "\n")?;
+        std::fs::write(arguments.output.join(nvidia::PAGE), nvidia::markdown(&report))?;
+        return Ok(());
     }
     let figures = arguments.output.join(page::JSON);
     let report = match arguments.page {

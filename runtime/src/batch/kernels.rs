@@ -418,7 +418,7 @@ macro_rules! orders {
         /// The kernels of an order.
         #[cfg(feature = $feature)]
         pub mod $module {
-            use super::*;
+            use crate::batch::kernels::*;
             each!(Rotate: "Each by a quaternion of its own.", $module, $count, 1, $rotate_set_up(0 1 2 3), $rotate_bands);
             all!(RotateAll: "All by one quaternion.", $module, $count, $all_set_up(0 1 2 3), $all_bands);
             each!(Tilt: "Each to a normal of its own.", $module, $count, 0, tilt_setup(0 1 2), $tilt_bands);

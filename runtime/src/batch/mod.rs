@@ -35,6 +35,7 @@
 #[cfg(all(target_arch = "x86_64", feature = "order4"))]
 mod diagonals;
 mod kernels;
+mod moving;
 mod registers;
 mod rows;
 mod signals;

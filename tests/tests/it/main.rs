@@ -56,6 +56,7 @@ mod scenes;
 mod search;
 mod shader_evaluator;
 mod shaders;
+mod sinks;
 mod tables;
 mod toy_language;
 mod toys;

@@ -1,0 +1,260 @@
+//! Rows read to lines and written from them, block after block: by tiles where the unit has them and a block is full, else number by
+//! number. Blocks of another precision are lines already, of other numbers.
+
+use core::ops::Range;
+
+use super::registers::BLOCK;
+use super::rows::{MOST_LINES, Row, Rows, Tiles};
+use super::signals::{Places, Storage, View};
+use super::units::{Moves, Number, Unit};
+
+/// Rows that are read or written.
+pub struct Moving<S: Storage> {
+    view: View<S>,
+    stride: usize,
+    row: Row,
+    tiles: Option<(Tiles, Moves<S::Number>)>,
+}
+
+impl<S: Storage> Moving<S> {
+    /// Puts the rows of a view there, if it is made of rows.
+    pub fn fill(at: &mut Option<Self>, view: View<S>, unit: Unit, over: bool) {
+        if let Places::Rows { stride, row } = view.places {
+            let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
+            let tiles = moves.map(|moves| (Tiles::new(&row, over), moves));
+            *at = Some(Self { view, stride, row, tiles });
+        }
+    }
+
+    /// How many signals of a block there are.
+    pub fn filled(&self, block: usize) -> usize {
+        (self.view.signals - block * BLOCK).min(BLOCK)
+    }
+
+    /// The first row of a block, in a plane.
+    fn first(&self, plane: usize, block: usize) -> *mut S {
+        self.view.planes[plane].wrapping_add(block * BLOCK * self.stride)
+    }
+
+    /// Whether blocks up to one are full, and so is what tiles touch of them.
+    fn is_full(&self, blocks: &Range<usize>, touched: usize) -> bool {
+        let end = (blocks.end * BLOCK - 1) * self.stride + touched;
+        self.filled(blocks.end - 1) == BLOCK
+            && self.view.lengths[..self.view.plane_count].iter().all(|length| end <= *length)
+    }
+
+    /// Reads blocks, each to lines of `step` numbers.
+    ///
+    /// # Safety
+    ///
+    /// The view's memory may be read, and there is room for the lines.
+    pub unsafe fn read(&self, blocks: Range<usize>, lines: *mut S::Number, step: usize) {
+        for plane in 0..self.view.plane_count {
+            let lines = lines.wrapping_add(plane * self.row.channels * self.row.count * BLOCK);
+            // SAFETY: the caller's; tiles are read where the last row still has what they touch.
+            unsafe {
+                match &self.tiles {
+                    Some((tiles, moves)) if self.is_full(&blocks, tiles.touched) => {
+                        let first = self.first(plane, blocks.start).cast_const().cast();
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        (moves.gather)(tiles, rows, lines, step);
+                        if !tiles.alone().is_empty() {
+                            self.read_alone(rows, tiles, lines, step);
+                        }
+                    }
+                    _ => {
+                        for (place, block) in blocks.clone().enumerate() {
+                            self.read_plainly(plane, block, lines.wrapping_add(place * step));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Reads what is in no tile.
+    ///
+    /// # Safety
+    ///
+    /// As [`read`](Self::read).
+    unsafe fn read_alone(&self, rows: Rows<*const S::Number>, tiles: &Tiles, lines: *mut S::Number, step: usize) {
+        for k in 0..rows.blocks * BLOCK {
+            for &(column, line) in tiles.alone() {
+                // SAFETY: the caller's.
+                unsafe {
+                    let number = rows.first.add(k * rows.stride + column as usize).read();
+                    lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).write(number);
+                }
+            }
+        }
+    }
+
+    /// Reads a block number by number: one that is not full, or of another precision.
+    ///
+    /// # Safety
+    ///
+    /// As [`read`](Self::read).
+    #[inline(never)]
+    unsafe fn read_plainly(&self, plane: usize, block: usize, lines: *mut S::Number) {
+        let (rows, filled) = (self.first(plane, block), self.filled(block));
+        let mut row = [S::Number::default(); MOST_LINES];
+        for k in 0..BLOCK {
+            // What a block has too much is like the last that is there.
+            let first = rows.wrapping_add(k.min(filled - 1) * self.stride);
+            self.each_run(|column, line, count| {
+                // SAFETY: the caller's.
+                unsafe {
+                    S::widen(core::slice::from_raw_parts(first.add(column), count), &mut row[..count]);
+                    for (i, number) in row[..count].iter().enumerate() {
+                        lines.add((line + i) * BLOCK + k).write(*number);
+                    }
+                }
+            });
+        }
+    }
+
+    /// Writes blocks, each of lines of `step` numbers.
+    ///
+    /// # Safety
+    ///
+    /// The view's memory may be written, and there are lines.
+    pub unsafe fn write(&self, blocks: Range<usize>, lines: *const S::Number, step: usize) {
+        for plane in 0..self.view.plane_count {
+            let lines = lines.wrapping_add(plane * self.row.channels * self.row.count * BLOCK);
+            // SAFETY: the caller's; tiles touch what they write alone.
+            unsafe {
+                match &self.tiles {
+                    Some((tiles, moves)) if self.filled(blocks.end - 1) == BLOCK => {
+                        let first = self.first(plane, blocks.start).cast();
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        (moves.scatter)(tiles, lines, step, rows);
+                        for k in 0..rows.blocks * BLOCK {
+                            for &(column, line) in tiles.alone() {
+                                let number = lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).read();
+                                rows.first.add(k * rows.stride + column as usize).write(number);
+                            }
+                        }
+                    }
+                    _ => {
+                        for (place, block) in blocks.clone().enumerate() {
+                            self.write_plainly(plane, block, lines.wrapping_add(place * step));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Writes a block number by number: one that is not full, or of another precision.
+    ///
+    /// # Safety
+    ///
+    /// As [`write`](Self::write).
+    #[inline(never)]
+    unsafe fn write_plainly(&self, plane: usize, block: usize, lines: *const S::Number) {
+        let rows = self.first(plane, block);
+        let mut row = [S::Number::default(); MOST_LINES];
+        for k in 0..self.filled(block) {
+            let first = rows.wrapping_add(k * self.stride);
+            self.each_run(|column, line, count| {
+                // SAFETY: the caller's.
+                unsafe {
+                    for (i, number) in row[..count].iter_mut().enumerate() {
+                        *number = lines.add((line + i) * BLOCK + k).read();
+                    }
+                    S::narrow(&row[..count], core::slice::from_raw_parts_mut(first.add(column), count));
+                }
+            });
+        }
+    }
+
+    /// Writes a block of rows that have no gaps past the caches.
+    ///
+    /// # Safety
+    ///
+    /// As [`write`](Self::write); the rows have no gaps and are sixteen.
+    pub unsafe fn stream(&self, unit: Unit, block: usize, lines: *const S::Number, aside: *mut S::Number) {
+        let Some((tiles, moves)) = &self.tiles else { return };
+        let to: *mut S::Number = self.first(0, block).cast();
+        // SAFETY: the caller's; all columns are in tiles, since they lie side by side.
+        unsafe {
+            (moves.scatter)(tiles, lines, 0, Rows { first: aside, stride: self.stride, blocks: 1 });
+            S::Number::stream(unit)(aside, to, BLOCK * self.stride);
+        }
+    }
+
+    /// Whether rows are written past the caches.
+    pub fn streams(&self) -> bool {
+        let has_no_gaps = self.stride == self.row.count * self.row.channels && self.view.plane_count == 1;
+        let is_in_tiles = |(tiles, _): &(Tiles, _)| tiles.alone().is_empty();
+        has_no_gaps && self.tiles.as_ref().is_some_and(is_in_tiles)
+    }
+
+    /// Columns side by side that are lines one after the other: the first of both, and how many.
+    #[inline(always)]
+    fn each_run(&self, mut run: impl FnMut(usize, usize, usize)) {
+        let (row, count) = (&self.row, self.row.count);
+        for channel in 0..row.channels {
+            let is_dense = count < 3 || row.column(channel, 2) == row.column(channel, 1) + 1;
+            for i in 0..if is_dense { 1 } else { count } {
+                run(row.column(channel, i), channel * count + i, 1);
+            }
+            if is_dense && count > 1 {
+                run(row.column(channel, 1), channel * count + 1, count - 1);
+            }
+        }
+    }
+}
+
+/// Reads a block's lines of another precision.
+///
+/// # Safety
+///
+/// The view is made of blocks that may be read, and there are [`MOST_LINES`] lines.
+pub unsafe fn widen<S: Storage>(view: &View<S>, block: usize, lines: *mut S::Number) {
+    for channel in 0..view.channels {
+        let count = view.count * BLOCK;
+        // SAFETY: the caller's.
+        unsafe {
+            let from = core::slice::from_raw_parts(view.line(channel, block).cast_const(), count);
+            S::widen(from, core::slice::from_raw_parts_mut(lines.add(channel * count), count));
+        }
+    }
+}
+
+/// Reads blocks to lines, so many numbers a block.
+///
+/// # Safety
+///
+/// The view may be read, and there are lines for all of these blocks and [`MOST_LINES`] in all.
+pub unsafe fn read<S: Storage>(
+    view: &View<S>,
+    rows: &Option<Moving<S>>,
+    blocks: Range<usize>,
+    first: *mut S::Number,
+    step: usize,
+) {
+    // SAFETY: the caller's.
+    unsafe {
+        match rows {
+            Some(rows) => rows.read(blocks, first, step),
+            None => blocks.enumerate().for_each(|(place, block)| widen(view, block, first.wrapping_add(place * step))),
+        }
+    }
+}
+
+/// Writes a block's lines in another precision.
+///
+/// # Safety
+///
+/// The view is made of blocks that may be written, and there are as many lines.
+pub unsafe fn narrow<S: Storage>(view: &View<S>, block: usize, lines: *const S::Number) {
+    for channel in 0..view.channels {
+        let count = view.count * BLOCK;
+        // SAFETY: the caller's.
+        unsafe {
+            let to = core::slice::from_raw_parts_mut(view.line(channel, block), count);
+            S::narrow(core::slice::from_raw_parts(lines.add(channel * count), count), to);
+        }
+    }
+}
