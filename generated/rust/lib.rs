@@ -55,35 +55,35 @@ pub mod sh10;
 /// The kernels for many signals at once: in pieces where bands are apart, each number handed over as soon as it is
 /// known. A signal is a function of the index, a result is given to a function of the index and the number.
 #[cfg(feature = "batch")]
+#[rustfmt::skip]
 pub mod batch {
     use super::real;
     /// Of order 2: bands 0 to 1, 4 coefficients.
     #[cfg(feature = "order2")]
-    #[rustfmt::skip]
-    pub mod sh2; /// Of order 3: bands 0 to 2, 9 coefficients.
+    pub mod sh2;
+    /// Of order 3: bands 0 to 2, 9 coefficients.
     #[cfg(feature = "order3")]
-    #[rustfmt::skip]
-    pub mod sh3; /// Of order 4: bands 0 to 3, 16 coefficients.
+    pub mod sh3;
+    /// Of order 4: bands 0 to 3, 16 coefficients.
     #[cfg(feature = "order4")]
-    #[rustfmt::skip]
-    pub mod sh4; /// Of order 5: bands 0 to 4, 25 coefficients.
+    pub mod sh4;
+    /// Of order 5: bands 0 to 4, 25 coefficients.
     #[cfg(feature = "order5")]
-    #[rustfmt::skip]
-    pub mod sh5; /// Of order 6: bands 0 to 5, 36 coefficients.
+    pub mod sh5;
+    /// Of order 6: bands 0 to 5, 36 coefficients.
     #[cfg(feature = "order6")]
-    #[rustfmt::skip]
-    pub mod sh6; /// Of order 7: bands 0 to 6, 49 coefficients.
+    pub mod sh6;
+    /// Of order 7: bands 0 to 6, 49 coefficients.
     #[cfg(feature = "order7")]
-    #[rustfmt::skip]
-    pub mod sh7; /// Of order 8: bands 0 to 7, 64 coefficients.
+    pub mod sh7;
+    /// Of order 8: bands 0 to 7, 64 coefficients.
     #[cfg(feature = "order8")]
-    #[rustfmt::skip]
-    pub mod sh8; /// Of order 9: bands 0 to 8, 81 coefficients.
+    pub mod sh8;
+    /// Of order 9: bands 0 to 8, 81 coefficients.
     #[cfg(feature = "order9")]
-    #[rustfmt::skip]
-    pub mod sh9; /// Of order 10: bands 0 to 9, 100 coefficients.
+    pub mod sh9;
+    /// Of order 10: bands 0 to 9, 100 coefficients.
     #[cfg(feature = "order10")]
-    #[rustfmt::skip]
     pub mod sh10;
 }
 

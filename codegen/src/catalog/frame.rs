@@ -53,11 +53,7 @@ fn root(orders: &BTreeSet<usize>) -> String {
              /// known. A signal is a function of the index, a result is given to a function of the index and the number.\n\
              #[cfg(feature = \"batch\")]\n#[rustfmt::skip]\npub mod batch {\n    use super::real;\n";
     for &order in orders {
-        text += &format!(
-            "    /// Of {}.\n    {}    pub mod sh{order};\n",
-            bands(order),
-            only_with(order)
-        );
+        text += &format!("    /// Of {}.\n    {}    pub mod sh{order};\n", bands(order), only_with(order));
     }
     text + "}\n\n#[doc = include_str!(\"../COSTS.md\")]\npub mod costs {}\n"
 }
