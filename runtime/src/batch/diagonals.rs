@@ -3,10 +3,11 @@
 //! multiply-adds turn a channel of one row without a transposition. A block is a cycle of permutations: diagonal d takes number
 //! i + d of the band, counted around.
 
+use super::numbers::Number;
 use super::registers::BLOCK;
 use super::rows::Row;
 use super::signals::{Places, View};
-use super::units::{Number, Unit, fence};
+use super::units::{Unit, fence};
 use crate::coefficients::Coefficients;
 use crate::rotation::Rotation;
 use core::arch::x86_64::*;

@@ -36,16 +36,18 @@
 mod diagonals;
 mod kernels;
 mod moving;
+mod numbers;
 mod registers;
 mod rows;
 mod signals;
 mod task;
 mod units;
 
+pub use numbers::{Number, Storage};
 pub use rows::Row;
-pub use signals::{Block, Signals, SignalsMut, Storage};
+pub use signals::{Block, Signals, SignalsMut};
 pub use task::stream_from;
-pub use units::{Number, Unit};
+pub use units::Unit;
 
 use crate::coefficients::Coefficients;
 use crate::error::Error;

@@ -3,10 +3,12 @@
 
 use core::ops::Range;
 
+use super::numbers::Number;
+use super::numbers::Storage;
 use super::registers::BLOCK;
 use super::rows::{MOST_LINES, Row, Rows, Tiles};
-use super::signals::{Places, Storage, View};
-use super::units::{Moves, Number, Unit};
+use super::signals::{Places, View};
+use super::units::{Moves, Unit};
 
 /// Rows that are read or written.
 pub struct Moving<S: Storage> {

@@ -4,9 +4,9 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use super::kernels::MOST_CHANNELS;
+use super::numbers::Storage;
 use super::registers::BLOCK;
 use super::rows::{MOST_COUNT, Row};
-use super::units::Number;
 use crate::error::Error;
 
 /// Sixteen signals of `N` numbers each, the layout that is fastest: `self.0[i][k]` is number i of signal k. An array of blocks
@@ -40,63 +40,6 @@ impl<T: Storage, const N: usize> Default for Block<T, N> {
 impl<T: fmt::Debug, const N: usize> fmt::Debug for Block<T, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Block").field(&self.0).finish()
-    }
-}
-
-/// What a number is kept as: `f32`, `f64`, and with the feature `half` `half::f16`, which is worked on as `f32`.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` is no number that batches know",
-    note = "numbers are `f32`, `f64` or, with zonal's feature `half`, `half::f16`"
-)]
-pub trait Storage: Copy + Default + Send + Sync + fmt::Debug + 'static + sealed::Sealed {
-    /// What it is worked on as.
-    type Number: Number;
-    /// Whether that is itself.
-    #[doc(hidden)]
-    const IS_NUMBER: bool;
-    #[doc(hidden)]
-    fn widen(from: &[Self], to: &mut [Self::Number]);
-    #[doc(hidden)]
-    fn narrow(from: &[Self::Number], to: &mut [Self]);
-}
-
-mod sealed {
-    pub trait Sealed {}
-}
-
-macro_rules! storages {
-    ($($number:ident)*) => { $(
-        impl sealed::Sealed for $number {}
-        impl Storage for $number {
-            type Number = Self;
-            const IS_NUMBER: bool = true;
-            #[inline]
-            fn widen(from: &[Self], to: &mut [Self]) {
-                to.copy_from_slice(from);
-            }
-            #[inline]
-            fn narrow(from: &[Self], to: &mut [Self]) {
-                to.copy_from_slice(from);
-            }
-        }
-    )* };
-}
-
-storages!(f32 f64);
-
-#[cfg(feature = "half")]
-impl sealed::Sealed for half::f16 {}
-#[cfg(feature = "half")]
-impl Storage for half::f16 {
-    type Number = f32;
-    const IS_NUMBER: bool = false;
-    #[inline]
-    fn widen(from: &[Self], to: &mut [f32]) {
-        half::slice::HalfFloatSliceExt::convert_to_f32_slice(from, to);
-    }
-    #[inline]
-    fn narrow(from: &[f32], to: &mut [Self]) {
-        half::slice::HalfFloatSliceExt::convert_from_f32_slice(to, from);
     }
 }
 

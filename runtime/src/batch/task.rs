@@ -6,9 +6,10 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::kernels::{Aside, Lines, MOST_CHANNELS, Pass};
 use super::moving::{Moving, narrow, read};
+use super::numbers::Storage;
 use super::registers::BLOCK;
 use super::rows::MOST_LINES;
-use super::signals::{Places, Storage, View};
+use super::signals::{Places, View};
 use super::units::{Run, Unit, fence};
 use crate::error::Error;
 

@@ -7,7 +7,6 @@ use core::sync::atomic::{AtomicU8, Ordering};
 use super::kernels::{self, Kernel, Pass};
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
-use super::signals::Storage;
 
 /// A vector unit, by what it needs of the processor; later ones are wider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -102,24 +101,11 @@ pub struct Moves<T> {
     pub scatter: unsafe fn(tiles: &Tiles, lines: *const T, step: usize, rows: Rows<*mut T>),
 }
 
-/// A precision that batches work in: `f32` or `f64`.
-pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> + Into<f64> {
-    /// Returns the kernels of an order for a unit, if the order is compiled.
-    #[doc(hidden)]
-    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>>;
-    /// Returns how rows are read and written, if a unit does it.
-    #[doc(hidden)]
-    fn moves(unit: Unit) -> Option<Moves<Self>>;
-    /// Returns what writes so many numbers past the caches; a [`fence`] makes them seen.
-    #[doc(hidden)]
-    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize);
-}
-
 /// A unit: every kernel and every move compiled for it.
 macro_rules! unit {
     ($unit:ident, $single:ty, $double:ty $(, #[$features:meta])?) => {
         mod $unit {
-            use super::*;
+            use crate::batch::units::*;
 
             /// # Safety
             ///
@@ -237,26 +223,27 @@ pub fn fence() {
     F32x4::fence();
 }
 
-impl Number for f32 {
-    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>> {
-        of!(unit, single(order))
-    }
-    fn moves(unit: Unit) -> Option<Moves<Self>> {
-        Some(of!(unit, MOVES))
-    }
-    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {
-        of!(unit, STREAM_SINGLE)
-    }
+/// The kernels of an order for f32, if the order is compiled.
+pub fn singles(unit: Unit, order: usize) -> Option<Kernels<f32>> {
+    of!(unit, single(order))
 }
 
-impl Number for f64 {
-    fn kernels(unit: Unit, order: usize) -> Option<Kernels<Self>> {
-        of!(unit, double(order))
-    }
-    fn moves(_: Unit) -> Option<Moves<Self>> {
-        None
-    }
-    fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {
-        of!(unit, STREAM_DOUBLE)
-    }
+/// The kernels of an order for f64, if the order is compiled.
+pub fn doubles(unit: Unit, order: usize) -> Option<Kernels<f64>> {
+    of!(unit, double(order))
+}
+
+/// How rows of f32 are read and written.
+pub fn moves(unit: Unit) -> Moves<f32> {
+    of!(unit, MOVES)
+}
+
+/// What writes so many f32 past the caches; a [`fence`] makes them seen.
+pub fn stream_single(unit: Unit) -> unsafe fn(*const f32, *mut f32, usize) {
+    of!(unit, STREAM_SINGLE)
+}
+
+/// What writes so many f64 past the caches; a [`fence`] makes them seen.
+pub fn stream_double(unit: Unit) -> unsafe fn(*const f64, *mut f64, usize) {
+    of!(unit, STREAM_DOUBLE)
 }
