@@ -48,7 +48,10 @@ quick() {
 # NEON's registers are compiled for aarch64 and run in an emulator.
 another_architecture() {
     local target=aarch64-unknown-linux-gnu
-    rustup target add "$target" >/dev/null 2>&1
+    [ -d "$(rustc --print target-libdir --target "$target")" ] || rustup target add "$target" || {
+        echo "the target $target is missing: rustup target add $target" >&2
+        return 1
+    }
     CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
         CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER="qemu-aarch64 -L /usr/aarch64-linux-gnu" \
         cargo run --quiet --target "$target" -p zonal --no-default-features --features std,batch,order5 --example batches
