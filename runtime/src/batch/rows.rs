@@ -42,14 +42,14 @@ impl Row {
         Self { count, channels: 3, first: [0, 1], rest: [3, count.saturating_sub(1), 1] }
     }
 
-    /// Returns rows as most programs hold splats: the constants of red, green and blue, then each other coefficient in RGB,
-    /// which is [`interleaved`](Self::interleaved); with the constants apart, as the numbers between them say.
+    /// Returns the same rows, in which the signal begins so many numbers later: behind what else a splat has.
     #[must_use]
     pub const fn at(self, offset: usize) -> Self {
         self.apart(offset, offset)
     }
 
-    /// Returns the same rows with the constants moved by one number of places and the other coefficients by another.
+    /// Returns the same rows, in which the constants begin so many numbers later and the other coefficients so many: where something
+    /// stands between them.
     #[must_use]
     pub const fn apart(self, constants: usize, others: usize) -> Self {
         let (first, rest) = (self.first, self.rest);
