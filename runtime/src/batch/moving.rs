@@ -3,8 +3,7 @@
 
 use core::ops::Range;
 
-use super::numbers::Number;
-use super::numbers::Storage;
+use super::numbers::{Number, Storage};
 use super::registers::BLOCK;
 use super::rows::{MOST_LINES, Row, Rows, Tiles};
 use super::signals::{Places, View};

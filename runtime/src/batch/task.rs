@@ -42,12 +42,29 @@ pub(super) enum Input<S: Storage> {
     Each(View<S>),
 }
 
+impl<T> Params<'_, T> {
+    /// Where each signal's own are, if it has any.
+    fn view(&self) -> Option<&View<T>> {
+        if let Self::Each(view) = self { Some(view) } else { None }
+    }
+}
+
+impl<S: Storage> Input<S> {
+    /// Where the signals are, if there is one for each result.
+    fn view(&self) -> Option<&View<S>> {
+        if let Self::Each(view) = self { Some(view) } else { None }
+    }
+}
+
 /// What reads and writes rows for a task, where it has any.
 pub(super) struct Moved<S: Storage, D: Storage<Number = S::Number>> {
     params: Option<Moving<S::Number>>,
     from: Option<Moving<S>>,
     other: Option<Moving<S>>,
     to: Option<Moving<D>>,
+    /// What turns rows as they are.
+    #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+    diagonals: Option<super::diagonals::Diagonals>,
 }
 
 /// A kernel and all that it works on.
@@ -123,6 +140,11 @@ fn aside<T>(first: *mut T, count: usize, step: usize) -> Lines<*mut T> {
     Lines { at: [0, 1, 2, 3].map(|channel| first.wrapping_add(channel * count * BLOCK)), step }
 }
 
+/// Whether lines may be written past the caches.
+fn are_aligned<T>(lines: &Lines<*mut T>) -> bool {
+    lines.at.iter().all(|at| at.is_null() || at.align_offset(64) == 0)
+}
+
 fn shared<T>(lines: &Lines<*mut T>) -> Lines<*const T> {
     Lines { at: lines.at.map(<*mut T>::cast_const), step: lines.step }
 }
@@ -140,29 +162,24 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     pub fn check(&self) -> Result<(), Error> {
         let planes = |lengths: &[usize]| lengths.windows(2).all(|pair| pair[0] == pair[1]);
         let is_even = |view: &View<S>| planes(&view.lengths[..view.plane_count]);
-        let of_from = if let Input::Each(view) = &self.from { Some(view) } else { None };
+        let of_from = self.from.view();
         let are_even = of_from.is_none_or(is_even)
             && self.other.as_ref().is_none_or(is_even)
             && planes(&self.to.lengths[..self.to.plane_count]);
         if !are_even {
             return Err(Error::Planes);
         }
-        let fits = |blocks: bool, found: usize| match blocks || matches!(self.to.places, Places::Blocks) {
+        let is_blocks = |places: &Places| *places == Places::Blocks;
+        let fits = |places: &Places, found: usize| match is_blocks(places) || is_blocks(&self.to.places) {
             true => found.div_ceil(BLOCK) == self.to.block_count(),
             false => found == self.to.signals,
         };
-        let is_blocks = |places: &Places| *places == Places::Blocks;
-        if let Params::Each(view) = &self.params
-            && !fits(is_blocks(&view.places), view.signals)
-        {
-            return Err(Error::Batch { found: view.signals, results: self.to.signals });
+        let params = self.params.view().map(|view| (&view.places, view.signals));
+        let signals = of_from.into_iter().chain(&self.other).map(|view| (&view.places, view.signals));
+        match params.into_iter().chain(signals).find(|(places, found)| !fits(places, *found)) {
+            Some((_, found)) => Err(Error::Batch { found, results: self.to.signals }),
+            None => Ok(()),
         }
-        for view in of_from.into_iter().chain(&self.other) {
-            if !fits(is_blocks(&view.places), view.signals) {
-                return Err(Error::Batch { found: view.signals, results: self.to.signals });
-            }
-        }
-        Ok(())
     }
 
     /// Returns the rotation of all rows as diagonals, if it is one and they are rows for it.
@@ -171,30 +188,44 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let (Params::Shared(quaternion), Input::Each(from)) = (&self.params, &self.from) else { return None };
         let (from, to) = (from.singles()?, self.to.singles()?);
         let q = <[S::Number; 4]>::try_from(*quaternion).ok()?.map(|x| x.into() as f32);
-        let streams = self.is_large() && from.planes[0] != to.planes[0];
-        super::diagonals::Diagonals::new(self.unit, q, &from, &to, streams)
+        super::diagonals::Diagonals::new(self.unit, q, &from, &to, self.streams())
     }
 
-    /// Whether there are so many bytes that results are written past the caches.
-    fn is_large(&self) -> bool {
-        let bytes = if let Input::Each(view) = &self.from { view.bytes() } else { 0 };
-        bytes + self.to.bytes() >= STREAMS_FROM.load(Ordering::Relaxed)
+    /// Whether results are written past the caches, where they can be: there are many bytes, and they do not lie where the signals
+    /// were just read.
+    fn streams(&self) -> bool {
+        let view = self.from.view();
+        let is_in_place = view.is_some_and(|view| view.planes[0].cast::<D>() == self.to.planes[0]);
+        let bytes = view.map_or(0, View::bytes) + self.to.bytes();
+        !is_in_place && bytes >= STREAMS_FROM.load(Ordering::Relaxed)
     }
 
     /// Returns what reads and writes rows, for all of the blocks.
     #[inline(always)]
     pub fn moves(&self) -> Moved<S, D> {
-        let mut moves = Moved { params: None, from: None, other: None, to: None };
+        let mut moves = Moved {
+            params: None,
+            from: None,
+            other: None,
+            to: None,
+            #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+            diagonals: None,
+        };
         self.fill(&mut moves);
         moves
     }
 
     /// Puts what reads and writes rows there; what is not there is not copied, since tables are thousands of bytes.
     fn fill(&self, moves: &mut Moved<S, D>) {
-        if let Params::Each(view) = &self.params {
+        #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+        if let Some(diagonals) = self.diagonals() {
+            moves.diagonals = Some(diagonals);
+            return;
+        }
+        if let Some(view) = self.params.view() {
             Moving::fill(&mut moves.params, *view, self.unit, true);
         }
-        if let Input::Each(view) = &self.from {
+        if let Some(view) = self.from.view() {
             Moving::fill(&mut moves.from, *view, self.unit, true);
         }
         if let Some(view) = self.other {
@@ -238,7 +269,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             return;
         }
         #[cfg(all(target_arch = "x86_64", feature = "order4"))]
-        if let Some(diagonals) = self.diagonals() {
+        if let Some(diagonals) = &moves.diagonals {
             // SAFETY: the caller's; they are there where the processor has the unit.
             unsafe { diagonals.over(blocks) }
             return;
@@ -258,9 +289,8 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
 
     /// How many signals and parameters there are.
     fn signals(&self) -> impl Iterator<Item = usize> {
-        let params = if let Params::Each(view) = &self.params { Some(view.signals) } else { None };
-        let from = if let Input::Each(view) = &self.from { Some(view.signals) } else { None };
-        params.into_iter().chain(from).chain(self.other.map(|view| view.signals))
+        let params = self.params.view().map(|view| view.signals);
+        params.into_iter().chain(self.from.view().into_iter().chain(&self.other).map(|view| view.signals))
     }
 
     /// Returns the pass over blocks all of which lie in lines, if they do.
@@ -280,9 +310,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             Some(view) => shared(&direct(view, blocks)?),
         };
         let to = direct(&self.to, blocks)?;
-        let is_aligned = |at: &*mut S::Number| at.is_null() || at.align_offset(64) == 0;
-        let is_in_place = matches!(&self.from, Input::Each(view) if view.planes[0].cast::<D>() == self.to.planes[0]);
-        let streams = self.is_large() && !is_in_place && to.at.iter().all(is_aligned);
+        let streams = self.streams() && are_aligned(&to);
         Some(Pass { blocks: blocks.len(), channels: self.to.channels, params, from, other, to, streams })
     }
 
@@ -320,28 +348,24 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     #[inline(never)]
     unsafe fn through_lines(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
         let unit = self.unit;
-        let as_lines = if let Input::Each(view) = &self.from { direct(view, &blocks) } else { None };
+        let as_lines = self.from.view().and_then(|view| direct(view, &blocks));
         let other_lines = self.other.as_ref().and_then(|view| direct(view, &blocks));
         let to_lines = direct(&self.to, &blocks);
         let lines_of = |view: &View<S>, is_there: bool| if is_there { 0 } else { view.count * view.channels };
-        let of_from = if let Input::Each(view) = &self.from { lines_of(view, as_lines.is_some()) } else { 0 };
+        let of_from = self.from.view().map_or(0, |view| lines_of(view, as_lines.is_some()));
         let of_other = self.other.as_ref().map_or(0, |view| lines_of(view, other_lines.is_some()));
         let of_to = if to_lines.is_some() { 0 } else { self.to.count * self.to.channels };
         let most = of_from.max(of_other).max(of_to);
         let at_once = (MOST_LINES / most.max(1)).clamp(1, MOST_AT_ONCE);
-        let param_lines = if let Params::Each(view) = &self.params { direct(view, &blocks) } else { None };
-        let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows } = moves;
-        let is_in_place = matches!(&self.from, Input::Each(view) if view.planes[0].cast::<D>() == self.to.planes[0]);
-        let is_large = self.is_large() && !is_in_place;
-        let is_aligned = |at: &*mut S::Number| at.is_null() || at.align_offset(64) == 0;
-        let streams = is_large && to_lines.as_ref().is_some_and(|lines| lines.at.iter().all(is_aligned));
+        let param_lines = self.params.view().and_then(|view| direct(view, &blocks));
+        let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows, .. } = moves;
+        let is_large = self.streams();
+        let streams = is_large && to_lines.as_ref().is_some_and(are_aligned);
         let (mut params_aside, mut from_aside, mut other_aside, mut to_aside) =
             (Room::<S>::new(), Room::<S>::new(), Room::<S>::new(), Room::<S>::new());
-        // Without parameters in rows nothing is read ahead, and one call does all that lies in lines.
-        let is_whole = most == 0 && (param_lines.is_some() || !matches!(self.params, Params::Each(_)));
         let mut start = blocks.start;
         while start < blocks.end {
-            let end = if is_whole { blocks.end } else { (start + at_once).min(blocks.end) };
+            let end = (start + at_once).min(blocks.end);
             let within = start - blocks.start;
             let forward = |lines: &Lines<*mut S::Number>| Lines {
                 at: lines.at.map(|at| at.wrapping_add(within * lines.step)),
@@ -381,7 +405,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     }
                 };
                 // A kernel of one signal to one may write where it reads.
-                let is_one_to_one = matches!(&self.from, Input::Each(view) if view.count == self.to.count);
+                let is_one_to_one = self.from.view().is_some_and(|view| view.count == self.to.count);
                 let first = match taken.filter(|_| is_one_to_one && self.other.is_none()) {
                     Some(first) => first,
                     None => to_aside.first(),
