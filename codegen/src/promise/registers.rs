@@ -16,7 +16,8 @@ const MEASURED: &str = include_str!("../../data/registers.tsv");
 pub const MOST: usize = 256;
 
 /// How a kernel is called.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Called {
     /// By one function.
     Whole,

@@ -7,6 +7,7 @@ use zonal::Error;
 use zonal::batch::{self, Block, Row, Signals, SignalsMut, Unit};
 use zonal_codegen::families::family::Spec;
 use zonal_codegen::ir::code::Code;
+use zonal_codegen::promise::samples::Random;
 
 /// How many signals lie in a cache, and how many do not.
 pub const IN_CACHE: usize = 1024;
@@ -85,24 +86,18 @@ fn multiplications(spec: &str, without_set_up: bool) -> usize {
 
 /// Numbers between −1 and 1 that are the same in every run.
 fn numbers(count: usize) -> Vec<f32> {
-    let mut state = 1_u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f32 / (1 << 23) as f32 - 1.0
-    };
-    (0..count).map(|_| next()).collect()
+    let mut random = Random::new(1);
+    (0..count).map(|_| random.signed() as f32).collect()
 }
 
 /// Unit vectors, a block of sixteen at a time.
 fn units<const N: usize>(blocks: usize) -> Vec<Block<f32, N>> {
-    let mut numbers = numbers(blocks * N * 16).into_iter();
+    let mut random = Random::new(1);
     let mut all = vec![Block::<f32, N>::zero(); blocks];
     for block in &mut all {
         for k in 0..16 {
-            let unit: [f32; N] = std::array::from_fn(|_| numbers.next().unwrap_or(1.0));
-            let length = unit.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-3);
-            for i in 0..N {
-                block.0[i][k] = unit[i] / length;
+            for (line, x) in block.0.iter_mut().zip(random.unit::<N>()) {
+                line[k] = x as f32;
             }
         }
     }
@@ -163,10 +158,7 @@ fn copy<T: Copy>(from: &[T], to: &mut [T]) {
 fn order<const N: usize>(run: &mut Run<'_>) {
     let (n, count) = (run.order, run.signals / 16);
     let rotate = multiplications(&format!("rotate:{n}"), false);
-    let all = match n {
-        2 | 3 => multiplications(&format!("rotate:{n}:zyz"), true),
-        _ => multiplications(&format!("rotate:{n}"), true),
-    };
+    let all = multiplications(&format!("rotate:{n}:zyz"), true);
     let tilt = multiplications(&format!("tilt:{n}"), false);
     let (basis, eval) = (multiplications(&format!("basis:{n}"), false), multiplications(&format!("eval:{n}"), false));
     let (quaternions, directions) = (units::<4>(count), units::<3>(count));

@@ -2,23 +2,11 @@
 
 use crate::shader;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use zonal_codegen::emit::Function;
 use zonal_codegen::families::{Form, Spec};
 use zonal_codegen::generate;
-
-/// How a kernel is called.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Called {
-    /// By one function, with all coefficients.
-    Whole,
-    /// A band at a time.
-    Pieces,
-    /// A band at a time, of which channel after channel is turned, by the functions of one channel.
-    Channels,
-}
+pub use zonal_codegen::promise::registers::Called;
 
 /// A kernel to compile.
 #[derive(Clone)]

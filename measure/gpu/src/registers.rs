@@ -10,15 +10,6 @@ use zonal_codegen::promise::registers;
 /// The GPU of the table: RDNA 2.
 pub const GPU: usize = 1;
 
-/// What the planner calls a way to call a kernel.
-fn in_plans(way: Called) -> registers::Called {
-    match way {
-        Called::Whole => registers::Called::Whole,
-        Called::Pieces => registers::Called::Pieces,
-        Called::Channels => registers::Called::Channels,
-    }
-}
-
 /// Returns the table.
 pub fn tsv(report: &Report) -> String {
     let head = format!(
@@ -28,7 +19,7 @@ pub fn tsv(report: &Report) -> String {
     );
     let lines = report.rows.iter().map(|row| {
         let counted = row.gpus[GPU];
-        format!("{}\t{}\t{}\n", registers::key(&row.spec, in_plans(row.called)), counted.registers, counted.spilled)
+        format!("{}\t{}\t{}\n", registers::key(&row.spec, row.called), counted.registers, counted.spilled)
     });
     head + &lines.collect::<String>()
 }
@@ -38,7 +29,7 @@ pub fn tsv(report: &Report) -> String {
 pub fn for_a_number(report: &Report, way: Called) -> Vec<f64> {
     let ratio = |row: &Row| {
         let spec: Spec = row.spec.parse().ok()?;
-        let held = registers::held(&spec, in_plans(row.called))?;
+        let held = registers::held(&spec, row.called)?;
         let counted = row.gpus[GPU];
         (held >= 16 && spec.form == Form::Unrolled).then(|| (counted.registers + counted.spilled) as f64 / held as f64)
     };
@@ -49,7 +40,7 @@ pub fn for_a_number(report: &Report, way: Called) -> Vec<f64> {
 
 /// Returns the share of values that are at most what the planner takes for a number.
 pub fn enough(all: &[f64], way: Called) -> f64 {
-    let most = in_plans(way).for_a_number();
+    let most = way.for_a_number();
     all.iter().filter(|&&ratio| ratio <= most).count() as f64 / all.len().max(1) as f64
 }
 
@@ -73,8 +64,8 @@ pub fn section(report: &Report) -> Vec<String> {
              the kernel holds by its listing: all numbers that it is given, and the most of its own that are alive at once. It \
              takes {} registers for each of a whole and {} of pieces, whose next band the compiler reads ahead. The table has registers for a number that is held as they were measured, \
              spilled ones among them, and the share of kernels that take no more than that.",
-            in_plans(Called::Whole).for_a_number(),
-            in_plans(Called::Pieces).for_a_number()
+            Called::Whole.for_a_number(),
+            Called::Pieces.for_a_number()
         ),
         table(&heads.map(str::to_owned), rows),
     ]
