@@ -87,13 +87,13 @@ fn generated() -> String {
     std::fs::remove_dir_all(&folder).expect("removable");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");
-    let lines = text.trim_end().lines().map(|line| match line.split_once(", in ") {
-        Some((before, after)) => {
-            let rest = after.split_once(" s.").map_or("", |(_, rest)| rest);
-            format!("{before}.{rest}")
-        }
-        None => line.to_owned(),
-    });
+    // How many seconds it took is left out, and nothing else.
+    let timeless = |line: &str| {
+        let (before, after) = line.split_once(", in ")?;
+        let (seconds, rest) = after.split_once(" s.")?;
+        seconds.parse::<f64>().ok().map(|_| format!("{before}.{rest}"))
+    };
+    let lines = text.trim_end().lines().map(|line| timeless(line).unwrap_or_else(|| line.to_owned()));
     let wrapped: Vec<String> = lines.flat_map(|line| textwrap(&line)).collect();
     format!("```text\n{}\n```\n", wrapped.join("\n"))
 }
