@@ -28,19 +28,19 @@ ZONAL_HIGHP float[9] sh3_basis(ZONAL_HIGHP vec3 dir) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = 0.48860252 * dir.x;
-    float t1 = 0.48860252 * dir.y;
+    float t0 = 0.48860252 * dir.y;
+    float t1 = 0.48860252 * dir.x;
     float t2 = 2.236068 * dir.z;
     return float[9](
         0.2820948,
-        -t1,
-        0.48860252 * dir.z,
         -t0,
-        2.236068 * dir.x * t1,
-        -(t1 * t2),
-        0.9461747 * (dir.z * dir.z) - 0.31539157,
+        0.48860252 * dir.z,
+        -t1,
+        2.236068 * dir.x * t0,
         -(t0 * t2),
-        2.288228 * (t0 * t0 - t1 * t1)
+        0.9461747 * (dir.z * dir.z) - 0.31539157,
+        -(t1 * t2),
+        2.288228 * (t1 * t1 - t0 * t0)
     );
 }
 

@@ -28,52 +28,52 @@ ZONAL_HIGHP float[25] sh5_basis(ZONAL_HIGHP vec3 dir) {
     precision highp float;
     precision highp int;
 #endif
-    float t0 = 0.48860252 * dir.z;
-    float t1 = dir.z * dir.z;
-    float t2 = 0.9461747 * t1 - 0.31539157;
-    float t3 = 0.48860252 * dir.x;
-    float t4 = 0.48860252 * dir.y;
-    float t5 = 2.236068 * dir.z;
-    float t6 = t3 * t5;
-    float t7 = t4 * t5;
-    float t8 = 4.6770716 * t1 - 0.9354144;
-    float t9 = 4.2866073 * t1 - 1.8371173;
-    float t10 = t3 * t3 - t4 * t4;
-    float t11 = 2.288228 * t10;
-    float t12 = 2.236068 * dir.x * t4;
-    float t13 = 2.6457512 * dir.z;
-    float t14 = 6.0621777 * t1 - 0.8660254;
-    float t15 = 1.0801234 * dir.y;
-    float t16 = 1.0801234 * dir.x;
-    float t17 = t12 * t15 - t11 * t16;
-    float t18 = t11 * t15 + t12 * t16;
-    float t19 = 3.0 * dir.z;
+    float t0 = 0.48860252 * dir.y;
+    float t1 = 0.48860252 * dir.z;
+    float t2 = 0.48860252 * dir.x;
+    float t3 = 2.236068 * dir.x * t0;
+    float t4 = 2.236068 * dir.z;
+    float t5 = t0 * t4;
+    float t6 = dir.z * dir.z;
+    float t7 = 0.9461747 * t6 - 0.31539157;
+    float t8 = t2 * t4;
+    float t9 = t2 * t2 - t0 * t0;
+    float t10 = 2.288228 * t9;
+    float t11 = 1.0801234 * dir.x;
+    float t12 = 1.0801234 * dir.y;
+    float t13 = t10 * t12 + t3 * t11;
+    float t14 = 2.6457512 * dir.z;
+    float t15 = 4.6770716 * t6 - 0.9354144;
+    float t16 = t3 * t12 - t10 * t11;
+    float t17 = 3.0 * dir.z;
+    float t18 = 6.0621777 * t6 - 0.8660254;
+    float t19 = 4.2866073 * t6 - 1.8371173;
     return float[25](
         0.2820948,
-        -t4,
-        t0,
-        -t3,
-        t12,
-        -t7,
-        t2,
-        -t6,
-        t11,
-        -t18,
-        t12 * t13,
-        -(t4 * t8),
-        (3.818813 * t1 - 2.291288) * t0,
-        -(t3 * t8),
-        t11 * t13,
-        t17,
-        9.597724 * t10 * t12,
-        -(t18 * t19),
-        t12 * t14,
-        -(t9 * t7),
-        (3.913119 * t1 - 2.0497289) * t2 - 0.3291106,
-        -(t9 * t6),
-        t11 * t14,
-        t17 * t19,
-        2.0971956 * (t11 * t11 - t12 * t12)
+        -t0,
+        t1,
+        -t2,
+        t3,
+        -t5,
+        t7,
+        -t8,
+        t10,
+        -t13,
+        t3 * t14,
+        -(t0 * t15),
+        (3.818813 * t6 - 2.291288) * t1,
+        -(t2 * t15),
+        t10 * t14,
+        t16,
+        9.597724 * t9 * t3,
+        -(t13 * t17),
+        t3 * t18,
+        -(t19 * t5),
+        (3.913119 * t6 - 2.0497289) * t7 - 0.3291106,
+        -(t19 * t8),
+        t10 * t18,
+        t16 * t17,
+        2.0971956 * (t10 * t10 - t3 * t3)
     );
 }
 

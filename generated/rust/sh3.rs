@@ -14,19 +14,19 @@ use super::real::{Channels, Real, Signal};
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 9] {
-    let t0 = T::lit(0.4886025119029199) * dir[0];
-    let t1 = T::lit(0.4886025119029199) * dir[1];
+    let t0 = T::lit(0.4886025119029199) * dir[1];
+    let t1 = T::lit(0.4886025119029199) * dir[0];
     let t2 = T::lit(2.23606797749979) * dir[2];
     [
         T::lit(0.28209479177387814),
-        -t1,
-        T::lit(0.4886025119029199) * dir[2],
         -t0,
-        t1 * (T::lit(2.23606797749979) * dir[0]),
-        -(t1 * t2),
-        T::lit(0.94617469575756).fms(dir[2] * dir[2], T::lit(0.31539156525252)),
+        T::lit(0.4886025119029199) * dir[2],
+        -t1,
+        t0 * (T::lit(2.23606797749979) * dir[0]),
         -(t0 * t2),
-        T::lit(2.2882280821594225) * t0.fms(t0, t1 * t1),
+        T::lit(0.94617469575756).fms(dir[2] * dir[2], T::lit(0.31539156525252)),
+        -(t1 * t2),
+        T::lit(2.2882280821594225) * t1.fms(t1, t0 * t0),
     ]
 }
 

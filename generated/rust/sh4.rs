@@ -8,40 +8,40 @@ use super::real::{Channels, Real, Signal};
 ///
 /// - dir: the direction, of unit length.
 /// - Returns y_lm(dir), bands ascending, m from -l to l.
-/// - Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 16 live values.
+/// - Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
 /// - Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 ///   contracted or not; the worst of 256 measured is 9.7e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3]) -> [T; 16] {
-    let t0 = T::lit(0.4886025119029199) * dir[2];
-    let t1 = dir[2] * dir[2];
+    let t0 = T::lit(0.4886025119029199) * dir[1];
+    let t1 = T::lit(0.4886025119029199) * dir[2];
     let t2 = T::lit(0.4886025119029199) * dir[0];
-    let t3 = T::lit(0.4886025119029199) * dir[1];
+    let t3 = t0 * (T::lit(2.23606797749979) * dir[0]);
     let t4 = T::lit(2.23606797749979) * dir[2];
-    let t5 = T::lit(4.677071733467427).fms(t1, T::lit(0.9354143466934853));
-    let t6 = T::lit(2.2882280821594225) * t2.fms(t2, t3 * t3);
-    let t7 = t3 * (T::lit(2.23606797749979) * dir[0]);
-    let t8 = T::lit(2.6457513110645907) * dir[2];
-    let t9 = T::lit(1.0801234497346435) * dir[1];
-    let t10 = T::lit(1.0801234497346435) * dir[0];
+    let t5 = dir[2] * dir[2];
+    let t6 = T::lit(2.2882280821594225) * t2.fms(t2, t0 * t0);
+    let t7 = T::lit(1.0801234497346435) * dir[0];
+    let t8 = T::lit(1.0801234497346435) * dir[1];
+    let t9 = T::lit(2.6457513110645907) * dir[2];
+    let t10 = T::lit(4.677071733467427).fms(t5, T::lit(0.9354143466934853));
     [
         T::lit(0.28209479177387814),
-        -t3,
-        t0,
+        -t0,
+        t1,
         -t2,
-        t7,
-        -(t3 * t4),
-        T::lit(0.94617469575756).fms(t1, T::lit(0.31539156525252)),
+        t3,
+        -(t0 * t4),
+        T::lit(0.94617469575756).fms(t5, T::lit(0.31539156525252)),
         -(t2 * t4),
         t6,
-        -t7.fma(t10, t6 * t9),
-        t7 * t8,
-        -(t3 * t5),
-        T::lit(3.8188130791298667).fms(t1, T::lit(2.29128784747792)) * t0,
-        -(t2 * t5),
-        t6 * t8,
-        t7.fms(t9, t6 * t10),
+        -t3.fma(t7, t6 * t8),
+        t3 * t9,
+        -(t0 * t10),
+        T::lit(3.8188130791298667).fms(t5, T::lit(2.29128784747792)) * t1,
+        -(t2 * t10),
+        t6 * t9,
+        t3.fms(t8, t6 * t7),
     ]
 }
 

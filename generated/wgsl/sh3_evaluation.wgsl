@@ -12,19 +12,19 @@
 // Error: f32 rounding at most 2.1e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 8e-8).
 fn sh3_basis(dir: vec3<f32>) -> array<f32, 9> {
-    let t0 = 0.48860252 * dir.x;
-    let t1 = 0.48860252 * dir.y;
+    let t0 = 0.48860252 * dir.y;
+    let t1 = 0.48860252 * dir.x;
     let t2 = 2.236068 * dir.z;
     return array<f32, 9>(
         0.2820948,
-        -t1,
-        0.48860252 * dir.z,
         -t0,
-        2.236068 * dir.x * t1,
-        -(t1 * t2),
-        0.9461747 * (dir.z * dir.z) - 0.31539157,
+        0.48860252 * dir.z,
+        -t1,
+        2.236068 * dir.x * t0,
         -(t0 * t2),
-        2.288228 * (t0 * t0 - t1 * t1)
+        0.9461747 * (dir.z * dir.z) - 0.31539157,
+        -(t1 * t2),
+        2.288228 * (t1 * t1 - t0 * t0)
     );
 }
 

@@ -7,39 +7,39 @@
 // 2013's recurrence, rearranged).
 // dir: the direction, of unit length.
 // Returns y_lm(dir), bands ascending, m from -l to l.
-// Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 16 live values.
+// Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 17 live values.
 // Vector registers on RDNA 2: 32.
 // Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 9.7e-8).
 fn sh4_basis(dir: vec3<f32>) -> array<f32, 16> {
-    let t0 = 0.48860252 * dir.z;
-    let t1 = dir.z * dir.z;
+    let t0 = 0.48860252 * dir.y;
+    let t1 = 0.48860252 * dir.z;
     let t2 = 0.48860252 * dir.x;
-    let t3 = 0.48860252 * dir.y;
+    let t3 = 2.236068 * dir.x * t0;
     let t4 = 2.236068 * dir.z;
-    let t5 = 4.6770716 * t1 - 0.9354144;
-    let t6 = 2.288228 * (t2 * t2 - t3 * t3);
-    let t7 = 2.236068 * dir.x * t3;
-    let t8 = 2.6457512 * dir.z;
-    let t9 = 1.0801234 * dir.y;
-    let t10 = 1.0801234 * dir.x;
+    let t5 = dir.z * dir.z;
+    let t6 = 2.288228 * (t2 * t2 - t0 * t0);
+    let t7 = 1.0801234 * dir.x;
+    let t8 = 1.0801234 * dir.y;
+    let t9 = 2.6457512 * dir.z;
+    let t10 = 4.6770716 * t5 - 0.9354144;
     return array<f32, 16>(
         0.2820948,
-        -t3,
-        t0,
+        -t0,
+        t1,
         -t2,
-        t7,
-        -(t3 * t4),
-        0.9461747 * t1 - 0.31539157,
+        t3,
+        -(t0 * t4),
+        0.9461747 * t5 - 0.31539157,
         -(t2 * t4),
         t6,
-        -(t6 * t9 + t7 * t10),
-        t7 * t8,
-        -(t3 * t5),
-        (3.818813 * t1 - 2.291288) * t0,
-        -(t2 * t5),
-        t6 * t8,
-        t7 * t9 - t6 * t10
+        -(t6 * t8 + t3 * t7),
+        t3 * t9,
+        -(t0 * t10),
+        (3.818813 * t5 - 2.291288) * t1,
+        -(t2 * t10),
+        t6 * t9,
+        t3 * t8 - t6 * t7
     );
 }
 

@@ -12,52 +12,52 @@
 // Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.1e-7).
 fn sh5_basis(dir: vec3<f32>) -> array<f32, 25> {
-    let t0 = 0.48860252 * dir.z;
-    let t1 = dir.z * dir.z;
-    let t2 = 0.9461747 * t1 - 0.31539157;
-    let t3 = 0.48860252 * dir.x;
-    let t4 = 0.48860252 * dir.y;
-    let t5 = 2.236068 * dir.z;
-    let t6 = t3 * t5;
-    let t7 = t4 * t5;
-    let t8 = 4.6770716 * t1 - 0.9354144;
-    let t9 = 4.2866073 * t1 - 1.8371173;
-    let t10 = t3 * t3 - t4 * t4;
-    let t11 = 2.288228 * t10;
-    let t12 = 2.236068 * dir.x * t4;
-    let t13 = 2.6457512 * dir.z;
-    let t14 = 6.0621777 * t1 - 0.8660254;
-    let t15 = 1.0801234 * dir.y;
-    let t16 = 1.0801234 * dir.x;
-    let t17 = t12 * t15 - t11 * t16;
-    let t18 = t11 * t15 + t12 * t16;
-    let t19 = 3.0 * dir.z;
+    let t0 = 0.48860252 * dir.y;
+    let t1 = 0.48860252 * dir.z;
+    let t2 = 0.48860252 * dir.x;
+    let t3 = 2.236068 * dir.x * t0;
+    let t4 = 2.236068 * dir.z;
+    let t5 = t0 * t4;
+    let t6 = dir.z * dir.z;
+    let t7 = 0.9461747 * t6 - 0.31539157;
+    let t8 = t2 * t4;
+    let t9 = t2 * t2 - t0 * t0;
+    let t10 = 2.288228 * t9;
+    let t11 = 1.0801234 * dir.x;
+    let t12 = 1.0801234 * dir.y;
+    let t13 = t10 * t12 + t3 * t11;
+    let t14 = 2.6457512 * dir.z;
+    let t15 = 4.6770716 * t6 - 0.9354144;
+    let t16 = t3 * t12 - t10 * t11;
+    let t17 = 3.0 * dir.z;
+    let t18 = 6.0621777 * t6 - 0.8660254;
+    let t19 = 4.2866073 * t6 - 1.8371173;
     return array<f32, 25>(
         0.2820948,
-        -t4,
-        t0,
-        -t3,
-        t12,
-        -t7,
-        t2,
-        -t6,
-        t11,
-        -t18,
-        t12 * t13,
-        -(t4 * t8),
-        (3.818813 * t1 - 2.291288) * t0,
-        -(t3 * t8),
-        t11 * t13,
-        t17,
-        9.597724 * t10 * t12,
-        -(t18 * t19),
-        t12 * t14,
-        -(t9 * t7),
-        (3.913119 * t1 - 2.0497289) * t2 - 0.3291106,
-        -(t9 * t6),
-        t11 * t14,
-        t17 * t19,
-        2.0971956 * (t11 * t11 - t12 * t12)
+        -t0,
+        t1,
+        -t2,
+        t3,
+        -t5,
+        t7,
+        -t8,
+        t10,
+        -t13,
+        t3 * t14,
+        -(t0 * t15),
+        (3.818813 * t6 - 2.291288) * t1,
+        -(t2 * t15),
+        t10 * t14,
+        t16,
+        9.597724 * t9 * t3,
+        -(t13 * t17),
+        t3 * t18,
+        -(t19 * t5),
+        (3.913119 * t6 - 2.0497289) * t7 - 0.3291106,
+        -(t19 * t8),
+        t10 * t18,
+        t16 * t17,
+        2.0971956 * (t10 * t10 - t3 * t3)
     );
 }
 

@@ -103,15 +103,20 @@ fn coefficients_of(bands: &[usize]) -> usize {
     bands.iter().map(|l| 2 * l + 1).sum()
 }
 
+/// Up to which order a basis is calculated band after band, so that memory is written in its order. Above, by columns the
+/// polynomials of one m live at a time, and by bands those of all.
+const BY_BANDS: usize = 5;
+
 /// All values of the bands at a direction: the kernel `basis`.
 fn basis(order: usize, bands: &[usize]) -> Kernel {
     let mut builder = Builder::new();
     let dir = direction(&mut builder);
     let all = columns::values(&mut builder.graph, &dir, order, columns::orthonormal);
     let outputs: Vec<Id> = bands.iter().flat_map(|&l| all[l * l..(l + 1) * (l + 1)].to_vec()).collect();
-    // By columns the polynomials of one m live at a time, by bands those of all.
-    let column = |m: usize| bands.iter().filter(move |&&l| l >= m).flat_map(move |&l| degrees(l, m));
-    builder.graph.lay_out_in((0..order).flat_map(column).map(|i| all[i]).collect());
+    if order > BY_BANDS {
+        let column = |m: usize| bands.iter().filter(move |&&l| l >= m).flat_map(move |&l| degrees(l, m));
+        builder.graph.lay_out_in((0..order).flat_map(column).map(|i| all[i]).collect());
+    }
     let count = outputs.len();
     builder.finish(outputs, Shape::Array(count), "y_lm(dir), bands ascending, m from −l to l")
 }

@@ -160,9 +160,9 @@ pub fn band_1_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, T::lit(0.28209479177387814));
+    result(1, -(T::lit(0.4886025119029199) * dir[1]));
     result(2, T::lit(0.4886025119029199) * dir[2]);
     result(3, -(T::lit(0.4886025119029199) * dir[0]));
-    result(1, -(T::lit(0.4886025119029199) * dir[1]));
 }
 
 /// `eval:2`: The sum of c_i y_i(dir) over the harmonics of order 2, without storing the basis.

@@ -276,17 +276,17 @@ pub fn band_2_rotate_zyz<T: Real, V: Signal<T>>(s: &[T; 6], c: &impl Fn(usize) -
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, T::lit(0.28209479177387814));
+    let t1 = T::lit(0.4886025119029199) * dir[1];
+    result(1, -t1);
     result(2, T::lit(0.4886025119029199) * dir[2]);
-    result(6, T::lit(0.94617469575756).fms(dir[2] * dir[2], T::lit(0.31539156525252)));
-    let t3 = T::lit(0.4886025119029199) * dir[0];
-    result(3, -t3);
-    let t5 = T::lit(0.4886025119029199) * dir[1];
-    result(1, -t5);
+    let t4 = T::lit(0.4886025119029199) * dir[0];
+    result(3, -t4);
+    result(4, t1 * (T::lit(2.23606797749979) * dir[0]));
     let t7 = T::lit(2.23606797749979) * dir[2];
-    result(7, -(t3 * t7));
-    result(5, -(t5 * t7));
-    result(8, T::lit(2.2882280821594225) * t3.fms(t3, t5 * t5));
-    result(4, t5 * (T::lit(2.23606797749979) * dir[0]));
+    result(5, -(t1 * t7));
+    result(6, T::lit(0.94617469575756).fms(dir[2] * dir[2], T::lit(0.31539156525252)));
+    result(7, -(t4 * t7));
+    result(8, T::lit(2.2882280821594225) * t4.fms(t4, t1 * t1));
 }
 
 /// `eval:3`: The sum of c_i y_i(dir) over the harmonics of order 3, without storing the basis.

@@ -313,39 +313,39 @@ pub fn band_3_tilt<T: Real, V: Signal<T>>(s: &[T; 4], c: &impl Fn(usize) -> V, r
 ///
 /// - dir: the direction, of unit length.
 /// - Returns y_lm(dir), bands ascending, m from -l to l.
-/// - Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 5 live values.
+/// - Operations: 27 (21 mul, 0 add, 6 fma); 12 constants, 10 live values.
 /// - Error: f32 rounding at most 4.3e-7 of one, for dir of unit length (proven for IEEE arithmetic,
 ///   contracted or not; the worst of 256 measured is 9.7e-8).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, T::lit(0.28209479177387814));
-    let t1 = T::lit(0.4886025119029199) * dir[2];
-    result(2, t1);
-    let t3 = dir[2] * dir[2];
-    result(6, T::lit(0.94617469575756).fms(t3, T::lit(0.31539156525252)));
-    result(12, T::lit(3.8188130791298667).fms(t3, T::lit(2.29128784747792)) * t1);
-    let t6 = T::lit(0.4886025119029199) * dir[0];
-    result(3, -t6);
-    let t8 = T::lit(0.4886025119029199) * dir[1];
-    result(1, -t8);
-    let t10 = T::lit(2.23606797749979) * dir[2];
-    result(7, -(t6 * t10));
-    result(5, -(t8 * t10));
-    let t13 = T::lit(4.677071733467427).fms(t3, T::lit(0.9354143466934853));
-    result(13, -(t6 * t13));
-    result(11, -(t8 * t13));
-    let t16 = T::lit(2.2882280821594225) * t6.fms(t6, t8 * t8);
-    result(8, t16);
-    let t18 = t8 * (T::lit(2.23606797749979) * dir[0]);
-    result(4, t18);
-    let t20 = T::lit(2.6457513110645907) * dir[2];
-    result(14, t16 * t20);
-    result(10, t18 * t20);
-    let t23 = T::lit(1.0801234497346435) * dir[1];
-    let t24 = T::lit(1.0801234497346435) * dir[0];
-    result(15, t18.fms(t23, t16 * t24));
-    result(9, -t18.fma(t24, t16 * t23));
+    let t1 = T::lit(0.4886025119029199) * dir[1];
+    result(1, -t1);
+    let t3 = T::lit(0.4886025119029199) * dir[2];
+    result(2, t3);
+    let t5 = T::lit(0.4886025119029199) * dir[0];
+    result(3, -t5);
+    let t7 = t1 * (T::lit(2.23606797749979) * dir[0]);
+    result(4, t7);
+    let t9 = T::lit(2.23606797749979) * dir[2];
+    result(5, -(t1 * t9));
+    let t11 = dir[2] * dir[2];
+    result(6, T::lit(0.94617469575756).fms(t11, T::lit(0.31539156525252)));
+    result(7, -(t5 * t9));
+    let t14 = T::lit(2.2882280821594225) * t5.fms(t5, t1 * t1);
+    result(8, t14);
+    let t16 = T::lit(1.0801234497346435) * dir[0];
+    let t17 = T::lit(1.0801234497346435) * dir[1];
+    result(9, -t7.fma(t16, t14 * t17));
+    let t19 = T::lit(2.6457513110645907) * dir[2];
+    result(10, t7 * t19);
+    let t21 = T::lit(4.677071733467427).fms(t11, T::lit(0.9354143466934853));
+    result(11, -(t1 * t21));
+    result(12, T::lit(3.8188130791298667).fms(t11, T::lit(2.29128784747792)) * t3);
+    result(13, -(t5 * t21));
+    result(14, t14 * t19);
+    result(15, t7.fms(t17, t14 * t16));
 }
 
 /// `eval:4`: The sum of c_i y_i(dir) over the harmonics of order 4, without storing the basis.

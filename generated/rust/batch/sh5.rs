@@ -451,58 +451,58 @@ pub fn band_4_tilt<T: Real, V: Signal<T>>(s: &[T; 5], c: &impl Fn(usize) -> V, r
 ///
 /// - dir: the direction, of unit length.
 /// - Returns y_lm(dir), bands ascending, m from -l to l.
-/// - Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 7 live values.
+/// - Operations: 43 (32 mul, 0 add, 11 fma); 22 constants, 15 live values.
 /// - Error: f32 rounding at most 1.1e-6 of one, for dir of unit length (proven for IEEE arithmetic,
 ///   contracted or not; the worst of 256 measured is 2.1e-7).
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn basis<T: Real>(dir: [T; 3], result: &mut impl FnMut(usize, T)) {
     result(0, T::lit(0.28209479177387814));
-    let t1 = T::lit(0.4886025119029199) * dir[2];
-    result(2, t1);
-    let t3 = dir[2] * dir[2];
-    let t4 = T::lit(0.94617469575756).fms(t3, T::lit(0.31539156525252));
-    result(6, t4);
-    result(12, T::lit(3.8188130791298667).fms(t3, T::lit(2.29128784747792)) * t1);
-    let t7 = t4.fms(T::lit(3.913118960624632).fms(t3, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
-    result(20, t7);
-    let t9 = T::lit(0.4886025119029199) * dir[0];
-    result(3, -t9);
-    let t11 = T::lit(0.4886025119029199) * dir[1];
-    result(1, -t11);
-    let t13 = T::lit(2.23606797749979) * dir[2];
-    let t14 = t9 * t13;
-    result(7, -t14);
-    let t16 = t11 * t13;
-    result(5, -t16);
-    let t18 = T::lit(4.677071733467427).fms(t3, T::lit(0.9354143466934853));
-    result(13, -(t9 * t18));
-    result(11, -(t11 * t18));
-    let t21 = T::lit(4.286607049870562).fms(t3, T::lit(1.8371173070873836));
-    result(21, -(t21 * t14));
-    result(19, -(t21 * t16));
-    let t24 = t9.fms(t9, t11 * t11);
-    let t25 = T::lit(2.2882280821594225) * t24;
-    result(8, t25);
-    let t27 = t11 * (T::lit(2.23606797749979) * dir[0]);
-    result(4, t27);
-    let t29 = T::lit(2.6457513110645907) * dir[2];
-    result(14, t25 * t29);
-    result(10, t27 * t29);
-    let t32 = T::lit(6.06217782649107).fms(t3, T::lit(0.8660254037844386));
-    result(22, t25 * t32);
-    result(18, t27 * t32);
-    let t35 = T::lit(1.0801234497346435) * dir[1];
-    let t36 = T::lit(1.0801234497346435) * dir[0];
-    let t37 = t27.fms(t35, t25 * t36);
-    result(15, t37);
-    let t39 = t27.fma(t36, t25 * t35);
-    result(9, -t39);
-    let t41 = T::lit(3.0) * dir[2];
-    result(23, t37 * t41);
-    result(17, -(t39 * t41));
-    result(24, T::lit(2.097195678763837) * t25.fms(t25, t27 * t27));
-    result(16, t27 * (T::lit(9.597724091861606) * t24));
+    let t1 = T::lit(0.4886025119029199) * dir[1];
+    result(1, -t1);
+    let t3 = T::lit(0.4886025119029199) * dir[2];
+    result(2, t3);
+    let t5 = T::lit(0.4886025119029199) * dir[0];
+    result(3, -t5);
+    let t7 = t1 * (T::lit(2.23606797749979) * dir[0]);
+    result(4, t7);
+    let t9 = T::lit(2.23606797749979) * dir[2];
+    let t10 = t1 * t9;
+    result(5, -t10);
+    let t12 = dir[2] * dir[2];
+    let t13 = T::lit(0.94617469575756).fms(t12, T::lit(0.31539156525252));
+    result(6, t13);
+    let t15 = t5 * t9;
+    result(7, -t15);
+    let t17 = t5.fms(t5, t1 * t1);
+    let t18 = T::lit(2.2882280821594225) * t17;
+    result(8, t18);
+    let t20 = T::lit(1.0801234497346435) * dir[0];
+    let t21 = T::lit(1.0801234497346435) * dir[1];
+    let t22 = t7.fma(t20, t18 * t21);
+    result(9, -t22);
+    let t24 = T::lit(2.6457513110645907) * dir[2];
+    result(10, t7 * t24);
+    let t26 = T::lit(4.677071733467427).fms(t12, T::lit(0.9354143466934853));
+    result(11, -(t1 * t26));
+    result(12, T::lit(3.8188130791298667).fms(t12, T::lit(2.29128784747792)) * t3);
+    result(13, -(t5 * t26));
+    result(14, t18 * t24);
+    let t31 = t7.fms(t21, t18 * t20);
+    result(15, t31);
+    result(16, t7 * (T::lit(9.597724091861606) * t17));
+    let t34 = T::lit(3.0) * dir[2];
+    result(17, -(t22 * t34));
+    let t36 = T::lit(6.06217782649107).fms(t12, T::lit(0.8660254037844386));
+    result(18, t7 * t36);
+    let t38 = T::lit(4.286607049870562).fms(t12, T::lit(1.8371173070873836));
+    result(19, -(t38 * t10));
+    let t40 = t13.fms(T::lit(3.913118960624632).fms(t12, T::lit(2.049728979374807)), T::lit(0.32911059040285784));
+    result(20, t40);
+    result(21, -(t38 * t15));
+    result(22, t18 * t36);
+    result(23, t31 * t34);
+    result(24, T::lit(2.097195678763837) * t18.fms(t18, t7 * t7));
 }
 
 /// `eval:5`: The sum of c_i y_i(dir) over the harmonics of order 5, without storing the basis.

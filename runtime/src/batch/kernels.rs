@@ -1,6 +1,7 @@
 //! The generated kernels over many blocks: each order's set-up once a block, then band after band, so that what lives at once
 //! fits into registers. A macro ties them together; the mathematics is all in the generated functions.
 
+use core::hint::black_box;
 use core::mem::MaybeUninit;
 use core::ptr;
 
@@ -34,6 +35,8 @@ pub struct Pass<T> {
     pub other: Lines<*const T>,
     /// Where results go. It may be where the signals are.
     pub to: Lines<*mut T>,
+    /// Whether signals are asked for ahead where a kernel does so little with them that it pays only for what is in no near cache.
+    pub is_far: bool,
     /// Whether results go past the caches; then they begin at multiples of 64 bytes.
     pub streams: bool,
 }
@@ -82,6 +85,12 @@ impl<A> Aside<A> {
     }
 }
 
+/// Lets the function that this is inlined into begin its stack at a multiple of 64 bytes, as [`Aside`] says.
+#[inline(always)]
+pub fn align_stack() {
+    core::hint::black_box(Aside::<u8>::new().first::<u8>());
+}
+
 /// Which of so many set-ups is a round's.
 #[inline(always)]
 fn place(round: usize, of: usize) -> usize {
@@ -101,9 +110,29 @@ fn first_of<A, T>(array: &mut MaybeUninit<A>) -> *mut T {
 /// As [`Kernel::run`]; the lines are there.
 #[inline(always)]
 unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, lines: core::ops::Range<usize>) {
+    // A loop, since as straight lines its instructions leave no room for the kernel's where a processor keeps them decoded.
+    let lines = black_box(lines);
     for place in lines.start * R::PARTS..lines.end * R::PARTS {
         // SAFETY: the caller's.
         unsafe { R::load(from.add(place * R::LANES)).stream(to.add(place * R::LANES)) }
+    }
+}
+
+/// How many blocks ahead signals are asked for: two are far enough for memory, and of large ones more than one has no room beside
+/// what is worked on.
+const fn blocks_ahead(lines: usize) -> usize {
+    if lines > 64 { 1 } else { 2 }
+}
+
+/// How many bytes a page of memory has at least.
+const PAGE: usize = 4096;
+
+/// Has the address of each page looked up to which so many numbers will be streamed, since nothing else can be written while one
+/// is: what is written past the caches is not asked for ahead by itself.
+#[inline(always)]
+pub fn look_up<R: Register>(to: *mut R::Number, numbers: usize) {
+    for byte in (0..numbers * size_of::<R::Number>()).step_by(PAGE) {
+        R::prefetch(to.wrapping_byte_add(byte));
     }
 }
 
@@ -125,14 +154,16 @@ macro_rules! bands {
     ($register:ident, $pass:ident, $block:ident, $of:ty, $set_up:expr, $module:ident, $count:literal, [$($l:literal $band:ident)*]) => {
         for channel in 0..$pass.channels {
             let (from, to) = ($pass.from.block(channel, $block), $pass.to.block(channel, $block));
-            // Two blocks ahead is far enough for memory.
-            let ahead = $pass.from.block(channel, $block + 2);
+            let ahead = $pass.from.block(channel, $block + blocks_ahead($count));
             let mut lines = Aside::<[[<$register as Register>::Number; BLOCK]; $count]>::new();
             let aside: *mut <$register as Register>::Number = lines.first();
             let into = if $pass.streams { aside } else { to };
             // SAFETY: the caller's; a kernel reads what it overwrites before, and writes every line of its band.
             unsafe {
                 $register::prefetch(ahead);
+                if $pass.streams {
+                    look_up::<$register>($pass.to.block(channel, $block + 2), $count * BLOCK);
+                }
                 copy::<$register>(from, into);
                 if $pass.streams {
                     stream::<$register>(into, to, 0..1);
@@ -239,6 +270,9 @@ macro_rules! directions {
             unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
                 for block in 0..pass.blocks {
                     let to = pass.to.block(0, block);
+                    if pass.streams {
+                        look_up::<R>(pass.to.block(0, block + 2), $count * BLOCK);
+                    }
                     let mut lines = Aside::<[[R::Number; BLOCK]; $count]>::new();
                     let aside: *mut R::Number = lines.first();
                     // A line that one register fills is streamed at once, another when it is whole.
@@ -289,6 +323,12 @@ macro_rules! directions {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
                 for block in 0..pass.blocks {
+                    if pass.is_far {
+                        for channel in 0..pass.channels {
+                            let ahead = pass.from.block(channel, block + blocks_ahead($count));
+                            (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
+                        }
+                    }
                     for part in 0..R::PARTS {
                         let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
                         // SAFETY: the caller's.
@@ -299,10 +339,6 @@ macro_rules! directions {
                             );
                             for channel in 0..pass.channels {
                                 let from = pass.from.block(channel, block).add(part * R::LANES);
-                                let ahead = pass.from.block(channel, block + 2);
-                                for line in 0..$count / R::PARTS {
-                                    R::prefetch(ahead.wrapping_add((part * ($count / R::PARTS) + line) * BLOCK));
-                                }
                                 let value = zonal_kernels::batch::$module::eval::<R, R>(
                                     dir,
                                     &source(

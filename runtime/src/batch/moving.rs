@@ -22,7 +22,9 @@ impl<S: Storage> Moving<S> {
     pub fn fill(at: &mut Option<Self>, view: View<S>, unit: Unit, over: bool) {
         if let Places::Rows { stride, row } = view.places {
             let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-            let tiles = moves.map(|moves| (Tiles::new(&row, over), moves));
+            // Sixteen columns at once are a square of a unit's registers, or four times four columns.
+            let worth_sixteen = if unit == Unit::Avx512 { 9 } else { 13 };
+            let tiles = moves.map(|moves| (Tiles::new(&row, over, worth_sixteen), moves));
             *at = Some(Self { view, stride, row, tiles });
         }
     }

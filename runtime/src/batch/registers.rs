@@ -382,6 +382,8 @@ macro_rules! quads {
     };
 }
 
+pub mod pair;
+
 #[cfg(target_arch = "x86_64")]
 pub mod x86;
 

@@ -73,18 +73,13 @@ impl Row {
     }
 }
 
-/// Four columns side by side and the line of each.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Tile {
-    column: u32,
-    lines: [u16; 4],
-}
-
-/// Sixteen columns side by side and the line of each.
+/// Columns side by side: the first one's number, and the line of each.
 #[derive(Clone, Copy, Debug)]
-pub struct Wide {
+pub struct Tile<const N: usize> {
     column: u32,
-    lines: [u16; BLOCK],
+    lines: [u16; N],
+    /// Whether the lines lie one after the other.
+    is_dense: bool,
 }
 
 /// Items on the stack, so many of which there are.
@@ -114,63 +109,117 @@ impl<T: Copy, const N: usize> Few<T, N> {
     }
 }
 
-/// The columns of a row: sixteen at a time, then four, where as many lie side by side.
+/// Columns side by side, of one channel or of each channel in turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Piece {
+    column: u32,
+    /// The line of the first.
+    line: u16,
+    count: u16,
+    /// How many channels lie in turn.
+    channels: u16,
+}
+
+/// The most pieces of a row: constants and the rest of each channel.
+const MOST_PIECES: usize = 2 * MOST_CHANNELS;
+
+/// The columns of a row: sixteen at a time, then four, where as many lie side by side. It is made for each call, so that it is small.
 pub struct Tiles {
-    wide: Few<Wide, { MOST_LINES / BLOCK }>,
-    tiles: Few<Tile, { MOST_LINES / 2 }>,
+    wide: Few<Tile<BLOCK>, { MOST_LINES / BLOCK + MOST_PIECES }>,
+    tiles: Few<Tile<4>, { 4 * MOST_PIECES }>,
     /// Columns that lie alone, each with its line.
-    alone: Few<(u32, u16), MOST_LINES>,
+    alone: Few<(u32, u16), { 3 * MOST_PIECES }>,
     /// How many numbers of a row tiles touch; it may be more than the row has.
     pub touched: usize,
 }
 
+impl<const N: usize> Tile<N> {
+    /// Columns from one on of those side by side.
+    fn new(first: u32, start: usize, line: impl Fn(usize) -> u16) -> Self {
+        let lines: [u16; N] = core::array::from_fn(|i| line(start + i));
+        let is_dense = lines.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        Self { column: first + start as u32, lines, is_dense }
+    }
+}
+
+impl Row {
+    /// The pieces of the row, in the order of their columns.
+    fn pieces(&self) -> Few<Piece, MOST_PIECES> {
+        let mut pieces = Few::new();
+        let (count, channels) = (self.count as u16, self.channels as u16);
+        let mut add = |coefficient: usize, many: u16, [apart, within]: [usize; 2]| {
+            // Channels in turn are one piece, a channel that lies side by side is one each.
+            let in_turn = apart == 1 && (many == 1 || within == self.channels);
+            for channel in 0..if in_turn { 1 } else { channels } {
+                let column = self.column(channel as usize, coefficient) as u32;
+                let line = channel * count + coefficient as u16;
+                let [many, channels] = if in_turn { [many * channels, channels] } else { [many, 1] };
+                pieces.push(Piece { column, line, count: many, channels });
+            }
+        };
+        if count > 0 {
+            add(0, 1, [self.first[1], 0]);
+        }
+        if count > 1 {
+            add(1, count - 1, [self.rest[1], self.rest[2]]);
+        }
+        pieces.all().sort_unstable();
+        pieces
+    }
+}
+
 impl Tiles {
-    /// Returns the columns of a row. Where `over` is so, fewer than four columns side by side are a tile too, which touches what
-    /// lies behind them.
-    pub fn new(row: &Row, over: bool) -> Self {
-        let mut columns = Few::<(u32, u16), MOST_LINES>::new();
-        for channel in 0..row.channels {
-            for i in 0..row.count {
-                columns.push((row.column(channel, i) as u32, (channel * row.count + i) as u16));
-            }
-        }
-        let columns = columns.all();
-        columns.sort_unstable();
+    /// Returns the columns of a row, of which so many that are left over are worth sixteen. Where `over` is so, fewer than four
+    /// columns side by side are a tile too, which touches what lies behind them.
+    pub fn new(row: &Row, over: bool, worth_sixteen: usize) -> Self {
+        let mut lines = [MaybeUninit::<u16>::uninit(); MOST_LINES];
         let mut tiles = Self { wide: Few::new(), tiles: Few::new(), alone: Few::new(), touched: 0 };
-        let mut at = 0;
-        while at < columns.len() {
-            let mut end = at + 1;
-            while end < columns.len() && columns[end].0 as usize == columns[at].0 as usize + (end - at) {
-                end += 1;
+        let pieces = row.pieces();
+        let (mut first, mut count) = (0, 0);
+        for piece in pieces.get() {
+            if count > 0 && piece.column != first + count as u32 {
+                tiles.add(first, &lines[..count], over, worth_sixteen);
+                count = 0;
             }
-            tiles.add(&columns[at..end], over);
-            at = end;
+            if count == 0 {
+                first = piece.column;
+            }
+            let lines = &mut lines[count..count + piece.count as usize];
+            for channel in 0..piece.channels {
+                let line = piece.line + channel * row.count as u16;
+                let of_channel = lines[channel as usize..].iter_mut().step_by(piece.channels as usize);
+                of_channel.zip(line..).for_each(|(at, line)| {
+                    at.write(line);
+                });
+            }
+            count += piece.count as usize;
         }
+        tiles.add(first, &lines[..count], over, worth_sixteen);
         tiles
     }
 
-    /// Adds columns side by side.
-    fn add(&mut self, whole: &[(u32, u16)], over: bool) {
-        let run = whole;
-        if run.len() < 4 && !(over && run.len() > 1) {
-            run.iter().for_each(|&column| self.alone.push(column));
+    /// Adds columns side by side, of which all lines are written.
+    fn add(&mut self, first: u32, lines: &[MaybeUninit<u16>], over: bool, worth_sixteen: usize) {
+        // SAFETY: they are.
+        let line = |i: usize| unsafe { lines[i].assume_init() };
+        let count = lines.len();
+        if count < 4 && !(over && count > 1) {
+            (0..count).for_each(|i| self.alone.push((first + i as u32, line(i))));
             return;
         }
-        let (wide, run) = run.split_at(run.len() / BLOCK * BLOCK);
-        for run in wide.chunks_exact(BLOCK) {
-            self.wide.push(Wide { column: run[0].0, lines: core::array::from_fn(|i| run[i].1) });
-            self.touched = self.touched.max(run[0].0 as usize + BLOCK);
+        let mut wide = count / BLOCK * BLOCK;
+        (0..wide).step_by(BLOCK).for_each(|start| self.wide.push(Tile::new(first, start, line)));
+        if wide > 0 && count - wide >= worth_sixteen {
+            self.wide.push(Tile::new(first, count - BLOCK, line));
+            wide = count;
         }
         // What is left over begins with columns that are done already, if there are too few.
-        let run = if run.len() % 4 > 0 && run.len() < 4 && !wide.is_empty() { &whole[whole.len() - 4..] } else { run };
-        for start in (0..run.len()).step_by(4) {
-            // The last tile begins where it ends with the run.
-            let start = start.min(run.len().saturating_sub(4));
+        for start in (wide..count).step_by(4) {
+            let start = start.min(count.saturating_sub(4));
             // What is no column goes to the line of the first, before that does.
-            let line = |i: usize| run.get(start + i).map_or(run[0].1, |column| column.1);
-            self.tiles.push(Tile { column: run[start].0, lines: [0, 1, 2, 3].map(line) });
-            self.touched = self.touched.max(run[start].0 as usize + 4);
+            self.tiles.push(Tile::new(first, start, |i| line(if i < count { i } else { start })));
         }
+        self.touched = self.touched.max(first as usize + count.max(4));
     }
 
     /// The columns that lie alone, each with its line.
@@ -200,19 +249,23 @@ impl Tiles {
                     |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
                 );
                 let first = rows.wrapping_add(wide.column as usize);
+                let row = source(
+                    #[inline(always)]
+                    |i: usize| first.wrapping_add(i * stride),
+                );
                 // SAFETY: the caller's.
                 unsafe {
                     if R::IS_WIDE {
-                        turn::<R>(
-                            source(
+                        if wide.is_dense {
+                            let lines = line(0);
+                            let dense = source(
                                 #[inline(always)]
-                                |i: usize| first.add(i * stride),
-                            ),
-                            source(
-                                #[inline(always)]
-                                |i: usize| line(i),
-                            ),
-                        );
+                                |i: usize| lines.wrapping_add(i * BLOCK),
+                            );
+                            turn::<R>(row, dense);
+                        } else {
+                            turn::<R>(row, line);
+                        }
                         continue;
                     }
                     for part in 0..R::PARTS {
@@ -271,19 +324,23 @@ impl Tiles {
                     |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
                 );
                 let first = rows.wrapping_add(wide.column as usize);
+                let row = source(
+                    #[inline(always)]
+                    |i: usize| first.wrapping_add(i * stride),
+                );
                 // SAFETY: the caller's.
                 unsafe {
                     if R::IS_WIDE {
-                        turn::<R>(
-                            source(
+                        if wide.is_dense {
+                            let lines = line(0);
+                            let dense = source(
                                 #[inline(always)]
-                                |i: usize| line(i),
-                            ),
-                            source(
-                                #[inline(always)]
-                                |i: usize| first.add(i * stride),
-                            ),
-                        );
+                                |i: usize| lines.wrapping_add(i * BLOCK),
+                            );
+                            turn::<R>(dense, row);
+                        } else {
+                            turn::<R>(line, row);
+                        }
                         continue;
                     }
                     for part in 0..R::PARTS {

@@ -16,6 +16,9 @@ use crate::error::Error;
 /// From how many bytes of signals and results on results are written past the caches.
 static STREAMS_FROM: AtomicUsize = AtomicUsize::new(16 << 20);
 
+/// From how many bytes of signals and results on signals lie in no cache of the core's own.
+const FAR_FROM: usize = 1 << 20;
+
 /// Writes results past the caches where a call's signals and results take so many bytes or more, for all of the program: half of the
 /// last cache is a good value, and 16 MiB what is used if nothing is said. Only blocks, and rows without gaps, can be written so.
 pub fn stream_from(bytes: usize) {
@@ -191,13 +194,17 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         super::diagonals::Diagonals::new(self.unit, q, &from, &to, self.streams())
     }
 
+    /// How many bytes signals and results are.
+    fn bytes(&self) -> usize {
+        self.from.view().map_or(0, View::bytes) + self.to.bytes()
+    }
+
     /// Whether results are written past the caches, where they can be: there are many bytes, and they do not lie where the signals
     /// were just read.
     fn streams(&self) -> bool {
         let view = self.from.view();
         let is_in_place = view.is_some_and(|view| view.planes[0].cast::<D>() == self.to.planes[0]);
-        let bytes = view.map_or(0, View::bytes) + self.to.bytes();
-        !is_in_place && bytes >= STREAMS_FROM.load(Ordering::Relaxed)
+        !is_in_place && self.bytes() >= STREAMS_FROM.load(Ordering::Relaxed)
     }
 
     /// Returns what reads and writes rows, for all of the blocks.
@@ -311,7 +318,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         };
         let to = direct(&self.to, blocks)?;
         let streams = self.streams() && are_aligned(&to);
-        Some(Pass { blocks: blocks.len(), channels: self.to.channels, params, from, other, to, streams })
+        Some(Pass { blocks: blocks.len(), channels: self.to.channels, params, from, other, to, is_far: self.bytes() >= FAR_FROM, streams })
     }
 
     /// # Safety
@@ -415,7 +422,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                     Some(lines) => forward(lines),
                     None => aside(first, self.to.count, step),
                 };
-                let pass = Pass { blocks: end - start, channels: self.to.channels, params, from, other, to, streams };
+                let pass = Pass { blocks: end - start, channels: self.to.channels, params, from, other, to, is_far: false, streams };
                 self.call(&pass);
                 if to_lines.is_none() {
                     let lines = |block: usize| first.add((block - start) * step);

@@ -5,6 +5,7 @@ use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::kernels::{self, Kernel, Pass};
+use super::registers::pair::Pair;
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
 
@@ -103,7 +104,7 @@ pub struct Moves<T> {
 
 /// A unit: every kernel and every move compiled for it.
 macro_rules! unit {
-    ($unit:ident, $single:ty, $double:ty $(, #[$features:meta])?) => {
+    ($unit:ident, $single:ty, $double:ty, $singles:ty, $doubles:ty $(, #[$features:meta])?) => {
         mod $unit {
             use crate::batch::units::*;
 
@@ -112,6 +113,7 @@ macro_rules! unit {
             /// As [`Kernel::run`]; the processor has the unit.
             $(#[$features])?
             unsafe fn run<K: Kernel, R: Register>(pass: &Pass<R::Number>) {
+                kernels::align_stack();
                 // SAFETY: the caller's, and this function is compiled for the unit.
                 unsafe { K::run::<R>(pass) }
             }
@@ -144,6 +146,7 @@ macro_rules! unit {
                 let lines = (count - before) / R::LANES * R::LANES;
                 // SAFETY: the caller's.
                 unsafe {
+                    kernels::look_up::<R>(to.wrapping_add(2 * count), count);
                     from.copy_to_nonoverlapping(to, before);
                     for i in (before..before + lines).step_by(R::LANES) {
                         R::load(from.add(i)).stream(to.add(i));
@@ -157,20 +160,20 @@ macro_rules! unit {
             pub const STREAM_SINGLE: unsafe fn(*const f32, *mut f32, usize) = stream::<$single>;
             pub const STREAM_DOUBLE: unsafe fn(*const f64, *mut f64, usize) = stream::<$double>;
 
-            unit!(@ kernels single f32 $single);
-            unit!(@ kernels double f64 $double);
+            unit!(@ kernels single f32 $single, $singles);
+            unit!(@ kernels double f64 $double, $doubles);
         }
     };
-    (@ kernels $name:ident $number:ident $register:ty) => {
+    (@ kernels $name:ident $number:ident $register:ty, $several:ty) => {
         /// The kernels of an order.
         pub fn $name(order: usize) -> Option<Kernels<$number>> {
-            unit!(@ orders $register, order,
-                "order2" 2 sh2 product, "order3" 3 sh3 product, "order4" 4 sh4 product, "order5" 5 sh5 product,
-                "order6" 6 sh6 product, "order7" 7 sh7 none, "order8" 8 sh8 none, "order9" 9 sh9 none,
-                "order10" 10 sh10 none)
+            unit!(@ orders $register, $several, order,
+                "order2" 2 sh2 single product, "order3" 3 sh3 single product, "order4" 4 sh4 single product,
+                "order5" 5 sh5 single product, "order6" 6 sh6 single product, "order7" 7 sh7 several none,
+                "order8" 8 sh8 several none, "order9" 9 sh9 several none, "order10" 10 sh10 several none)
         }
     };
-    (@ orders $register:ty, $order:ident, $($feature:literal $number:literal $module:ident $product:ident),*) => {
+    (@ orders $register:ty, $several:ty, $order:ident, $($feature:literal $number:literal $module:ident $eval:ident $product:ident),*) => {
         match $order {
             $(
                 #[cfg(feature = $feature)]
@@ -178,15 +181,18 @@ macro_rules! unit {
                     rotate: run::<kernels::$module::Rotate, $register>,
                     rotate_all: run::<kernels::$module::RotateAll, $register>,
                     tilt: run::<kernels::$module::Tilt, $register>,
-                    basis: run::<kernels::$module::Basis, $register>,
-                    eval: run::<kernels::$module::Eval, $register>,
-                    eval_all: run::<kernels::$module::EvalAll, $register>,
+                    basis: run::<kernels::$module::Basis, $several>,
+                    eval: unit!(@ $eval $module $register, $several),
+                    eval_all: run::<kernels::$module::EvalAll, $several>,
                     product: unit!(@ $product $module $register),
                 }),
             )*
             _ => None,
         }
     };
+    // A pair of registers at once pays where there is much to do between two signals that are read.
+    (@ single $module:ident $register:ty, $several:ty) => { run::<kernels::$module::Eval, $register> };
+    (@ several $module:ident $register:ty, $several:ty) => { run::<kernels::$module::Eval, $several> };
     (@ product $module:ident $register:ty) => { Some(run::<kernels::$module::Product, $register>) };
     (@ none $module:ident $register:ty) => { None };
 }
@@ -194,16 +200,16 @@ macro_rules! unit {
 #[cfg(target_arch = "x86_64")]
 use super::registers::x86::*;
 #[cfg(target_arch = "x86_64")]
-unit!(avx512, F32x16, F64x8, #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]);
+unit!(avx512, F32x16, F64x8, F32x16, Pair<F64x8>, #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]);
 #[cfg(target_arch = "x86_64")]
-unit!(avx2, F32x8, F64x4, #[target_feature(enable = "avx2,fma")]);
+unit!(avx2, F32x8, F64x4, Pair<F32x8>, Pair<F64x4>, #[target_feature(enable = "avx2,fma")]);
 
 #[cfg(target_arch = "aarch64")]
 use super::registers::neon::*;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::registers::plain::*;
 
-unit!(base, F32x4, F64x2);
+unit!(base, F32x4, F64x2, F32x4, F64x2);
 
 /// Takes what a unit has.
 macro_rules! of {
