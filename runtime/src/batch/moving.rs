@@ -1,6 +1,7 @@
 //! Rows read to lines and written from them, block after block: by tiles where the unit has them and a block is full, else number by
 //! number. Blocks of another precision are lines already, of other numbers.
 
+use core::mem::MaybeUninit;
 use core::ops::Range;
 
 use super::numbers::{Number, Storage};
@@ -9,24 +10,27 @@ use super::rows::{MOST_LINES, Row, Rows, Tiles};
 use super::signals::{Places, View};
 use super::units::{Moves, Unit};
 
+/// Room for the tiles of rows: thousands of bytes, which are written where they stay.
+pub type Room = MaybeUninit<Tiles>;
+
 /// Rows that are read or written.
-pub struct Moving<S: Storage> {
+pub struct Moving<'t, S: Storage> {
     view: View<S>,
+    is_far: bool,
     stride: usize,
     row: Row,
-    tiles: Option<(Tiles, Moves<S::Number>)>,
+    tiles: Option<(&'t Tiles, Moves<S::Number>)>,
 }
 
-impl<S: Storage> Moving<S> {
-    /// Puts the rows of a view there, if it is made of rows.
-    pub fn fill(at: &mut Option<Self>, view: View<S>, unit: Unit, over: bool) {
-        if let Places::Rows { stride, row } = view.places {
-            let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-            // Sixteen columns at once are a square of a unit's registers, or four times four columns.
-            let worth_sixteen = if unit == Unit::Avx512 { 9 } else { 13 };
-            let tiles = moves.map(|moves| (Tiles::new(&row, over, worth_sixteen), moves));
-            *at = Some(Self { view, stride, row, tiles });
-        }
+impl<'t, S: Storage> Moving<'t, S> {
+    /// Returns the rows of a view, if it is made of rows.
+    pub fn new(room: &'t mut Room, view: View<S>, unit: Unit, over: bool, is_far: bool) -> Option<Self> {
+        let Places::Rows { stride, row } = view.places else { return None };
+        let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
+        // Sixteen columns at once are a square of a unit's registers, or four times four columns.
+        let worth_sixteen = if unit == Unit::Avx512 { 9 } else { 13 };
+        let tiles = moves.map(|moves| (Tiles::fill(room, &row, over, worth_sixteen), moves));
+        Some(Self { view, is_far, stride, row, tiles })
     }
 
     /// How many signals of a block there are.
@@ -59,7 +63,7 @@ impl<S: Storage> Moving<S> {
                 match &self.tiles {
                     Some((tiles, moves)) if self.is_full(&blocks, tiles.touched) => {
                         let first = self.first(plane, blocks.start).cast_const().cast();
-                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len(), is_far: self.is_far };
                         (moves.gather)(tiles, rows, lines, step);
                         if !tiles.alone().is_empty() {
                             self.read_alone(rows, tiles, lines, step);
@@ -129,7 +133,7 @@ impl<S: Storage> Moving<S> {
                 match &self.tiles {
                     Some((tiles, moves)) if self.filled(blocks.end - 1) == BLOCK => {
                         let first = self.first(plane, blocks.start).cast();
-                        let rows = Rows { first, stride: self.stride, blocks: blocks.len() };
+                        let rows = Rows { first, stride: self.stride, blocks: blocks.len(), is_far: self.is_far };
                         (moves.scatter)(tiles, lines, step, rows);
                         for k in 0..rows.blocks * BLOCK {
                             for &(column, line) in tiles.alone() {
@@ -181,7 +185,7 @@ impl<S: Storage> Moving<S> {
         let to: *mut S::Number = self.first(0, block).cast();
         // SAFETY: the caller's; all columns are in tiles, since they lie side by side.
         unsafe {
-            (moves.scatter)(tiles, lines, 0, Rows { first: aside, stride: self.stride, blocks: 1 });
+            (moves.scatter)(tiles, lines, 0, Rows { first: aside, stride: self.stride, blocks: 1, is_far: false });
             S::Number::stream(unit)(aside, to, BLOCK * self.stride);
         }
     }
@@ -189,8 +193,7 @@ impl<S: Storage> Moving<S> {
     /// Whether rows are written past the caches.
     pub fn streams(&self) -> bool {
         let has_no_gaps = self.stride == self.row.count * self.row.channels && self.view.plane_count == 1;
-        let is_in_tiles = |(tiles, _): &(Tiles, _)| tiles.alone().is_empty();
-        has_no_gaps && self.tiles.as_ref().is_some_and(is_in_tiles)
+        has_no_gaps && self.tiles.as_ref().is_some_and(|(tiles, _)| tiles.alone().is_empty())
     }
 
     /// Columns side by side that are lines one after the other: the first of both, and how many.
@@ -232,7 +235,7 @@ pub unsafe fn widen<S: Storage>(view: &View<S>, block: usize, lines: *mut S::Num
 /// The view may be read, and there are lines for all of these blocks and [`MOST_LINES`] in all.
 pub unsafe fn read<S: Storage>(
     view: &View<S>,
-    rows: &Option<Moving<S>>,
+    rows: &Option<Moving<'_, S>>,
     blocks: Range<usize>,
     first: *mut S::Number,
     step: usize,

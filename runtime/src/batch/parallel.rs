@@ -11,7 +11,8 @@ const AT_ONCE: usize = 64;
 /// Runs a task over all its blocks, on all threads.
 fn threads<S: Storage, D: Storage<Number = S::Number>>(task: &Task<'_, S, D>) -> Result<(), Error> {
     task.check()?;
-    let moves = task.moves();
+    let mut rooms = task::rooms();
+    let moves = task.moves(&mut rooms);
     let blocks = task.to.block_count();
     (0..blocks.div_ceil(AT_ONCE)).into_par_iter().for_each(|run| {
         let first = run * AT_ONCE;

@@ -169,11 +169,19 @@ impl Row {
 }
 
 impl Tiles {
-    /// Returns the columns of a row, of which so many that are left over are worth sixteen. Where `over` is so, fewer than four
+    /// Puts the columns of a row there, of which so many that are left over are worth sixteen. Where `over` is so, fewer than four
     /// columns side by side are a tile too, which touches what lies behind them.
-    pub fn new(row: &Row, over: bool, worth_sixteen: usize) -> Self {
-        let mut lines = [MaybeUninit::<u16>::uninit(); MOST_LINES];
-        let mut tiles = Self { wide: Few::new(), tiles: Few::new(), alone: Few::new(), touched: 0 };
+    pub fn fill<'t>(at: &'t mut MaybeUninit<Self>, row: &Row, over: bool, worth_sixteen: usize) -> &'t Self {
+        let at = at.as_mut_ptr();
+        // SAFETY: what is not written may be without meaning; thousands of bytes are not copied.
+        let tiles = unsafe {
+            (&raw mut (*at).wide.count).write(0);
+            (&raw mut (*at).tiles.count).write(0);
+            (&raw mut (*at).alone.count).write(0);
+            (&raw mut (*at).touched).write(0);
+            &mut *at
+        };
+        let mut lines = [const { MaybeUninit::<u16>::uninit() }; MOST_LINES];
         let pieces = row.pieces();
         let (mut first, mut count) = (0, 0);
         for piece in pieces.get() {
@@ -235,13 +243,15 @@ impl Tiles {
     /// unit of the register, which the processor has.
     #[inline(always)]
     pub unsafe fn gather<R: Quads>(&self, rows: Rows<*const R::Number>, lines: *mut R::Number, step: usize) {
-        let Rows { first, stride, blocks } = rows;
+        let Rows { first, stride, blocks, is_far } = rows;
         for block in 0..blocks {
             let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
-            // Some blocks ahead is far enough for memory; what lies in a cache is there at once.
-            let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
-            for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
-                R::prefetch(ahead.wrapping_add(at));
+            if is_far {
+                // Some blocks ahead is far enough for memory.
+                let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
+                for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
+                    R::prefetch(ahead.wrapping_add(at));
+                }
             }
             for wide in self.wide.get() {
                 let line = source(
@@ -315,7 +325,7 @@ impl Tiles {
     /// As [`gather`](Self::gather), and the rows are nobody else's.
     #[inline(always)]
     pub unsafe fn scatter<R: Quads>(&self, lines: *const R::Number, step: usize, rows: Rows<*mut R::Number>) {
-        let Rows { first, stride, blocks } = rows;
+        let Rows { first, stride, blocks, .. } = rows;
         for block in 0..blocks {
             let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
             for wide in self.wide.get() {
@@ -424,4 +434,6 @@ pub struct Rows<P> {
     pub stride: usize,
     /// How many blocks of sixteen rows.
     pub blocks: usize,
+    /// Whether rows are asked for ahead, since they lie in no near cache.
+    pub is_far: bool,
 }

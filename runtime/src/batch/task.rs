@@ -5,7 +5,7 @@ use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::kernels::{Aside, Lines, MOST_CHANNELS, Pass};
-use super::moving::{Moving, narrow, read};
+use super::moving::{Moving, Room, narrow, read};
 use super::numbers::Storage;
 use super::registers::BLOCK;
 use super::rows::MOST_LINES;
@@ -60,14 +60,23 @@ impl<S: Storage> Input<S> {
 }
 
 /// What reads and writes rows for a task, where it has any.
-pub(super) struct Moved<S: Storage, D: Storage<Number = S::Number>> {
-    params: Option<Moving<S::Number>>,
-    from: Option<Moving<S>>,
-    other: Option<Moving<S>>,
-    to: Option<Moving<D>>,
+pub(super) struct Moved<'t, S: Storage, D: Storage<Number = S::Number>> {
+    params: Option<Moving<'t, S::Number>>,
+    from: Option<Moving<'t, S>>,
+    other: Option<Moving<'t, S>>,
+    to: Option<Moving<'t, D>>,
     /// What turns rows as they are.
     #[cfg(all(target_arch = "x86_64", feature = "order4"))]
     diagonals: Option<super::diagonals::Diagonals>,
+}
+
+/// Room for the tiles of all rows of a task.
+pub(super) type Rooms = [Room; 4];
+
+/// Returns room that nothing is written to.
+#[inline(always)]
+pub(super) const fn rooms() -> Rooms {
+    [const { Room::uninit() }; 4]
 }
 
 /// A kernel and all that it works on.
@@ -85,7 +94,7 @@ pub(super) struct Task<'a, S: Storage, D: Storage<Number = S::Number>> {
 unsafe impl<S: Storage, D: Storage<Number = S::Number>> Sync for Task<'_, S, D> {}
 
 /// Room for the lines of a block in all its channels, or of several blocks.
-type Room<S> = Aside<[[<S as Storage>::Number; BLOCK]; MOST_LINES]>;
+type LinesAside<S> = Aside<[[<S as Storage>::Number; BLOCK]; MOST_LINES]>;
 
 /// How many blocks are read at once at most, so that the processor works on one while it waits for another.
 const MOST_AT_ONCE: usize = 8;
@@ -106,8 +115,9 @@ pub(super) fn map<S: Storage, D: Storage<Number = S::Number>>(
     let unit = Unit::used();
     let task = Task { run: None, unit, params: Params::None, from: Input::Each(*from), other: None, to: *to };
     task.check()?;
-    let Moved { from: from_rows, to: to_rows, .. } = task.moves();
-    let (mut given, mut made) = (Room::<S>::new(), Room::<S>::new());
+    let mut rooms = rooms();
+    let Moved { from: from_rows, to: to_rows, .. } = task.moves(&mut rooms);
+    let (mut given, mut made) = (LinesAside::<S>::new(), LinesAside::<S>::new());
     for block in 0..to.block_count() {
         let (given, made): (*mut S::Number, *mut S::Number) = (given.first(), made.first());
         // SAFETY: sizes are checked and what made the views is borrowed by the function that calls; every line is written before
@@ -208,37 +218,20 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     }
 
     /// Returns what reads and writes rows, for all of the blocks.
-    #[inline(always)]
-    pub fn moves(&self) -> Moved<S, D> {
-        let mut moves = Moved {
-            params: None,
-            from: None,
-            other: None,
-            to: None,
-            #[cfg(all(target_arch = "x86_64", feature = "order4"))]
-            diagonals: None,
-        };
-        self.fill(&mut moves);
-        moves
-    }
-
-    /// Puts what reads and writes rows there; what is not there is not copied, since tables are thousands of bytes.
-    fn fill(&self, moves: &mut Moved<S, D>) {
+    pub fn moves<'t>(&self, [params, from, other, to]: &'t mut Rooms) -> Moved<'t, S, D> {
         #[cfg(all(target_arch = "x86_64", feature = "order4"))]
         if let Some(diagonals) = self.diagonals() {
-            moves.diagonals = Some(diagonals);
-            return;
+            return Moved { params: None, from: None, other: None, to: None, diagonals: Some(diagonals) };
         }
-        if let Some(view) = self.params.view() {
-            Moving::fill(&mut moves.params, *view, self.unit, true);
+        let (unit, is_far) = (self.unit, self.bytes() >= FAR_FROM);
+        Moved {
+            params: self.params.view().and_then(|view| Moving::new(params, *view, unit, true, is_far)),
+            from: self.from.view().and_then(|view| Moving::new(from, *view, unit, true, is_far)),
+            other: self.other.and_then(|view| Moving::new(other, view, unit, true, is_far)),
+            to: Moving::new(to, self.to, unit, false, is_far),
+            #[cfg(all(target_arch = "x86_64", feature = "order4"))]
+            diagonals: None,
         }
-        if let Some(view) = self.from.view() {
-            Moving::fill(&mut moves.from, *view, self.unit, true);
-        }
-        if let Some(view) = self.other {
-            Moving::fill(&mut moves.other, view, self.unit, true);
-        }
-        Moving::fill(&mut moves.to, self.to, self.unit, false);
     }
 
     /// Runs the kernel over all blocks.
@@ -263,7 +256,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     #[inline(never)]
     unsafe fn all_over(&self, blocks: Range<usize>) {
         // SAFETY: the caller's.
-        unsafe { self.over(&self.moves(), blocks) }
+        unsafe { self.over(&self.moves(&mut rooms()), blocks) }
     }
 
     /// Runs the kernel over some of the blocks.
@@ -271,7 +264,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     /// # Safety
     ///
     /// [`check`](Self::check) has passed, the views' memory is borrowed, and nobody else touches these blocks of the results.
-    pub unsafe fn over(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+    pub unsafe fn over(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
         if blocks.is_empty() {
             return;
         }
@@ -324,7 +317,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     /// # Safety
     ///
     /// As [`over`](Self::over).
-    unsafe fn part(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+    unsafe fn part(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
         // SAFETY: the caller's.
         unsafe {
             match self.in_lines(&blocks) {
@@ -353,7 +346,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     ///
     /// As [`over`](Self::over).
     #[inline(never)]
-    unsafe fn through_lines(&self, moves: &Moved<S, D>, blocks: Range<usize>) {
+    unsafe fn through_lines(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
         let unit = self.unit;
         let as_lines = self.from.view().and_then(|view| direct(view, &blocks));
         let other_lines = self.other.as_ref().and_then(|view| direct(view, &blocks));
@@ -369,7 +362,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let is_large = self.streams();
         let streams = is_large && to_lines.as_ref().is_some_and(are_aligned);
         let (mut params_aside, mut from_aside, mut other_aside, mut to_aside) =
-            (Room::<S>::new(), Room::<S>::new(), Room::<S>::new(), Room::<S>::new());
+            (LinesAside::<S>::new(), LinesAside::<S>::new(), LinesAside::<S>::new(), LinesAside::<S>::new());
         let mut start = blocks.start;
         while start < blocks.end {
             let end = (start + at_once).min(blocks.end);
