@@ -3,6 +3,7 @@
 
 use core::hint::black_box;
 use core::mem::MaybeUninit;
+use core::ops::Range;
 use core::ptr;
 
 use super::registers::{BLOCK, Register, sink, source};
@@ -14,15 +15,27 @@ const MOST_PARTS: usize = 8;
 pub const MOST_CHANNELS: usize = 4;
 
 /// Where the lines of many blocks lie: each a number of each of sixteen signals, the lines of a channel one after the other.
+#[derive(Clone, Copy)]
 pub struct Lines<P> {
     /// The first line of each channel.
     pub at: [P; MOST_CHANNELS],
     /// How many numbers lie from a block to the next.
     pub step: usize,
+    /// Which bits of a block's number say where it lies: all, or the lowest where blocks share places.
+    pub mask: usize,
 }
 
+/// How many groups of blocks have places: one is worked on, and the next is read.
+pub const GROUPS: usize = 2;
+
 /// What a kernel works on.
-pub struct Pass<T> {
+pub struct Pass<'a, T> {
+    /// What puts blocks that lie in rows into their lines, a group at a time.
+    pub read: Option<&'a dyn Fn(Range<usize>)>,
+    /// What makes rows of a group's results.
+    pub write: Option<&'a dyn Fn(Range<usize>)>,
+    /// How many blocks are a group.
+    pub group: usize,
     /// How many blocks.
     pub blocks: usize,
     /// How many channels share the parameters.
@@ -41,17 +54,51 @@ pub struct Pass<T> {
     pub streams: bool,
 }
 
-impl<T> Lines<*const T> {
+impl<T> Pass<'_, T> {
+    /// Before a block is worked on that begins a group: makes rows of the group before it and reads the one behind it, if they are
+    /// rows, so that neither waits for what is worked on.
     #[inline(always)]
-    fn block(&self, channel: usize, block: usize) -> *const T {
-        self.at[channel].wrapping_add(block * self.step)
+    fn pass_by(&self, block: usize) {
+        if block.is_multiple_of(self.group) {
+            if let Some(write) = self.write.filter(|_| block > 0) {
+                write(block - self.group..block);
+            }
+            if let Some(read) = self.read.filter(|_| block + self.group < self.blocks) {
+                read(block + self.group..(block + 2 * self.group).min(self.blocks));
+            }
+        }
+    }
+
+    /// Reads the first group, if it lies in rows.
+    #[inline(always)]
+    fn begin(&self) {
+        if let Some(read) = self.read {
+            read(0..self.group.min(self.blocks));
+        }
+    }
+
+    /// Makes rows of the last group, if they are rows.
+    #[inline(always)]
+    fn end(&self) {
+        if let Some(write) = self.write {
+            write((self.blocks - 1) / self.group * self.group..self.blocks);
+        }
+    }
+}
+
+impl<T> Lines<*const T> {
+    /// Where a block's lines are.
+    #[inline(always)]
+    pub fn block(&self, channel: usize, block: usize) -> *const T {
+        self.at[channel].wrapping_add((block & self.mask) * self.step)
     }
 }
 
 impl<T> Lines<*mut T> {
+    /// Where a block's lines go.
     #[inline(always)]
-    fn block(&self, channel: usize, block: usize) -> *mut T {
-        self.at[channel].wrapping_add(block * self.step)
+    pub fn block(&self, channel: usize, block: usize) -> *mut T {
+        self.at[channel].wrapping_add((block & self.mask) * self.step)
     }
 }
 
@@ -63,7 +110,7 @@ pub trait Kernel {
     ///
     /// All lines that the pass speaks of are there, those of results nobody else's, and the function around it is compiled for
     /// the unit of the register, which the processor has.
-    unsafe fn run<R: Register>(pass: &Pass<R::Number>);
+    unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>);
 }
 
 /// Lines on the stack, from a multiple of 64 bytes on. A function that has them keeps its registers in such places too: where
@@ -109,7 +156,7 @@ fn first_of<A, T>(array: &mut MaybeUninit<A>) -> *mut T {
 ///
 /// As [`Kernel::run`]; the lines are there.
 #[inline(always)]
-unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, lines: core::ops::Range<usize>) {
+unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, lines: Range<usize>) {
     // A loop, since as straight lines its instructions leave no room for the kernel's where a processor keeps them decoded.
     let lines = black_box(lines);
     for place in lines.start * R::PARTS..lines.end * R::PARTS {
@@ -196,12 +243,16 @@ macro_rules! each {
         pub struct $kernel;
         impl Kernel for $kernel {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
                 // A set-up that is one long chain is done a block ahead, beside bands that do not wait for it; which of the two
                 // it is, is an index and not a choice, so that the compiler leaves them in memory.
                 let mut set_ups = [const { [const { MaybeUninit::uninit() }; MOST_PARTS] }; 1 + $ahead];
+                pass.begin();
                 for ahead in 0..pass.blocks + $ahead {
                     let (next, now) = (place(ahead, 1 + $ahead), place(ahead + $ahead, 1 + $ahead));
+                    if let Some(block) = ahead.checked_sub($ahead) {
+                        pass.pass_by(block);
+                    }
                     if ahead < pass.blocks {
                         for part in 0..R::PARTS {
                             let params = pass.params.block(0, ahead).wrapping_add(part * R::LANES);
@@ -221,6 +272,7 @@ macro_rules! each {
                     let set_up = source(#[inline(always)] |part: usize| unsafe { set_ups[now][part].assume_init_ref() });
                     bands!(R, pass, block, R, set_up, $module, $count, $bands);
                 }
+                pass.end();
                 if pass.streams {
                     R::fence();
                 }
@@ -236,7 +288,7 @@ macro_rules! all {
         pub struct $kernel;
         impl Kernel for $kernel {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
                 let mut set_up = MaybeUninit::uninit();
                 // SAFETY: the caller's; the parameters are a number each, and the set-up writes every number of its array.
                 unsafe {
@@ -249,9 +301,12 @@ macro_rules! all {
                 }
                 // SAFETY: it is written above.
                 let set_up = source(#[inline(always)] |_: usize| unsafe { set_up.assume_init_ref() });
+                pass.begin();
                 for block in 0..pass.blocks {
+                    pass.pass_by(block);
                     bands!(R, pass, block, R::Number, set_up, $module, $count, $bands);
                 }
+                pass.end();
                 if pass.streams {
                     R::fence();
                 }
@@ -267,8 +322,10 @@ macro_rules! directions {
         pub struct $basis;
         impl Kernel for $basis {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
+                pass.begin();
                 for block in 0..pass.blocks {
+                    pass.pass_by(block);
                     let to = pass.to.block(0, block);
                     if pass.streams {
                         look_up::<R>(pass.to.block(0, block + 2), $count * BLOCK);
@@ -311,6 +368,7 @@ macro_rules! directions {
                         unsafe { stream::<R>(aside, to, 0..$count) }
                     }
                 }
+                pass.end();
                 if pass.streams {
                     R::fence();
                 }
@@ -321,8 +379,10 @@ macro_rules! directions {
         pub struct $eval;
         impl Kernel for $eval {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
+                pass.begin();
                 for block in 0..pass.blocks {
+                    pass.pass_by(block);
                     if pass.is_far {
                         for channel in 0..pass.channels {
                             let ahead = pass.from.block(channel, block + blocks_ahead($count));
@@ -351,6 +411,7 @@ macro_rules! directions {
                         }
                     }
                 }
+                pass.end();
             }
         }
 
@@ -358,8 +419,10 @@ macro_rules! directions {
         pub struct $eval_all;
         impl Kernel for $eval_all {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
+                pass.begin();
                 for block in 0..pass.blocks {
+                    pass.pass_by(block);
                     for part in 0..R::PARTS {
                         let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
                         // SAFETY: the caller's; a channel's signal is a number a line.
@@ -383,6 +446,7 @@ macro_rules! directions {
                         }
                     }
                 }
+                pass.end();
             }
         }
     };
@@ -395,8 +459,10 @@ macro_rules! product {
         pub struct $product;
         impl Kernel for $product {
             #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
+                pass.begin();
                 for block in 0..pass.blocks {
+                    pass.pass_by(block);
                     for channel in 0..pass.channels {
                         for part in 0..R::PARTS {
                             let [a, b] = [&pass.from, &pass.other]
@@ -422,6 +488,7 @@ macro_rules! product {
                         }
                     }
                 }
+                pass.end();
             }
         }
     };
@@ -432,14 +499,17 @@ macro_rules! product {
 /// # Safety
 ///
 /// All lines that the pass speaks of are there, those of results nobody else's.
-pub unsafe fn copy_lines<T>(pass: &Pass<T>, lines: usize) {
+pub unsafe fn copy_lines<T>(pass: &Pass<'_, T>, lines: usize) {
+    pass.begin();
     for block in 0..pass.blocks {
+        pass.pass_by(block);
         for channel in 0..pass.channels {
             let (from, to) = (pass.from.block(channel, block), pass.to.block(channel, block));
             // SAFETY: the caller's.
             unsafe { ptr::copy(from, to, lines * BLOCK) }
         }
     }
+    pass.end();
 }
 
 /// The kernels of an order.

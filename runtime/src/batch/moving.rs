@@ -17,6 +17,10 @@ pub type Room = MaybeUninit<Tiles>;
 pub struct Moving<'t, S: Storage> {
     view: View<S>,
     is_far: bool,
+    /// How many blocks are full, and so is what tiles touch of them.
+    readable: usize,
+    /// How many blocks are full.
+    writable: usize,
     stride: usize,
     row: Row,
     tiles: Option<(&'t Tiles, Moves<S::Number>)>,
@@ -30,7 +34,11 @@ impl<'t, S: Storage> Moving<'t, S> {
         // Sixteen columns at once are a square of a unit's registers, or four times four columns.
         let worth_sixteen = if unit == Unit::Avx512 { 9 } else { 13 };
         let tiles = moves.map(|moves| (Tiles::fill(room, &row, over, worth_sixteen), moves));
-        Some(Self { view, is_far, stride, row, tiles })
+        let touched = tiles.as_ref().map_or(0, |(tiles, _)| tiles.touched);
+        let rows = |length: &usize| length.checked_sub(touched).map_or(0, |rest| rest / stride.max(1) + 1);
+        let rows = view.lengths[..view.plane_count].iter().map(rows).min().unwrap_or(0);
+        let (readable, writable) = (rows.min(view.signals) / BLOCK, view.signals / BLOCK);
+        Some(Self { view, is_far, readable, writable, stride, row, tiles })
     }
 
     /// How many signals of a block there are.
@@ -43,11 +51,9 @@ impl<'t, S: Storage> Moving<'t, S> {
         self.view.planes[plane].wrapping_add(block * BLOCK * self.stride)
     }
 
-    /// Whether blocks up to one are full, and so is what tiles touch of them.
-    fn is_full(&self, blocks: &Range<usize>, touched: usize) -> bool {
-        let end = (blocks.end * BLOCK - 1) * self.stride + touched;
-        self.filled(blocks.end - 1) == BLOCK
-            && self.view.lengths[..self.view.plane_count].iter().all(|length| end <= *length)
+    /// The rows of blocks in a plane.
+    fn rows<N>(&self, plane: usize, blocks: &Range<usize>) -> Rows<N> {
+        Rows { first: self.first(plane, blocks.start).cast(), stride: self.stride, blocks: blocks.len(), is_far: self.is_far }
     }
 
     /// Reads blocks, each to lines of `step` numbers.
@@ -61,12 +67,14 @@ impl<'t, S: Storage> Moving<'t, S> {
             // SAFETY: the caller's; tiles are read where the last row still has what they touch.
             unsafe {
                 match &self.tiles {
-                    Some((tiles, moves)) if self.is_full(&blocks, tiles.touched) => {
-                        let first = self.first(plane, blocks.start).cast_const().cast();
-                        let rows = Rows { first, stride: self.stride, blocks: blocks.len(), is_far: self.is_far };
+                    Some((tiles, moves)) if blocks.end <= self.readable => {
+                        let rows = self.rows::<S::Number>(plane, &blocks);
                         (moves.gather)(tiles, rows, lines, step);
-                        if !tiles.alone().is_empty() {
-                            self.read_alone(rows, tiles, lines, step);
+                        for k in 0..if tiles.alone().is_empty() { 0 } else { blocks.len() * BLOCK } {
+                            for &(column, line) in tiles.alone() {
+                                let number = rows.first.add(k * rows.stride + column as usize).read();
+                                lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).write(number);
+                            }
                         }
                     }
                     _ => {
@@ -74,23 +82,6 @@ impl<'t, S: Storage> Moving<'t, S> {
                             self.read_plainly(plane, block, lines.wrapping_add(place * step));
                         }
                     }
-                }
-            }
-        }
-    }
-
-    /// Reads what is in no tile.
-    ///
-    /// # Safety
-    ///
-    /// As [`read`](Self::read).
-    unsafe fn read_alone(&self, rows: Rows<*const S::Number>, tiles: &Tiles, lines: *mut S::Number, step: usize) {
-        for k in 0..rows.blocks * BLOCK {
-            for &(column, line) in tiles.alone() {
-                // SAFETY: the caller's.
-                unsafe {
-                    let number = rows.first.add(k * rows.stride + column as usize).read();
-                    lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).write(number);
                 }
             }
         }
@@ -131,11 +122,10 @@ impl<'t, S: Storage> Moving<'t, S> {
             // SAFETY: the caller's; tiles touch what they write alone.
             unsafe {
                 match &self.tiles {
-                    Some((tiles, moves)) if self.filled(blocks.end - 1) == BLOCK => {
-                        let first = self.first(plane, blocks.start).cast();
-                        let rows = Rows { first, stride: self.stride, blocks: blocks.len(), is_far: self.is_far };
+                    Some((tiles, moves)) if blocks.end <= self.writable => {
+                        let rows = self.rows::<S::Number>(plane, &blocks);
                         (moves.scatter)(tiles, lines, step, rows);
-                        for k in 0..rows.blocks * BLOCK {
+                        for k in 0..if tiles.alone().is_empty() { 0 } else { blocks.len() * BLOCK } {
                             for &(column, line) in tiles.alone() {
                                 let number = lines.add(k / BLOCK * step + line as usize * BLOCK + k % BLOCK).read();
                                 rows.first.add(k * rows.stride + column as usize).write(number);
@@ -190,10 +180,11 @@ impl<'t, S: Storage> Moving<'t, S> {
         }
     }
 
-    /// Whether rows are written past the caches.
-    pub fn streams(&self) -> bool {
+    /// Whether rows are written past the caches up to a block, where that is asked for.
+    pub fn streams(&self, last: usize) -> bool {
         let has_no_gaps = self.stride == self.row.count * self.row.channels && self.view.plane_count == 1;
-        has_no_gaps && self.tiles.as_ref().is_some_and(|(tiles, _)| tiles.alone().is_empty())
+        let is_in_tiles = |(tiles, _): &(&Tiles, _)| tiles.alone().is_empty();
+        last < self.writable && has_no_gaps && self.tiles.as_ref().is_some_and(is_in_tiles)
     }
 
     /// Columns side by side that are lines one after the other: the first of both, and how many.
@@ -228,11 +219,11 @@ pub unsafe fn widen<S: Storage>(view: &View<S>, block: usize, lines: *mut S::Num
     }
 }
 
-/// Reads blocks to lines, so many numbers a block.
+/// Reads blocks, each to lines of `step` numbers.
 ///
 /// # Safety
 ///
-/// The view may be read, and there are lines for all of these blocks and [`MOST_LINES`] in all.
+/// The view may be read, and there are lines for all that the blocks have.
 pub unsafe fn read<S: Storage>(
     view: &View<S>,
     rows: &Option<Moving<'_, S>>,

@@ -9,6 +9,9 @@ use super::registers::{BLOCK, Quads, sink, source};
 /// The most coefficients of a channel: order 10.
 pub const MOST_COUNT: usize = 100;
 
+/// How many numbers ahead rows are asked for.
+const AHEAD: usize = 1024;
+
 /// The most lines that a block has in all its channels.
 pub const MOST_LINES: usize = MOST_CHANNELS * MOST_COUNT;
 
@@ -134,11 +137,12 @@ pub struct Tiles {
 }
 
 impl<const N: usize> Tile<N> {
-    /// Columns from one on of those side by side.
-    fn new(first: u32, start: usize, line: impl Fn(usize) -> u16) -> Self {
-        let lines: [u16; N] = core::array::from_fn(|i| line(start + i));
-        let is_dense = lines.windows(2).all(|pair| pair[1] == pair[0] + 1);
-        Self { column: first + start as u32, lines, is_dense }
+    /// Columns from one on.
+    fn new(column: u32, lines: [u16; N]) -> Self {
+        let is_next = |(i, line): (usize, &u16)| *line == lines[0] + i as u16;
+        // All are asked, so that many are at once.
+        let is_dense = lines.iter().enumerate().fold(true, |all, line| all & is_next(line));
+        Self { column, lines, is_dense }
     }
 }
 
@@ -181,7 +185,7 @@ impl Tiles {
             (&raw mut (*at).touched).write(0);
             &mut *at
         };
-        let mut lines = [const { MaybeUninit::<u16>::uninit() }; MOST_LINES];
+        let mut lines = [0; MOST_LINES];
         let pieces = row.pieces();
         let (mut first, mut count) = (0, 0);
         for piece in pieces.get() {
@@ -192,13 +196,14 @@ impl Tiles {
             if count == 0 {
                 first = piece.column;
             }
-            let lines = &mut lines[count..count + piece.count as usize];
-            for channel in 0..piece.channels {
-                let line = piece.line + channel * row.count as u16;
-                let of_channel = lines[channel as usize..].iter_mut().step_by(piece.channels as usize);
-                of_channel.zip(line..).for_each(|(at, line)| {
-                    at.write(line);
-                });
+            let of_piece = &mut lines[count..count + piece.count as usize];
+            if piece.channels == 1 {
+                of_piece.iter_mut().enumerate().for_each(|(i, line)| *line = piece.line + i as u16);
+            } else {
+                for (i, in_turn) in of_piece.chunks_mut(piece.channels as usize).enumerate() {
+                    let lines = in_turn.iter_mut().enumerate();
+                    lines.for_each(|(channel, line)| *line = piece.line + (channel * row.count + i) as u16);
+                }
             }
             count += piece.count as usize;
         }
@@ -206,28 +211,29 @@ impl Tiles {
         tiles
     }
 
-    /// Adds columns side by side, of which all lines are written.
-    fn add(&mut self, first: u32, lines: &[MaybeUninit<u16>], over: bool, worth_sixteen: usize) {
-        // SAFETY: they are.
-        let line = |i: usize| unsafe { lines[i].assume_init() };
+    /// Adds columns side by side, with their lines.
+    fn add(&mut self, first: u32, lines: &[u16], over: bool, worth_sixteen: usize) {
         let count = lines.len();
         if count < 4 && !(over && count > 1) {
-            (0..count).for_each(|i| self.alone.push((first + i as u32, line(i))));
+            (0..count).for_each(|i| self.alone.push((first + i as u32, lines[i])));
             return;
         }
-        let mut wide = count / BLOCK * BLOCK;
-        (0..wide).step_by(BLOCK).for_each(|start| self.wide.push(Tile::new(first, start, line)));
-        if wide > 0 && count - wide >= worth_sixteen {
-            self.wide.push(Tile::new(first, count - BLOCK, line));
-            wide = count;
-        }
-        // What is left over begins with columns that are done already, if there are too few.
-        for start in (wide..count).step_by(4) {
-            let start = start.min(count.saturating_sub(4));
-            // What is no column goes to the line of the first, before that does.
-            self.tiles.push(Tile::new(first, start, |i| line(if i < count { i } else { start })));
+        let (squares, rest) = lines.as_chunks::<BLOCK>();
+        for (i, lines) in squares.iter().enumerate() {
+            self.wide.push(Tile::new(first + (i * BLOCK) as u32, *lines));
         }
         self.touched = self.touched.max(first as usize + count.max(4));
+        if let Some(lines) = lines.last_chunk::<BLOCK>().filter(|_| rest.len() >= worth_sixteen) {
+            self.wide.push(Tile::new(first + (count - BLOCK) as u32, *lines));
+            return;
+        }
+        // What is left over begins with columns that are done already, if there are too few; what is no column goes to the line of
+        // the first, before that does.
+        for start in (count - rest.len()..count).step_by(4) {
+            let start = start.min(count.saturating_sub(4));
+            let line = |i: usize| lines.get(start + i).copied().unwrap_or(lines[start]);
+            self.tiles.push(Tile::new(first + start as u32, core::array::from_fn(line)));
+        }
     }
 
     /// The columns that lie alone, each with its line.
@@ -242,13 +248,14 @@ impl Tiles {
     /// The rows are there as far as the tiles touch them, and so is room for the lines; the function around is compiled for the
     /// unit of the register, which the processor has.
     #[inline(always)]
-    pub unsafe fn gather<R: Quads>(&self, rows: Rows<*const R::Number>, lines: *mut R::Number, step: usize) {
+    pub unsafe fn gather<R: Quads>(&self, rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
         let Rows { first, stride, blocks, is_far } = rows;
         for block in 0..blocks {
-            let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
+            let rows = first.wrapping_add(block * BLOCK * stride).cast_const();
+            let lines = lines.wrapping_add(block * step);
             if is_far {
-                // Some blocks ahead is far enough for memory.
-                let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
+                // So far ahead is far enough for memory, of small rows more blocks.
+                let ahead = rows.wrapping_add((AHEAD / (BLOCK * stride)).clamp(2, 8) * BLOCK * stride);
                 for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
                     R::prefetch(ahead.wrapping_add(at));
                 }
@@ -324,7 +331,7 @@ impl Tiles {
     ///
     /// As [`gather`](Self::gather), and the rows are nobody else's.
     #[inline(always)]
-    pub unsafe fn scatter<R: Quads>(&self, lines: *const R::Number, step: usize, rows: Rows<*mut R::Number>) {
+    pub unsafe fn scatter<R: Quads>(&self, lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
         let Rows { first, stride, blocks, .. } = rows;
         for block in 0..blocks {
             let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
@@ -427,9 +434,9 @@ unsafe fn turn<R: Quads>(from: impl Fn(usize) -> *const R::Number, to: impl Fn(u
 
 /// The rows of some blocks.
 #[derive(Clone, Copy)]
-pub struct Rows<P> {
+pub struct Rows<T> {
     /// The first row.
-    pub first: P,
+    pub first: *mut T,
     /// How many numbers a row has.
     pub stride: usize,
     /// How many blocks of sixteen rows.

@@ -4,7 +4,7 @@
 use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use super::kernels::{Aside, Lines, MOST_CHANNELS, Pass};
+use super::kernels::{Aside, GROUPS, Lines, MOST_CHANNELS, Pass};
 use super::moving::{Moving, Room, narrow, read};
 use super::numbers::Storage;
 use super::registers::BLOCK;
@@ -93,11 +93,8 @@ pub(super) struct Task<'a, S: Storage, D: Storage<Number = S::Number>> {
 // SAFETY: what it points to is borrowed for as long as it is there, and threads write to different blocks.
 unsafe impl<S: Storage, D: Storage<Number = S::Number>> Sync for Task<'_, S, D> {}
 
-/// Room for the lines of a block in all its channels, or of several blocks.
+/// Room for the lines of a block in all its channels.
 type LinesAside<S> = Aside<[[<S as Storage>::Number; BLOCK]; MOST_LINES]>;
-
-/// How many blocks are read at once at most, so that the processor works on one while it waits for another.
-const MOST_AT_ONCE: usize = 8;
 
 /// How many parameters a signal has at most.
 const MOST_PARAMS: usize = 4;
@@ -144,13 +141,71 @@ fn direct<S: Storage>(view: &View<S>, blocks: &Range<usize>) -> Option<Lines<*mu
         for (channel, at) in at.iter_mut().enumerate().take(view.channels) {
             *at = view.line(channel, blocks.start).cast();
         }
-        Lines { at, step: view.step() }
+        Lines { at, step: view.step(), mask: usize::MAX }
     })
 }
 
-/// The lines of a block on the stack.
-fn aside<T>(first: *mut T, count: usize, step: usize) -> Lines<*mut T> {
-    Lines { at: [0, 1, 2, 3].map(|channel| first.wrapping_add(channel * count * BLOCK)), step }
+/// The lines of blocks on the stack, in the places of some groups.
+fn aside<T>(first: *mut T, count: usize, step: usize, group: usize) -> Lines<*mut T> {
+    let at = [0, 1, 2, 3].map(|channel| first.wrapping_add(channel * count * BLOCK));
+    Lines { at, step, mask: GROUPS * group - 1 }
+}
+
+/// Where everything that a task works on lies, if it is lines.
+struct Spots<T> {
+    params: Option<Lines<*mut T>>,
+    from: Option<Lines<*mut T>>,
+    other: Option<Lines<*mut T>>,
+    to: Option<Lines<*mut T>>,
+}
+
+/// The most blocks of a group.
+const MOST_GROUP: usize = 8;
+
+/// The most lines of blocks in all their channels that are on the stack at once: signals of [`GROUPS`] blocks and what is written past
+/// the caches.
+const ROOM_LINES: usize = (GROUPS + 1) * MOST_LINES;
+
+/// Lines that suffice but for many channels of high orders; they stay in the nearest cache, and a call goes through fewer pages.
+const FEW_LINES: usize = 512;
+
+/// The lines that a block needs on the stack.
+#[derive(Clone, Copy)]
+struct Needs {
+    from: usize,
+    other: usize,
+    to: usize,
+    /// Whether results are put where the signals were.
+    is_in_place: bool,
+}
+
+impl Needs {
+    /// How many lines groups of so many blocks need.
+    fn lines(&self, group: usize) -> usize {
+        let Self { from, other, to, is_in_place } = *self;
+        GROUPS * group * (from + other + if is_in_place { 0 } else { to }) + to
+    }
+
+    /// How many blocks a group has, so that all have room.
+    fn group(&self, lines: usize) -> usize {
+        let mut group = MOST_GROUP;
+        while group > 1 && self.lines(group) > lines {
+            group /= 2;
+        }
+        group
+    }
+
+    /// The first lines of signals, of other factors, of results and of what is streamed.
+    fn places(&self, group: usize) -> [usize; 4] {
+        let blocks = GROUPS * group;
+        let (other, end) = (blocks * self.from, blocks * (self.from + self.other));
+        if self.is_in_place { [0, other, 0, end] } else { [0, other, end, end + blocks * self.to] }
+    }
+}
+
+/// Numbers that all blocks share.
+fn numbers_of<T>(numbers: &[T]) -> Lines<*const T> {
+    Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0, mask: 0 }
 }
 
 /// Whether lines may be written past the caches.
@@ -159,11 +214,11 @@ fn are_aligned<T>(lines: &Lines<*mut T>) -> bool {
 }
 
 fn shared<T>(lines: &Lines<*mut T>) -> Lines<*const T> {
-    Lines { at: lines.at.map(<*mut T>::cast_const), step: lines.step }
+    Lines { at: lines.at.map(<*mut T>::cast_const), step: lines.step, mask: lines.mask }
 }
 
 fn nowhere<T>() -> Lines<*const T> {
-    Lines { at: [core::ptr::null(); MOST_CHANNELS], step: 0 }
+    Lines { at: [core::ptr::null(); MOST_CHANNELS], step: 0, mask: 0 }
 }
 
 impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
@@ -243,7 +298,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let blocks = 0..self.to.block_count();
         // SAFETY: the caller's. What lies in lines needs none of the tables for rows.
         unsafe {
-            match self.in_lines(&blocks) {
+            match self.in_lines(blocks.len(), &self.spots(&blocks)) {
                 Some(pass) => self.call(&pass),
                 None => self.all_over(blocks),
             }
@@ -293,25 +348,36 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         params.into_iter().chain(self.from.view().into_iter().chain(&self.other).map(|view| view.signals))
     }
 
+    /// Where everything of some blocks lies, if it is lines.
+    fn spots(&self, blocks: &Range<usize>) -> Spots<S::Number> {
+        Spots {
+            params: self.params.view().and_then(|view| direct(view, blocks)),
+            from: self.from.view().and_then(|view| direct(view, blocks)),
+            other: self.other.as_ref().and_then(|view| direct(view, blocks)),
+            to: direct(&self.to, blocks),
+        }
+    }
+
     /// Returns the pass over blocks all of which lie in lines, if they do.
-    fn in_lines(&self, blocks: &Range<usize>) -> Option<Pass<S::Number>> {
+    fn in_lines(&self, count: usize, spots: &Spots<S::Number>) -> Option<Pass<'static, S::Number>> {
         let params = match &self.params {
             Params::None => nowhere(),
-            Params::Shared(numbers) => Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0 },
-            Params::Each(view) => shared(&direct(view, blocks)?),
+            Params::Shared(numbers) => numbers_of(numbers),
+            Params::Each(_) => shared(spots.params.as_ref()?),
         };
         let from = match &self.from {
             Input::None => nowhere(),
-            Input::Shared(at) => Lines { at: *at, step: 0 },
-            Input::Each(view) => shared(&direct(view, blocks)?),
+            Input::Shared(at) => Lines { at: *at, step: 0, mask: 0 },
+            Input::Each(_) => shared(spots.from.as_ref()?),
         };
         let other = match &self.other {
             None => nowhere(),
-            Some(view) => shared(&direct(view, blocks)?),
+            Some(_) => shared(spots.other.as_ref()?),
         };
-        let to = direct(&self.to, blocks)?;
+        let (to, channels) = (spots.to?, self.to.channels);
         let streams = self.streams() && are_aligned(&to);
-        Some(Pass { blocks: blocks.len(), channels: self.to.channels, params, from, other, to, is_far: self.bytes() >= FAR_FROM, streams })
+        let is_far = self.bytes() >= FAR_FROM;
+        Some(Pass { read: None, write: None, group: 1, blocks: count, channels, params, from, other, to, is_far, streams })
     }
 
     /// # Safety
@@ -320,9 +386,11 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     unsafe fn part(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
         // SAFETY: the caller's.
         unsafe {
-            match self.in_lines(&blocks) {
+            let spots = self.spots(&blocks);
+            match self.in_lines(blocks.len(), &spots) {
                 Some(pass) => self.call(&pass),
-                None => self.through_lines(moves, blocks),
+                None if self.needs(&spots).lines(1) <= FEW_LINES => self.through_lines::<FEW_LINES>(moves, blocks, &spots),
+                None => self.through_lines::<ROOM_LINES>(moves, blocks, &spots),
             }
         }
     }
@@ -330,7 +398,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     /// # Safety
     ///
     /// As [`over`](Self::over), and the pass is over its blocks.
-    unsafe fn call(&self, pass: &Pass<S::Number>) {
+    unsafe fn call(&self, pass: &Pass<'_, S::Number>) {
         // SAFETY: the caller's.
         unsafe {
             match self.run {
@@ -340,96 +408,101 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         }
     }
 
-    /// Works on some blocks at a time, what is no lines by way of lines on the stack.
+    /// Returns the lines that a block needs on the stack.
+    fn needs(&self, spots: &Spots<S::Number>) -> Needs {
+        let lines = |view: &View<S>, spot: &Option<_>| if spot.is_some() { 0 } else { view.count * view.channels };
+        let from = self.from.view().map_or(0, |view| lines(view, &spots.from));
+        let other = self.other.as_ref().map_or(0, |view| lines(view, &spots.other));
+        let to = if spots.to.is_some() { 0 } else { self.to.count * self.to.channels };
+        // A kernel of one signal to one may write where it reads.
+        Needs { from, other, to, is_in_place: from == to && self.other.is_none() }
+    }
+
+    /// Works on blocks that do not all lie in lines: each is read to lines on the stack while another is worked on.
     ///
     /// # Safety
     ///
     /// As [`over`](Self::over).
     #[inline(never)]
-    unsafe fn through_lines(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
-        let unit = self.unit;
-        let as_lines = self.from.view().and_then(|view| direct(view, &blocks));
-        let other_lines = self.other.as_ref().and_then(|view| direct(view, &blocks));
-        let to_lines = direct(&self.to, &blocks);
-        let lines_of = |view: &View<S>, is_there: bool| if is_there { 0 } else { view.count * view.channels };
-        let of_from = self.from.view().map_or(0, |view| lines_of(view, as_lines.is_some()));
-        let of_other = self.other.as_ref().map_or(0, |view| lines_of(view, other_lines.is_some()));
-        let of_to = if to_lines.is_some() { 0 } else { self.to.count * self.to.channels };
-        let most = of_from.max(of_other).max(of_to);
-        let at_once = (MOST_LINES / most.max(1)).clamp(1, MOST_AT_ONCE);
-        let param_lines = self.params.view().and_then(|view| direct(view, &blocks));
+    unsafe fn through_lines<const LINES: usize>(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>, spots: &Spots<S::Number>) {
+        let (unit, start, count) = (self.unit, blocks.start, self.to.count);
         let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows, .. } = moves;
-        let is_large = self.streams();
-        let streams = is_large && to_lines.as_ref().is_some_and(are_aligned);
-        let (mut params_aside, mut from_aside, mut other_aside, mut to_aside) =
-            (LinesAside::<S>::new(), LinesAside::<S>::new(), LinesAside::<S>::new(), LinesAside::<S>::new());
-        let mut start = blocks.start;
-        while start < blocks.end {
-            let end = (start + at_once).min(blocks.end);
-            let within = start - blocks.start;
-            let forward = |lines: &Lines<*mut S::Number>| Lines {
-                at: lines.at.map(|at| at.wrapping_add(within * lines.step)),
-                step: lines.step,
-            };
-            // SAFETY: the caller's; what lies aside has room for the lines of as many blocks as are read at once.
+        let mut params_room = Aside::<[[S::Number; BLOCK]; GROUPS * MOST_GROUP * MOST_PARAMS]>::new();
+        let mut room = Aside::<[[S::Number; BLOCK]; LINES]>::new();
+        let params_first = params_room.first();
+        let needs = self.needs(spots);
+        let group = needs.group(LINES);
+        let first: *mut S::Number = room.first();
+        let [from_first, other_first, to_first, together] = needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
+
+        // What is read, and where its lines are.
+        let (params_read, params) = match (&self.params, spots.params) {
+            (Params::None, _) => (None, nowhere()),
+            (Params::Shared(numbers), _) => (None, numbers_of(numbers)),
+            (Params::Each(_), Some(lines)) => (None, shared(&lines)),
+            (Params::Each(view), None) => (Some(view), shared(&aside(params_first, 0, MOST_PARAMS * BLOCK, group))),
+        };
+        let step = |view: &View<S>| view.count * view.channels * BLOCK;
+        let (from_read, from) = match (&self.from, spots.from) {
+            (Input::None, _) => (None, nowhere()),
+            (Input::Shared(at), _) => (None, Lines { at: *at, step: 0, mask: 0 }),
+            (Input::Each(_), Some(lines)) => (None, shared(&lines)),
+            (Input::Each(view), None) => (Some(view), shared(&aside(from_first, view.count, step(view), group))),
+        };
+        let (other_read, other) = match (&self.other, spots.other) {
+            (None, _) => (None, nowhere()),
+            (Some(_), Some(lines)) => (None, shared(&lines)),
+            (Some(view), None) => (Some(view), shared(&aside(other_first, view.count, step(view), group))),
+        };
+        let read = |blocks: Range<usize>| {
+            let (place, blocks) = (blocks.start % (GROUPS * group), start + blocks.start..start + blocks.end);
+            // SAFETY: the caller's; what lies aside has room for the lines of as many blocks as have a place.
             unsafe {
-                let params = match (&self.params, &param_lines) {
-                    (Params::None, _) => nowhere(),
-                    (Params::Shared(numbers), _) => Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0 },
-                    (Params::Each(_), Some(lines)) => shared(&forward(lines)),
-                    (Params::Each(view), None) => {
-                        let (first, step) = (params_aside.first(), MOST_PARAMS * BLOCK);
-                        read(view, param_rows, start..end, first, step);
-                        shared(&aside(first, 0, step))
-                    }
-                };
-                let mut taken = None;
-                let from = match (&self.from, &as_lines) {
-                    (Input::None, _) => nowhere(),
-                    (Input::Shared(at), _) => Lines { at: *at, step: 0 },
-                    (Input::Each(_), Some(lines)) => shared(&forward(lines)),
-                    (Input::Each(view), None) => {
-                        let (first, step) = (from_aside.first(), of_from * BLOCK);
-                        read(view, from_rows, start..end, first, step);
-                        taken = Some(first);
-                        shared(&aside(first, view.count, step))
-                    }
-                };
-                let other = match (&self.other, &other_lines) {
-                    (None, _) => nowhere(),
-                    (Some(_), Some(lines)) => shared(&forward(lines)),
-                    (Some(view), None) => {
-                        let (first, step) = (other_aside.first(), of_other * BLOCK);
-                        read(view, other_rows, start..end, first, step);
-                        shared(&aside(first, view.count, step))
-                    }
-                };
-                // A kernel of one signal to one may write where it reads.
-                let is_one_to_one = self.from.view().is_some_and(|view| view.count == self.to.count);
-                let first = match taken.filter(|_| is_one_to_one && self.other.is_none()) {
-                    Some(first) => first,
-                    None => to_aside.first(),
-                };
-                let step = of_to * BLOCK;
-                let to = match &to_lines {
-                    Some(lines) => forward(lines),
-                    None => aside(first, self.to.count, step),
-                };
-                let pass = Pass { blocks: end - start, channels: self.to.channels, params, from, other, to, is_far: false, streams };
-                self.call(&pass);
-                if to_lines.is_none() {
-                    let lines = |block: usize| first.add((block - start) * step);
-                    match to_rows {
-                        Some(rows) if is_large && rows.streams() && rows.filled(end - 1) == BLOCK => {
-                            (start..end).for_each(|block| rows.stream(unit, block, lines(block), other_aside.first()));
-                        }
-                        Some(rows) => rows.write(start..end, first, step),
-                        None => (start..end).for_each(|block| narrow(&self.to, block, lines(block))),
+                if let Some(view) = params_read {
+                    let step = MOST_PARAMS * BLOCK;
+                    read(view, param_rows, blocks.clone(), params_first.wrapping_add(place * step), step);
+                }
+                for (view, rows, first) in [(from_read, from_rows, from_first), (other_read, other_rows, other_first)] {
+                    if let Some(view) = view {
+                        read(view, rows, blocks.clone(), first.wrapping_add(place * step(view)), step(view));
                     }
                 }
             }
-            start = end;
-        }
+        };
+
+        let is_large = self.streams();
+        let to_step = count * self.to.channels * BLOCK;
+        let to_aside = aside(to_first, count, to_step, group);
+        let to = spots.to.unwrap_or(to_aside);
+        let write = |blocks: Range<usize>| {
+            let (lines, blocks) = (to_aside.block(0, blocks.start), start + blocks.start..start + blocks.end);
+            let line = |block: usize| lines.wrapping_add((block - blocks.start) * to_step).cast_const();
+            // SAFETY: the caller's; the kernel has written the lines.
+            unsafe {
+                match to_rows {
+                    Some(rows) if is_large && rows.streams(blocks.end - 1) => {
+                        blocks.clone().for_each(|block| rows.stream(unit, block, line(block), together));
+                    }
+                    Some(rows) => rows.write(blocks, lines, to_step),
+                    None => blocks.clone().for_each(|block| narrow(&self.to, block, line(block))),
+                }
+            }
+        };
+        let pass = Pass {
+            read: (params_read.is_some() || from_read.is_some() || other_read.is_some()).then_some(&read),
+            write: spots.to.is_none().then_some(&write),
+            group,
+            blocks: blocks.len(),
+            channels: self.to.channels,
+            params,
+            from,
+            other,
+            streams: is_large && spots.to.as_ref().is_some_and(are_aligned),
+            to,
+            is_far: false,
+        };
+        // SAFETY: the caller's.
+        unsafe { self.call(&pass) }
         if is_large {
             fence();
         }

@@ -73,7 +73,7 @@ impl Unit {
 }
 
 /// A kernel as it is called: over a pass whose lines are there, on a processor that has the unit.
-pub type Run<T> = unsafe fn(&Pass<T>);
+pub type Run<T> = unsafe fn(&Pass<'_, T>);
 
 /// The kernels of an order and a unit.
 pub struct Kernels<T> {
@@ -97,9 +97,9 @@ pub struct Kernels<T> {
 #[derive(Clone, Copy)]
 pub struct Moves<T> {
     /// Reads rows.
-    pub gather: unsafe fn(tiles: &Tiles, rows: Rows<*const T>, lines: *mut T, step: usize),
+    pub gather: unsafe fn(tiles: &Tiles, rows: Rows<T>, lines: *mut T, step: usize),
     /// Writes rows.
-    pub scatter: unsafe fn(tiles: &Tiles, lines: *const T, step: usize, rows: Rows<*mut T>),
+    pub scatter: unsafe fn(tiles: &Tiles, lines: *const T, step: usize, rows: Rows<T>),
 }
 
 /// A unit: every kernel and every move compiled for it.
@@ -112,7 +112,7 @@ macro_rules! unit {
             ///
             /// As [`Kernel::run`]; the processor has the unit.
             $(#[$features])?
-            unsafe fn run<K: Kernel, R: Register>(pass: &Pass<R::Number>) {
+            unsafe fn run<K: Kernel, R: Register>(pass: &Pass<'_, R::Number>) {
                 kernels::align_stack();
                 // SAFETY: the caller's, and this function is compiled for the unit.
                 unsafe { K::run::<R>(pass) }
@@ -122,7 +122,7 @@ macro_rules! unit {
             ///
             /// As [`Tiles::gather`]; the processor has the unit.
             $(#[$features])?
-            unsafe fn gather<R: Quads>(tiles: &Tiles, rows: Rows<*const R::Number>, lines: *mut R::Number, step: usize) {
+            unsafe fn gather<R: Quads>(tiles: &Tiles, rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
                 unsafe { tiles.gather::<R>(rows, lines, step) }
             }
@@ -131,7 +131,7 @@ macro_rules! unit {
             ///
             /// As [`Tiles::scatter`]; the processor has the unit.
             $(#[$features])?
-            unsafe fn scatter<R: Quads>(tiles: &Tiles, lines: *const R::Number, step: usize, rows: Rows<*mut R::Number>) {
+            unsafe fn scatter<R: Quads>(tiles: &Tiles, lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
                 unsafe { tiles.scatter::<R>(lines, step, rows) }
             }
