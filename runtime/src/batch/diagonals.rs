@@ -134,7 +134,8 @@ impl Diagonals {
     /// As [`over`](Self::over).
     #[target_feature(enable = "avx2,fma")]
     unsafe fn over_avx2(&self, blocks: core::ops::Range<usize>) {
-        let (mut places, mut factors) = ([[_mm256_setzero_si256(); DIAGONALS]; 2], [[_mm256_setzero_ps(); DIAGONALS]; 2]);
+        let (mut places, mut factors) =
+            ([[_mm256_setzero_si256(); DIAGONALS]; 2], [[_mm256_setzero_ps(); DIAGONALS]; 2]);
         for d in 0..DIAGONALS {
             // The higher register begins with the last number of the lower one, which stays as it is there.
             let (mut high_places, mut high_factors) = ([0; LOW], [0.0; LOW]);
@@ -203,7 +204,12 @@ impl Diagonals {
     ///
     /// As [`over`](Self::over).
     #[inline(always)]
-    unsafe fn each(&self, blocks: core::ops::Range<usize>, turn: impl Fn(*const f32, *mut f32), then: impl Fn(*const f32, *mut f32)) {
+    unsafe fn each(
+        &self,
+        blocks: core::ops::Range<usize>,
+        turn: impl Fn(*const f32, *mut f32),
+        then: impl Fn(*const f32, *mut f32),
+    ) {
         // SAFETY: the caller's.
         unsafe {
             match self.rows[0].channels {
@@ -221,9 +227,15 @@ impl Diagonals {
     ///
     /// As [`over`](Self::over).
     #[inline(always)]
-    unsafe fn each_of<const CHANNELS: usize>(&self, blocks: core::ops::Range<usize>, turn: impl Fn(*const f32, *mut f32), then: impl Fn(*const f32, *mut f32)) {
+    unsafe fn each_of<const CHANNELS: usize>(
+        &self,
+        blocks: core::ops::Range<usize>,
+        turn: impl Fn(*const f32, *mut f32),
+        then: impl Fn(*const f32, *mut f32),
+    ) {
         let [from_stride, to_stride] = self.strides;
-        let places = |row: &Row, i: usize| core::array::from_fn::<_, MOST_CHANNELS, _>(|channel| row.column(channel, i));
+        let places =
+            |row: &Row, i: usize| core::array::from_fn::<_, MOST_CHANNELS, _>(|channel| row.column(channel, i));
         let [from_constants, to_constants] = self.rows.each_ref().map(|row| places(row, 0));
         let [from_rest, to_rest] = self.rows.each_ref().map(|row| places(row, 1));
         let stream = f32::stream(self.unit);

@@ -53,7 +53,12 @@ impl<'t, S: Storage> Moving<'t, S> {
 
     /// The rows of blocks in a plane.
     fn rows<N>(&self, plane: usize, blocks: &Range<usize>) -> Rows<N> {
-        Rows { first: self.first(plane, blocks.start).cast(), stride: self.stride, blocks: blocks.len(), is_far: self.is_far }
+        Rows {
+            first: self.first(plane, blocks.start).cast(),
+            stride: self.stride,
+            blocks: blocks.len(),
+            is_far: self.is_far,
+        }
     }
 
     /// Reads blocks, each to lines of `step` numbers.

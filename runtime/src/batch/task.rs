@@ -377,7 +377,19 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let (to, channels) = (spots.to?, self.to.channels);
         let streams = self.streams() && are_aligned(&to);
         let is_far = self.bytes() >= FAR_FROM;
-        Some(Pass { read: None, write: None, group: 1, blocks: count, channels, params, from, other, to, is_far, streams })
+        Some(Pass {
+            read: None,
+            write: None,
+            group: 1,
+            blocks: count,
+            channels,
+            params,
+            from,
+            other,
+            to,
+            is_far,
+            streams,
+        })
     }
 
     /// # Safety
@@ -389,7 +401,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             let spots = self.spots(&blocks);
             match self.in_lines(blocks.len(), &spots) {
                 Some(pass) => self.call(&pass),
-                None if self.needs(&spots).lines(1) <= FEW_LINES => self.through_lines::<FEW_LINES>(moves, blocks, &spots),
+                None if self.needs(&spots).lines(1) <= FEW_LINES => {
+                    self.through_lines::<FEW_LINES>(moves, blocks, &spots)
+                }
                 None => self.through_lines::<ROOM_LINES>(moves, blocks, &spots),
             }
         }
@@ -424,7 +438,12 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     ///
     /// As [`over`](Self::over).
     #[inline(never)]
-    unsafe fn through_lines<const LINES: usize>(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>, spots: &Spots<S::Number>) {
+    unsafe fn through_lines<const LINES: usize>(
+        &self,
+        moves: &Moved<'_, S, D>,
+        blocks: Range<usize>,
+        spots: &Spots<S::Number>,
+    ) {
         let (unit, start, count) = (self.unit, blocks.start, self.to.count);
         let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows, .. } = moves;
         let mut params_room = Aside::<[[S::Number; BLOCK]; GROUPS * MOST_GROUP * MOST_PARAMS]>::new();
@@ -433,7 +452,8 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let needs = self.needs(spots);
         let group = needs.group(LINES);
         let first: *mut S::Number = room.first();
-        let [from_first, other_first, to_first, together] = needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
+        let [from_first, other_first, to_first, together] =
+            needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
 
         // What is read, and where its lines are.
         let (params_read, params) = match (&self.params, spots.params) {

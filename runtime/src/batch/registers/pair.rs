@@ -19,8 +19,12 @@ impl<R: Copy> Pair<R> {
 
 /// Operations of one, two and three pairs, half by half.
 macro_rules! halves {
-    ($of:path, $a:expr) => { Pair([$of($a.0[0]), $of($a.0[1])]) };
-    ($of:path, $a:expr, $b:expr) => { Pair([$of($a.0[0], $b.0[0]), $of($a.0[1], $b.0[1])]) };
+    ($of:path, $a:expr) => {
+        Pair([$of($a.0[0]), $of($a.0[1])])
+    };
+    ($of:path, $a:expr, $b:expr) => {
+        Pair([$of($a.0[0], $b.0[0]), $of($a.0[1], $b.0[1])])
+    };
     ($of:path, $a:expr, $b:expr, $c:expr) => {
         Pair([$of($a.0[0], $b.0[0], $c.0[0]), $of($a.0[1], $b.0[1], $c.0[1])])
     };
