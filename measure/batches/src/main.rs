@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use zonal::batch::Unit;
 use zonal_measure_batches::page::{self, Report};
 use zonal_measure_batches::peak;
-use zonal_measure_batches::time::{IN_CACHE, Measured, Rounds, STREAMING, measure};
+use zonal_measure_batches::time::{Measured, Place, Rounds, measure};
 
 /// Time every batch function beside a copy of the same bytes.
 #[derive(Parser)]
@@ -26,9 +26,9 @@ struct Arguments {
     /// Time these units alone, and write nothing.
     #[arg(long, value_delimiter = ',')]
     units: Vec<String>,
-    /// How many signals.
-    #[arg(long, value_delimiter = ',', default_values_t = [IN_CACHE, STREAMING])]
-    signals: Vec<usize>,
+    /// Time signals in a cache alone, or in memory, and write nothing.
+    #[arg(long)]
+    place: Option<Place>,
     /// The folder of the page and its figures.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs"))]
     output: PathBuf,
@@ -62,13 +62,18 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let peak = peak::multiplications(unit);
         println!("{unit}: {peak:.1} multiplications a nanosecond");
         report.units.push((unit.to_string(), peak));
-        for &signals in &arguments.signals {
-            let rounds = Rounds { rounds: arguments.rounds, signals: 20_480 };
-            let rows = measure(unit, peak, &arguments.orders, signals, rounds, &arguments.only, || ());
+        for place in [Place::Cache, Place::Memory] {
+            if arguments.place.is_some_and(|asked| asked != place) {
+                continue;
+            }
+            // A round from memory takes as long as many in a cache.
+            let rounds = if place == Place::Cache { arguments.rounds } else { arguments.rounds.div_ceil(4) };
+            let rounds = Rounds { rounds, signals: 20_480 };
+            let rows = measure(unit, peak, &arguments.orders, place, rounds, &arguments.only, || ());
             for row in &rows {
-                let Measured { function, layout, order, nanoseconds, copy, multiplications, .. } = row;
+                let Measured { function, layout, order, signals, nanoseconds, copy, multiplications, .. } = row;
                 println!(
-                    "{unit} {signals:6} {function:12} {layout:8} {order:2}: {nanoseconds:7.2} ns, copy {copy:6.2}, peak \
+                    "{unit} {signals:7} {function:12} {layout:8} {order:2}: {nanoseconds:7.2} ns, copy {copy:6.2}, peak \
                      {multiplications:6.2}, {:5.2} copies, k {:4.2}",
                     row.copies(),
                     row.k()
@@ -77,7 +82,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             report.rows.extend(rows);
         }
     }
-    if arguments.only.is_empty() && arguments.units.is_empty() && arguments.orders.len() == 9 {
+    let is_whole = arguments.only.is_empty() && arguments.units.is_empty() && arguments.place.is_none();
+    if is_whole && arguments.orders.len() == 9 {
         std::fs::write(arguments.output.join(page::JSON), page::json(&report)?)?;
         std::fs::write(arguments.output.join(page::PAGE), page::markdown(&report))?;
     }

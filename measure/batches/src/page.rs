@@ -1,9 +1,10 @@
 //! The page of the times and its figures as data.
 
-use crate::time::{IN_CACHE, Measured, STREAMING};
+use crate::time::{IN_CACHE, Measured, Place, STREAMED};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 /// The page.
 pub const PAGE: &str = "BATCHES.md";
@@ -25,87 +26,62 @@ pub struct Report {
 struct Law {
     what: &'static str,
     most: f64,
-    holds: fn(&Measured) -> bool,
+    function: &'static str,
+    layout: &'static str,
+    place: Place,
+    orders: RangeInclusive<usize>,
+    units: &'static [&'static str],
     value: fn(&Measured) -> f64,
+}
+
+impl Law {
+    fn is_about(&self, row: &Measured) -> bool {
+        of(row, self.function, self.layout)
+            && row.place == self.place
+            && self.orders.contains(&row.order)
+            && self.units.contains(&row.unit.as_str())
+    }
 }
 
 fn of(row: &Measured, function: &str, layout: &str) -> bool {
     row.function == function && row.layout == layout
 }
 
-/// What issue and design asked for before it was measured.
-const LAWS: [Law; 9] = [
-    Law {
-        what: "`rotate_each` of blocks in a cache, orders 5 to 10: k",
-        most: 1.35,
-        holds: |row| of(row, "rotate_each", "blocks") && row.signals == IN_CACHE && row.order >= 5 && row.is_vector(),
-        value: Measured::k,
-    },
-    Law {
-        what: "the same at the orders 3 and 4: k",
-        most: 1.5,
-        holds: |row| {
-            of(row, "rotate_each", "blocks")
-                && row.signals == IN_CACHE
-                && (3..5).contains(&row.order)
-                && row.is_vector()
-        },
-        value: Measured::k,
-    },
-    Law {
-        what: "`rotate_each` of blocks from memory, orders 6 to 10, AVX-512: copies",
-        most: 1.25,
-        holds: |row| {
-            of(row, "rotate_each", "blocks") && row.signals == STREAMING && row.order >= 6 && row.unit == "AVX-512"
-        },
-        value: Measured::copies,
-    },
-    Law {
-        what: "the same with AVX2: copies",
-        most: 1.7,
-        holds: |row| {
-            of(row, "rotate_each", "blocks") && row.signals == STREAMING && row.order >= 6 && row.unit == "AVX2"
-        },
-        value: Measured::copies,
-    },
-    Law {
-        what: "`rotate_all` of splats from memory: copies",
-        most: 1.0,
-        holds: |row| of(row, "rotate_all", "splats") && row.signals == STREAMING && row.is_vector(),
-        value: Measured::copies,
-    },
-    Law {
-        what: "`rotate_each` of splats from memory: copies",
-        most: 2.2,
-        holds: |row| of(row, "rotate_each", "splats") && row.signals == STREAMING && row.is_vector(),
-        value: Measured::copies,
-    },
-    Law {
-        what: "`basis_each` in a cache, orders 3 to 10: fills",
-        most: 1.3,
-        holds: |row| of(row, "basis_each", "blocks") && row.signals == IN_CACHE && row.order >= 3 && row.is_vector(),
-        value: Measured::copies,
-    },
-    Law {
-        what: "`eval_each` in a cache, orders 3 to 10: copies",
-        most: 1.2,
-        holds: |row| of(row, "eval_each", "blocks") && row.signals == IN_CACHE && row.order >= 3 && row.is_vector(),
-        value: Measured::copies,
-    },
-    Law {
-        what: "`rotate_all` of blocks in a cache, orders 5 to 10: k",
-        most: 1.35,
-        holds: |row| of(row, "rotate_all", "blocks") && row.signals == IN_CACHE && row.order >= 5 && row.is_vector(),
-        value: Measured::k,
-    },
-];
+/// The units that laws are about.
+const VECTOR: &[&str] = &["AVX-512", "AVX2"];
+/// The widest alone, which does what it multiplies while memory waits.
+const WIDEST: &[&str] = &["AVX-512"];
+/// One that multiplies half as fast.
+const HALF: &[&str] = &["AVX2"];
 
-impl Measured {
-    /// Whether its unit is one that laws are about.
-    fn is_vector(&self) -> bool {
-        self.unit.starts_with("AVX")
-    }
-}
+/// What issue and design asked for before it was measured.
+#[rustfmt::skip]
+const LAWS: [Law; 12] = [
+    Law { what: "`rotate_each` of blocks in a cache, orders 5 to 10: k", most: 1.35, function: "rotate_each", layout: "blocks",
+        place: Place::Cache, orders: 5..=10, units: VECTOR, value: Measured::k },
+    Law { what: "the same at the orders 3 and 4: k", most: 1.5, function: "rotate_each", layout: "blocks",
+        place: Place::Cache, orders: 3..=4, units: VECTOR, value: Measured::k },
+    Law { what: "`rotate_all` of blocks in a cache, orders 5 to 10: k", most: 1.35, function: "rotate_all", layout: "blocks",
+        place: Place::Cache, orders: 5..=10, units: VECTOR, value: Measured::k },
+    Law { what: "`rotate_each` of blocks from memory, orders 6 to 10, AVX-512: copies", most: 1.25, function: "rotate_each", layout: "blocks",
+        place: Place::Memory, orders: 6..=10, units: WIDEST, value: Measured::copies },
+    Law { what: "the same with AVX2: copies", most: 1.7, function: "rotate_each", layout: "blocks",
+        place: Place::Memory, orders: 6..=10, units: HALF, value: Measured::copies },
+    Law { what: "`rotate_all` of splats from memory, AVX-512: copies", most: 1.0, function: "rotate_all", layout: "splats",
+        place: Place::Memory, orders: 4..=4, units: WIDEST, value: Measured::copies },
+    Law { what: "the same with AVX2: copies", most: 1.0, function: "rotate_all", layout: "splats",
+        place: Place::Memory, orders: 4..=4, units: HALF, value: Measured::copies },
+    Law { what: "`rotate_each` of splats from memory: copies", most: 2.2, function: "rotate_each", layout: "splats",
+        place: Place::Memory, orders: 4..=4, units: VECTOR, value: Measured::copies },
+    Law { what: "`basis_each` in a cache, orders 3 to 10, AVX-512: fills", most: 1.3, function: "basis_each", layout: "blocks",
+        place: Place::Cache, orders: 3..=10, units: WIDEST, value: Measured::copies },
+    Law { what: "the same with AVX2, whose multiplications alone take more than a fill: k", most: 1.3, function: "basis_each", layout: "blocks",
+        place: Place::Cache, orders: 3..=10, units: HALF, value: Measured::k },
+    Law { what: "`eval_each` in a cache, orders 3 to 10, AVX-512: copies", most: 1.2, function: "eval_each", layout: "blocks",
+        place: Place::Cache, orders: 3..=10, units: WIDEST, value: Measured::copies },
+    Law { what: "the same with AVX2, whose multiplications alone take more than a copy: k", most: 1.2, function: "eval_each", layout: "blocks",
+        place: Place::Cache, orders: 3..=10, units: HALF, value: Measured::k },
+];
 
 /// Returns the figures as JSON.
 ///
@@ -116,8 +92,11 @@ pub fn json(report: &Report) -> serde_json::Result<String> {
     Ok(serde_json::to_string_pretty(report)? + "\n")
 }
 
-fn name(signals: usize) -> &'static str {
-    if signals == IN_CACHE { "in a cache" } else { "from memory" }
+fn name(place: Place) -> &'static str {
+    match place {
+        Place::Cache => "in a cache",
+        Place::Memory => "from memory",
+    }
 }
 
 /// Returns the page.
@@ -127,16 +106,19 @@ pub fn markdown(report: &Report) -> String {
          The functions of `zonal::batch`, each beside a copy of the same bytes, in turn in one run on one thread; the fastest of \
          many rounds of each. A time means little on another machine, so that it is given as *copies*, how many times as long as the \
          copy, or as a fill of what is written where nothing is read, and as *k*, how many times as long as the slower of the copy and \
-         of the multiplications at the peak of the vector unit, which no program beats. {} signals lie in a cache, {} do not from \
-         order 6 on. `rotate_each` has a quaternion for each signal, in blocks. Machine: {}.\n\n",
-        IN_CACHE, STREAMING, report.machine
+         of the multiplications at the peak of the vector unit, which no program beats. In a cache there are \
+         {IN_CACHE} signals, from memory as many as make {} MiB with their results. Each is run once before it is timed, so that it \
+         finds the caches as it leaves them, and everything is made anew some times. `rotate_each` has a quaternion for each signal, \
+         in blocks. Machine: {}.\n\n",
+        STREAMED >> 20,
+        report.machine
     );
     for (unit, peak) in &report.units {
         let _ = writeln!(page, "* {unit}: {peak:.0} multiplications, each with an addition, in a nanosecond.");
     }
     page += "\n## What was asked for\n\n| what | at most | found | held by | not by |\n|---|---|---|---|---|\n";
     for law in &LAWS {
-        let found: Vec<&Measured> = report.rows.iter().filter(|row| (law.holds)(row)).collect();
+        let found: Vec<&Measured> = report.rows.iter().filter(|row| law.is_about(row)).collect();
         let (least, most) = range(found.iter().map(|row| (law.value)(row)));
         let missed: Vec<String> = found
             .iter()
@@ -170,14 +152,14 @@ pub fn markdown(report: &Report) -> String {
     );
     page += "\nWhat does not hold is named by its unit and order, with what was found.\n";
     for (unit, _) in &report.units {
-        for signals in [IN_CACHE, STREAMING] {
+        for place in [Place::Cache, Place::Memory] {
             let rows: Vec<&Measured> =
-                report.rows.iter().filter(|row| &row.unit == unit && row.signals == signals).collect();
+                report.rows.iter().filter(|row| &row.unit == unit && row.place == place).collect();
             if rows.is_empty() {
                 continue;
             }
             let orders: BTreeSet<usize> = rows.iter().map(|row| row.order).collect();
-            let _ = write!(page, "\n## {unit}, {}\n\n| function, layout |", name(signals));
+            let _ = write!(page, "\n## {unit}, {}\n\n| function, layout |", name(place));
             orders.iter().for_each(|order| page += &format!(" {order}: ns, copies, k |"));
             page += &format!("\n|---|{}\n", "---|".repeat(orders.len()));
             let mut kinds: Vec<(&str, &str)> = Vec::new();
@@ -212,12 +194,15 @@ fn range(figures: impl Iterator<Item = f64>) -> (f64, f64) {
 /// How many times as long arrays take as blocks.
 fn layouts(report: &Report) -> Vec<(&Measured, f64)> {
     let asked = |row: &&Measured| {
-        of(row, "rotate_each", "arrays") && row.signals == IN_CACHE && row.order >= 4 && row.is_vector()
+        of(row, "rotate_each", "arrays")
+            && row.place == Place::Cache
+            && row.order >= 4
+            && VECTOR.contains(&row.unit.as_str())
     };
     let blocks = |row: &Measured| {
         let is_same = |other: &&Measured| {
             of(other, "rotate_each", "blocks")
-                && other.signals == IN_CACHE
+                && other.place == Place::Cache
                 && other.order == row.order
                 && other.unit == row.unit
         };
