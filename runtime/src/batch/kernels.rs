@@ -36,6 +36,8 @@ pub struct Pass<'a, T> {
     pub write: Option<&'a dyn Fn(Range<usize>)>,
     /// How many blocks are a group.
     pub group: usize,
+    /// Which bits of a block's number are its place in the group; all, where there are no groups.
+    pub within: usize,
     /// How many blocks.
     pub blocks: usize,
     /// How many channels share the parameters.
@@ -59,7 +61,7 @@ impl<T> Pass<'_, T> {
     /// rows, so that neither waits for what is worked on.
     #[inline(always)]
     fn pass_by(&self, block: usize) {
-        if block.is_multiple_of(self.group) {
+        if block & self.within == 0 {
             if let Some(write) = self.write.filter(|_| block > 0) {
                 write(block - self.group..block);
             }

@@ -9,9 +9,6 @@ use super::registers::{BLOCK, Quads, sink, source};
 /// The most coefficients of a channel: order 10.
 pub const MOST_COUNT: usize = 100;
 
-/// How many numbers ahead rows are asked for.
-const AHEAD: usize = 1024;
-
 /// The most lines that a block has in all its channels.
 pub const MOST_LINES: usize = MOST_CHANNELS * MOST_COUNT;
 
@@ -254,8 +251,8 @@ impl Tiles {
             let rows = first.wrapping_add(block * BLOCK * stride).cast_const();
             let lines = lines.wrapping_add(block * step);
             if is_far {
-                // So far ahead is far enough for memory, of small rows more blocks.
-                let ahead = rows.wrapping_add((AHEAD / (BLOCK * stride)).clamp(2, 8) * BLOCK * stride);
+                // What is read next is far enough for memory.
+                let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
                 for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
                     R::prefetch(ahead.wrapping_add(at));
                 }
