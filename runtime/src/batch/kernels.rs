@@ -29,6 +29,7 @@ pub struct Lines<P> {
 pub const GROUPS: usize = 2;
 
 /// What a kernel works on.
+#[derive(Clone, Copy)]
 pub struct Pass<'a, T> {
     /// What puts blocks that lie in rows into their lines, a group at a time.
     pub read: Option<&'a dyn Fn(Range<usize>)>,

@@ -451,7 +451,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let mut room = Aside::<[[S::Number; BLOCK]; LINES]>::new();
         let params_first = params_room.first();
         let needs = self.needs(spots);
-        let group = needs.group(LINES);
+        let is_large = self.streams();
+        // What goes to memory goes evenly.
+        let group = if is_large { 1 } else { needs.group(LINES) };
         let first: *mut S::Number = room.first();
         let [from_first, other_first, to_first, together] =
             needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
@@ -491,7 +493,6 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             }
         };
 
-        let is_large = self.streams();
         let to_step = count * self.to.channels * BLOCK;
         let to_aside = aside(to_first, count, to_step, group);
         let to = spots.to.unwrap_or(to_aside);

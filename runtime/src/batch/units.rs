@@ -114,8 +114,10 @@ macro_rules! unit {
             $(#[$features])?
             unsafe fn run<K: Kernel, R: Register>(pass: &Pass<'_, R::Number>) {
                 kernels::align_stack();
+                // Its own copy, which nothing that a kernel writes can change.
+                let pass = *pass;
                 // SAFETY: the caller's, and this function is compiled for the unit.
-                unsafe { K::run::<R>(pass) }
+                unsafe { K::run::<R>(&pass) }
             }
 
             /// # Safety
