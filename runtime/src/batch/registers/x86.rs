@@ -1,5 +1,4 @@
-//! The registers of x86-64: SSE2, which every processor has, AVX2 with FMA, AVX-512. AVX2 takes so long for a block that what is asked
-//! for ahead had better lie in the second cache: the first has no room for it beside what is worked on.
+//! The registers of x86-64: SSE2, which every processor has, AVX2 with FMA, AVX-512.
 
 use super::{Quads, Register, of_two, source};
 use core::arch::x86_64::*;
@@ -58,7 +57,7 @@ register! {
     store |p, x| _mm256_storeu_ps(p, x);
     stream |p, x| _mm256_stream_ps(p, x);
     fence _mm_sfence();
-    prefetch |p| _mm_prefetch::<_MM_HINT_T1>(p.cast());
+    prefetch |p| _mm_prefetch::<_MM_HINT_T0>(p.cast());
     add |a, b| _mm256_add_ps(a, b);
     sub |a, b| _mm256_sub_ps(a, b);
     mul |a, b| _mm256_mul_ps(a, b);
@@ -80,7 +79,7 @@ register! {
     store |p, x| _mm256_storeu_pd(p, x);
     stream |p, x| _mm256_stream_pd(p, x);
     fence _mm_sfence();
-    prefetch |p| _mm_prefetch::<_MM_HINT_T1>(p.cast());
+    prefetch |p| _mm_prefetch::<_MM_HINT_T0>(p.cast());
     add |a, b| _mm256_add_pd(a, b);
     sub |a, b| _mm256_sub_pd(a, b);
     mul |a, b| _mm256_mul_pd(a, b);
