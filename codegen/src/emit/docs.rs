@@ -99,7 +99,7 @@ fn cost(built: &Built, channels: usize, arrays: Arrays) -> String {
         n => format!(", {n} min, max or select"),
     };
     let footprint = built.code.footprint();
-    let live = if arrays == Arrays::Sink { footprint.passing } else { footprint.live };
+    let live = if matches!(arrays, Arrays::Sink | Arrays::Memory) { footprint.passing } else { footprint.live };
     let below = match &built.code {
         Code::Branch(branch) => format!(" above the limit, {} below it", branch.costs(channels)[0].total),
         _ => String::new(),

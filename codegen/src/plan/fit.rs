@@ -23,6 +23,7 @@ fn words((called, found): &Way) -> String {
         Called::Whole => format!("whole {number}"),
         Called::Pieces => format!("in pieces {number}"),
         Called::Channels => format!("in pieces of one channel, called for a channel after the other, {number}"),
+        Called::Memory => format!("in pieces of one channel that read and write a memory, {number}"),
     }
 }
 
@@ -73,7 +74,7 @@ pub(super) fn fitted(spec: &Spec, most: &Located<usize>) -> Result<(Vec<Spec>, O
     Ok(match called {
         Called::Whole => (vec![spec.clone()], None),
         Called::Pieces => (spec.in_pieces(), why),
-        Called::Channels => (spec.base().in_pieces(), why),
+        Called::Channels | Called::Memory => (spec.base().in_pieces(), why),
     })
 }
 

@@ -78,6 +78,7 @@ fn heads(ways: &[Called]) -> Vec<String> {
                 Called::Whole => "whole",
                 Called::Pieces => "pieces",
                 Called::Channels => "by channels",
+                Called::Memory => "in memory",
             };
             heads.extend(["registers", "waves", "cycles"].map(|what| format!("{name}, {called}: {what}")));
         }

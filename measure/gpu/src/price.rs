@@ -3,9 +3,10 @@
 use crate::compile::{GPUS, Report, Row};
 use crate::kernels::Called;
 use crate::page::{SHOWN, table};
+use crate::registers;
 use std::ops::RangeInclusive;
 use zonal_codegen::families::{Form, Group, Spec};
-use zonal_codegen::plan::contest::{spill, weigh};
+use zonal_codegen::plan::contest::{busy, spill};
 use zonal_codegen::plan::{READ_WEIGHT, SPECIAL_WEIGHT, SPILL_WEIGHT};
 use zonal_codegen::promise::registers::MOST;
 
@@ -85,7 +86,10 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn at_order(order: usize, rows: &[&Row], gpu: usize) -> Agreement {
-    let price = |row: &Row| weigh(row.operations, row.special, row.reads) + spill(row.held);
+    let channels = |row: &Row| row.spec.parse().map_or(1, |spec: Spec| spec.channels());
+    let price = |row: &Row| {
+        busy(row.weight, channels(row), row.gpus[registers::GPU].registers as usize) + spill(row.held)
+    };
     let cycles = |row: &Row| row.gpus[gpu].cycles;
     let (mut right, mut all, mut wrong) = (0, 0, vec![]);
     for (place, first) in rows.iter().enumerate() {
