@@ -92,7 +92,8 @@ impl Pieces {
         let mut given: HashMap<Id, Id> = HashMap::new();
         if self.shared.is_empty() {
             let inputs = self.inputs(outputs);
-            let taken = others.iter().enumerate().filter(|(place, _)| inputs.iter().any(|(_, param, _)| param == place));
+            let taken =
+                others.iter().enumerate().filter(|(place, _)| inputs.iter().any(|(_, param, _)| param == place));
             for (place, param) in taken {
                 let numbers = builder.param(param.name, param.shape, param.domain, param.doc.clone());
                 given.extend(inputs.iter().filter(|input| input.1 == place).map(|&(id, _, at)| (id, numbers[at])));

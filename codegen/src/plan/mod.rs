@@ -14,7 +14,8 @@ mod report;
 pub mod text;
 
 pub use crate::plan::contest::{
-    Chosen, HALF_SHARE, ISSUE_CYCLES, MEMORY_CYCLES, READ_WEIGHT, RESULT_CYCLES, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT, price,
+    Chosen, HALF_SHARE, ISSUE_CYCLES, MEMORY_CYCLES, READ_WEIGHT, RESULT_CYCLES, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT,
+    price,
 };
 
 use crate::emit::language::Target;

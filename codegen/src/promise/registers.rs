@@ -16,9 +16,9 @@ const MEASURED: &str = include_str!("../../data/registers.tsv");
 pub const MOST: usize = 256;
 
 /// Registers of a unit of RDNA 2, for each of the 64 threads of a wave.
-const ROOM: usize = 512;
+pub const ROOM: usize = 512;
 /// The waves of 64 threads that a unit of RDNA 2 holds at the most.
-const MOST_WAVES: usize = 16;
+pub const MOST_WAVES: usize = 16;
 
 /// Returns how many waves a unit of RDNA 2 holds of a kernel that takes so many registers: while one waits, others run.
 pub fn waves(registers: usize) -> usize {

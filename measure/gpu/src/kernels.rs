@@ -39,7 +39,7 @@ pub struct Kernel {
 
 /// What bands hold at once, in numbers, from which on they are compiled with their arrays in memory too: RDNA 3 has 128
 /// registers for a thread while ten waves run, and some are for places.
-const MUCH: usize = 96;
+pub const MUCH: usize = 96;
 
 /// The numbers that the bands of a kernel in pieces hold at once, or one function.
 fn held(pieces: &[Function]) -> usize {

@@ -5,9 +5,9 @@ use zonal_codegen::families::lifted::LIFTED_DEGREES;
 use zonal_codegen::ir::eval::{Contraction, Number};
 use zonal_codegen::ir::listing::Cost;
 use zonal_codegen::plan::contest::weigh;
-use zonal_codegen::promise::registers::Registers;
 use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
 use zonal_codegen::promise::accuracy::{band_errors, method_errors};
+use zonal_codegen::promise::registers::Registers;
 use zonal_codegen::promise::samples::{self, Random};
 use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 

@@ -5,7 +5,9 @@ use crate::emit::language::expression::Text;
 use crate::emit::language::form::{self, Form};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
-use crate::emit::language::record::{Arrays, Float, ITEMS, Language, Memory, MultiplyAdd, Statements, Type, Types, Way, Words};
+use crate::emit::language::record::{
+    Arrays, Float, ITEMS, Language, Memory, MultiplyAdd, Statements, Type, Types, Way, Words,
+};
 use crate::emit::language::shader;
 
 /// GLSL that is the same text in 4.50, 3.30 and ES 3.00.
