@@ -1,6 +1,6 @@
 //! A kernel that leaves bands apart, in pieces: a set-up of the numbers that several bands are made with, and a kernel a
-//! band, which makes what it alone takes. Where nothing is made for several bands there is no set-up, and bands take the
-//! parameters themselves. Their operations together are the kernel's, and so are their results, bit for
+//! band, which makes what it alone takes. Where nothing is made for several bands and arrays are given, of which a band
+//! takes a few numbers, there is no set-up, and bands take the parameters themselves. Their operations together are the kernel's, and so are their results, bit for
 //! bit; but what lives at once is one band, so that registers suffice where those of the whole spill (docs/GPU.md says by
 //! how much).
 
@@ -20,7 +20,7 @@ pub struct Pieces {
     kernel: Kernel,
     order: usize,
     /// What several bands take that depends on no signal, and parameters, in the order in which the whole meets it, so that
-    /// the set-up is laid out, and its products are fused, as they are there; nothing if it would be parameters alone.
+    /// the set-up is laid out, and its products are fused, as they are there; nothing if it would copy arrays alone.
     shared: Vec<Id>,
 }
 
@@ -173,7 +173,8 @@ fn shared(kernel: &Kernel, order: usize) -> Vec<Id> {
         }
     }
     let is_made = |id: &Id| matches!(graph.node(*id), Node::Op(_));
-    if !shared.iter().any(is_made) {
+    let takes_arrays = kernel.params.iter().any(|param| param.kind.is_scalar() && param.shape.is_array());
+    if takes_arrays && !shared.iter().any(is_made) {
         return vec![];
     }
     graph.met(&kernel.outputs).into_iter().filter(|id| shared.contains(id)).collect()

@@ -23,7 +23,7 @@ fn words((called, found): &Way) -> String {
         Called::Whole => format!("whole {number}"),
         Called::Pieces => format!("in pieces {number}"),
         Called::Channels => format!("in pieces of one channel, called for a channel after the other, {number}"),
-        Called::Memory => format!("in pieces of one channel that read and write a memory, {number}"),
+        Called::Memory => format!("in pieces of one channel with `arrays = \"memory\"` {number}"),
     }
 }
 
@@ -83,7 +83,11 @@ pub(super) fn spilled(spec: &Spec) -> Option<String> {
     let whole = registers(spec, Called::Whole).filter(|whole| whole.spilled > 0)?;
     let about = if whole.measured { "" } else { "about " };
     let mut text = format!("on RDNA 2 memory stands in for {about}{} of its registers", whole.spilled);
-    let others: Vec<Way> = WAYS[1..].iter().filter_map(|&called| Some((called, registers(spec, called)?))).collect();
+    let mut others: Vec<Way> =
+        WAYS[1..].iter().filter_map(|&called| Some((called, registers(spec, called)?))).collect();
+    if others.iter().all(|(_, found)| found.spilled > 0) {
+        others.extend(registers(spec, Called::Memory).map(|found| (Called::Memory, found)));
+    }
     if !others.is_empty() {
         let ways: Vec<String> = others.iter().map(words).collect();
         text += &format!("; `{spec}:pieces`: {}", ways.join(", "));

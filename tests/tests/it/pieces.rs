@@ -91,7 +91,10 @@ fn where_nothing_is_made_for_several_bands_there_is_no_set_up() {
         assert!(pieces.iter().all(|piece| matches!(piece.form, Form::Band(_))), "{pieces:?}");
         assert!(pieces.iter().all(|piece| piece.code().params()[0].name == "cs"), "{text} takes pairs");
     }
-    assert_eq!(spec("rotate:5").in_pieces()[0].form, Form::SetUp);
+    // One band takes a quaternion as a set-up hands it on.
+    for text in ["rotate:5", "rotate:2"] {
+        assert_eq!(spec(text).in_pieces()[0].form, Form::SetUp);
+    }
 }
 
 /// What lives at once besides the set-up's numbers is a band, not all of them.

@@ -171,7 +171,7 @@ fn the_planner_orders_kernels_as_their_cycles_do() {
     }
 }
 
-/// The planner counts the waves that registers leave room for; the driver counts two for each, since a unit has two halves.
+/// The driver counts waves of 32 threads, two for each of 64.
 #[test]
 fn registers_leave_room_for_as_many_waves_as_the_planner_counts() {
     let report = checked_in();
