@@ -114,7 +114,7 @@ impl Dialect {
 
     /// Returns whether a value is asked of a function, number by number.
     pub fn is_asked_for(self, shape: Shape, kind: Kind) -> bool {
-        self.is_handed_over(shape) && !kind.is_scalar() || self.is_place(shape)
+        self.is_place(shape) || self.is_handed_over(shape) && !kind.is_scalar()
     }
 
     /// Returns whether a value of this shape is a place in a memory of the user's.

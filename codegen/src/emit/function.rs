@@ -167,6 +167,9 @@ impl Function {
         if dialect.is_place(shape) {
             let write = dialect.accessor("write", kind);
             text += &format!("Number i of the result goes to `{write}({RESULT} + i, number)`. ");
+            if !read.is_empty() {
+                text += "The result may lie where a signal does, but not where other arrays do. ";
+            }
         }
         match text.is_empty() {
             true => vec![],

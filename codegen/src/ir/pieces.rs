@@ -1,8 +1,8 @@
 //! A kernel that leaves bands apart, in pieces: a set-up of the numbers that several bands are made with, and a kernel a
 //! band, which makes what it alone takes. Where nothing is made for several bands and arrays are given, of which a band
-//! takes a few numbers, there is no set-up, and bands take the parameters themselves. Their operations together are the kernel's, and so are their results, bit for
-//! bit; but what lives at once is one band, so that registers suffice where those of the whole spill (docs/GPU.md says by
-//! how much).
+//! takes a few numbers, there is no set-up, and bands take the parameters themselves. Their operations together are the
+//! kernel's, and so are their results, bit for bit; but what lives at once is one band, so that registers suffice where
+//! those of the whole spill (docs/GPU.md says by how much).
 
 use crate::ir::graph::{Done, Id, Kind, Node};
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};

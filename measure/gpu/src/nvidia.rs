@@ -86,7 +86,8 @@ fn programs(folder: &Path) -> Result<Programs, String> {
     for (package, program) in PROGRAMS {
         if found(folder, program).is_none() {
             let pip = ["-m", "pip", "install", "--quiet", "--no-deps", "--target"];
-            let status = Command::new("python3").args(pip).arg(folder).arg(package).status();
+            // Both packages have a folder of one name, which pip does not write twice.
+            let status = Command::new("python3").args(pip).arg(folder.join(package)).arg(package).status();
             if !status.is_ok_and(|status| status.success()) {
                 return Err(format!("`{program}` cannot be had: `python3 -m pip install {package}` fails here"));
             }

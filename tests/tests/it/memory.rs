@@ -43,7 +43,7 @@ fn around(function: &Function, target: Target) -> Around {
     let (params, (shape, kind)) = (function.built.code.params(), function.built.code.result());
     let scalars: usize = params.iter().filter(|param| param.kind.is_scalar()).map(|param| param.shape.len()).sum();
     // Places of signals count the numbers of all channels as one.
-    let (mut scalar, mut signal) = (0, scalars.next_multiple_of(channels) / channels);
+    let (mut scalar, mut signal) = (0, scalars.div_ceil(channels));
     let mut last = 0;
     let mut arguments = Vec::new();
     for param in params {
