@@ -42,7 +42,7 @@ pub fn build(specs: &[Spec]) -> Vec<Function> {
 pub fn file(module: &Module, target: Target, folder: &str) -> Result<File, GenerateError> {
     let path = format!("{folder}{}", module.file_name(target));
     let text = module.text(target)?;
-    validate(target, &path, &text)?;
+    validate(target, &path, &module.with_stand_ins(target, &text)?)?;
     let text = match module.form(target) {
         Some(form) => (form.text)(&module.name, text),
         None => text,

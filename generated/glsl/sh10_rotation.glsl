@@ -4309,7 +4309,7 @@ ZONAL_HIGHP vec2[183] sh10_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 855 (180 mul, 0 add, 675 fma); 0 constants, 108 live values.
-// Vector registers on RDNA 2: 256 and memory for 311 more; in pieces 256 and memory for 213 more.
+// Vector registers on RDNA 2: 256 and memory for 311 more; in pieces 256.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP float[100] sh10_rotate_lifted(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP float[100] c) {
@@ -4634,7 +4634,8 @@ ZONAL_HIGHP float[100] sh10_rotate_lifted(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2565 (540 mul, 0 add, 2025 fma); 0 constants, 108 live values.
-// Vector registers on RDNA 2: 256 and memory for 970 more; in pieces 256 and memory for 419 more.
+// Vector registers on RDNA 2: 256 and memory for 970 more; in pieces 256 and memory for 23 more, with
+//     arrays in memory 128.
 // Error: f32 rounding at most 3.3e-6 of the norm of a band, for an angle up to 13.33 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 2e-7).
 ZONAL_HIGHP vec3[100] sh10_rotate_lifted_rgb(ZONAL_HIGHP vec2[183] cs, ZONAL_HIGHP vec3[100] c) {

@@ -786,7 +786,7 @@ ZONAL_HIGHP vec2[8] sh3_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
-// Vector registers on RDNA 2: 40; in pieces 40.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 ZONAL_HIGHP float[9] sh3_rotate_lifted(ZONAL_HIGHP vec2[8] cs, ZONAL_HIGHP float[9] c) {

@@ -853,7 +853,7 @@ ZONAL_HIGHP vec2[16] sh4_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
-// Vector registers on RDNA 2: 64; in pieces 64.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 ZONAL_HIGHP float[16] sh4_rotate_lifted(ZONAL_HIGHP vec2[16] cs, ZONAL_HIGHP float[16] c) {

@@ -845,7 +845,7 @@ ZONAL_HIGHP vec2[13] sh5_angles(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
-// Vector registers on RDNA 2: 80; in pieces 64.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 ZONAL_HIGHP float[25] sh5_rotate_angles(ZONAL_HIGHP vec2[13] cs, ZONAL_HIGHP float[25] c) {
@@ -1155,7 +1155,7 @@ ZONAL_HIGHP vec2[28] sh5_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
-// Vector registers on RDNA 2: 112; in pieces 112.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[25] sh5_rotate_lifted(ZONAL_HIGHP vec2[28] cs, ZONAL_HIGHP float[25] c) {

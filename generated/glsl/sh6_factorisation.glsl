@@ -510,7 +510,8 @@ ZONAL_HIGHP float[36] sh6_zhf(ZONAL_HIGHP mat3 m, ZONAL_HIGHP float[36] c) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1934 (678 mul, 12 add, 1244 fma); 117 constants, 217 live values.
-// Vector registers on RDNA 2: 256 and memory for 185 more; in pieces 256 and memory for 13 more.
+// Vector registers on RDNA 2: 256 and memory for 185 more; in pieces 256 and memory for 13 more, with
+//     arrays in memory 80.
 // Error: f32 rounding at most 1.7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.8e-6).
 ZONAL_HIGHP vec3[36] sh6_zhf_rgb(ZONAL_HIGHP mat3 m, ZONAL_HIGHP vec3[36] c) {

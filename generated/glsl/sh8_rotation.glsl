@@ -2689,7 +2689,7 @@ ZONAL_HIGHP vec2[98] sh8_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
-// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 256 and memory for 7 more.
+// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 128.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP float[64] sh8_rotate_lifted(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP float[64] c) {
@@ -2891,7 +2891,7 @@ ZONAL_HIGHP float[64] sh8_rotate_lifted(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP flo
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
-// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256 and memory for 141 more.
+// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 ZONAL_HIGHP vec3[64] sh8_rotate_lifted_rgb(ZONAL_HIGHP vec2[98] cs, ZONAL_HIGHP vec3[64] c) {

@@ -3451,7 +3451,7 @@ ZONAL_HIGHP vec2[136] sh9_lifted(ZONAL_HIGHP vec4 q) {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
-// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 100 more.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP float[81] sh9_rotate_lifted(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP float[81] c) {
@@ -3711,7 +3711,7 @@ ZONAL_HIGHP float[81] sh9_rotate_lifted(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP fl
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1944 (432 mul, 0 add, 1512 fma); 0 constants, 88 live values.
-// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256 and memory for 268 more.
+// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 ZONAL_HIGHP vec3[81] sh9_rotate_lifted_rgb(ZONAL_HIGHP vec2[136] cs, ZONAL_HIGHP vec3[81] c) {

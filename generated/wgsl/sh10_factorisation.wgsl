@@ -9,7 +9,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 5571 (2410 mul, 20 add, 3141 fma); 616 constants, 932 live values.
-// Vector registers on RDNA 2: 256 and memory for 1366 more; in pieces 256 and memory for 1596 more.
+// Vector registers on RDNA 2: 256 and memory for 1366 more; in pieces 256 and memory for 1403 more,
+//     with arrays in memory 128.
 // Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
 fn sh10_zhf(m: mat3x3<f32>, c: array<f32, 100>) -> array<f32, 100> {
@@ -2111,7 +2112,8 @@ fn sh10_zhf(m: mat3x3<f32>, c: array<f32, 100>) -> array<f32, 100> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 9551 (2758 mul, 30 add, 6763 fma); 616 constants, 932 live values.
-// Vector registers on RDNA 2: 256 and memory for 2106 more; in pieces 256 and memory for 1872 more.
+// Vector registers on RDNA 2: 256 and memory for 2106 more; in pieces 256 and memory for 1612 more,
+//     with arrays in memory 128.
 // Error: f32 rounding at most 1.1e-3 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 8.8e-6).
 fn sh10_zhf_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 100>) -> array<vec3<f32>, 100> {

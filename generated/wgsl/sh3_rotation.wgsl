@@ -718,7 +718,7 @@ fn sh3_lifted(q: vec4<f32>) -> array<vec2<f32>, 8> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 36 (12 mul, 0 add, 24 fma); 0 constants, 10 live values.
-// Vector registers on RDNA 2: 40; in pieces 40.
+// Vector registers on RDNA 2: 40; in pieces 32.
 // Error: f32 rounding at most 1.2e-6 of the norm of a band, for an angle up to 60 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh3_rotate_lifted(cs: array<vec2<f32>, 8>, c: array<f32, 9>) -> array<f32, 9> {

@@ -801,7 +801,7 @@ fn sh4_lifted(q: vec4<f32>) -> array<vec2<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 78 (24 mul, 0 add, 54 fma); 0 constants, 18 live values.
-// Vector registers on RDNA 2: 64; in pieces 64.
+// Vector registers on RDNA 2: 64; in pieces 48.
 // Error: f32 rounding at most 1.6e-6 of the norm of a band, for an angle up to 40 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.8e-7).
 fn sh4_rotate_lifted(cs: array<vec2<f32>, 16>, c: array<f32, 16>) -> array<f32, 16> {

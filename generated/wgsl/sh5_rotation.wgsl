@@ -805,7 +805,7 @@ fn sh5_angles(q: vec4<f32>) -> array<vec2<f32>, 13> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 169 (60 mul, 1 add, 108 fma); 14 constants, 30 live values.
-// Vector registers on RDNA 2: 80; in pieces 64.
+// Vector registers on RDNA 2: 80; in pieces 48.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.3e-7).
 fn sh5_rotate_angles(cs: array<vec2<f32>, 13>, c: array<f32, 25>) -> array<f32, 25> {
@@ -1103,7 +1103,7 @@ fn sh5_lifted(q: vec4<f32>) -> array<vec2<f32>, 28> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 140 (40 mul, 0 add, 100 fma); 0 constants, 28 live values.
-// Vector registers on RDNA 2: 112; in pieces 112.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 1.8e-6 of the norm of a band, for an angle up to 30 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh5_rotate_lifted(cs: array<vec2<f32>, 28>, c: array<f32, 25>) -> array<f32, 25> {

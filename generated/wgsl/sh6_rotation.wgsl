@@ -1078,7 +1078,7 @@ fn sh6_angles(q: vec4<f32>) -> array<vec2<f32>, 16> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 275 (90 mul, 1 add, 184 fma); 32 constants, 43 live values.
-// Vector registers on RDNA 2: 112; in pieces 80.
+// Vector registers on RDNA 2: 112; in pieces 64.
 // Error: f32 rounding at most 2e-6 of the norm of a band, for every angle (proven for IEEE arithmetic,
 //     contracted or not; the worst of 256 measured is 2.7e-7).
 fn sh6_rotate_angles(cs: array<vec2<f32>, 16>, c: array<f32, 36>) -> array<f32, 36> {
@@ -1516,7 +1516,7 @@ fn sh6_lifted(q: vec4<f32>) -> array<vec2<f32>, 45> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 225 (60 mul, 0 add, 165 fma); 0 constants, 40 live values.
-// Vector registers on RDNA 2: 168; in pieces 168.
+// Vector registers on RDNA 2: 168; in pieces 80.
 // Error: f32 rounding at most 2.2e-6 of the norm of a band, for an angle up to 24 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh6_rotate_lifted(cs: array<vec2<f32>, 45>, c: array<f32, 36>) -> array<f32, 36> {

@@ -9,7 +9,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1816 (850 mul, 14 add, 952 fma); 194 constants, 341 live values.
-// Vector registers on RDNA 2: 256 and memory for 162 more; in pieces 256 and memory for 66 more.
+// Vector registers on RDNA 2: 256 and memory for 162 more; in pieces 256 and memory for 66 more, with
+//     arrays in memory 128.
 // Error: f32 rounding at most 2.2e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-6).
 fn sh7_zhf(m: mat3x3<f32>, c: array<f32, 49>) -> array<f32, 49> {
@@ -743,7 +744,8 @@ fn sh7_zhf(m: mat3x3<f32>, c: array<f32, 49>) -> array<f32, 49> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 3144 (1024 mul, 18 add, 2102 fma); 194 constants, 341 live values.
-// Vector registers on RDNA 2: 256 and memory for 391 more; in pieces 256 and memory for 126 more.
+// Vector registers on RDNA 2: 256 and memory for 391 more; in pieces 256 and memory for 126 more, with
+//     arrays in memory 128.
 // Error: f32 rounding at most 2.2e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 3.2e-6).
 fn sh7_zhf_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

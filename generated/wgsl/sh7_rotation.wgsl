@@ -1421,7 +1421,7 @@ fn sh7_angles(q: vec4<f32>) -> array<vec2<f32>, 19> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 411 (126 mul, 1 add, 284 fma); 52 constants, 56 live values.
-// Vector registers on RDNA 2: 144; in pieces 128.
+// Vector registers on RDNA 2: 144; in pieces 80.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for every angle (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 2.8e-7).
 fn sh7_rotate_angles(cs: array<vec2<f32>, 19>, c: array<f32, 49>) -> array<f32, 49> {
@@ -2043,7 +2043,7 @@ fn sh7_lifted(q: vec4<f32>) -> array<vec2<f32>, 68> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 336 (84 mul, 0 add, 252 fma); 0 constants, 54 live values.
-// Vector registers on RDNA 2: 240; in pieces 240.
+// Vector registers on RDNA 2: 240; in pieces 128.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh7_rotate_lifted(cs: array<vec2<f32>, 68>, c: array<f32, 49>) -> array<f32, 49> {
@@ -2197,7 +2197,7 @@ fn sh7_rotate_lifted(cs: array<vec2<f32>, 68>, c: array<f32, 49>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1008 (252 mul, 0 add, 756 fma); 0 constants, 54 live values.
-// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 26 more.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256.
 // Error: f32 rounding at most 2.4e-6 of the norm of a band, for an angle up to 20 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.7e-7).
 fn sh7_rotate_lifted_rgb(cs: array<vec2<f32>, 68>, c: array<vec3<f32>, 49>) -> array<vec3<f32>, 49> {

@@ -9,7 +9,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 2753 (1252 mul, 10 add, 1491 fma); 255 constants, 477 live values.
-// Vector registers on RDNA 2: 256 and memory for 411 more; in pieces 256 and memory for 329 more.
+// Vector registers on RDNA 2: 256 and memory for 411 more; in pieces 256 and memory for 279 more, with
+//     arrays in memory 80.
 // Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6e-6).
 fn sh8_zhf(m: mat3x3<f32>, c: array<f32, 64>) -> array<f32, 64> {
@@ -1094,7 +1095,8 @@ fn sh8_zhf(m: mat3x3<f32>, c: array<f32, 64>) -> array<f32, 64> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4707 (1466 mul, 12 add, 3229 fma); 255 constants, 477 live values.
-// Vector registers on RDNA 2: 256 and memory for 817 more; in pieces 256 and memory for 493 more.
+// Vector registers on RDNA 2: 256 and memory for 817 more; in pieces 256 and memory for 394 more, with
+//     arrays in memory 80.
 // Error: f32 rounding at most 7e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 6e-6).
 fn sh8_zhf_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {

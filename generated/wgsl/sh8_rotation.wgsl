@@ -2637,7 +2637,7 @@ fn sh8_lifted(q: vec4<f32>) -> array<vec2<f32>, 98> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 476 (112 mul, 0 add, 364 fma); 0 constants, 70 live values.
-// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 256 and memory for 7 more.
+// Vector registers on RDNA 2: 256 and memory for 69 more; in pieces 128.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh8_rotate_lifted(cs: array<vec2<f32>, 98>, c: array<f32, 64>) -> array<f32, 64> {
@@ -2835,7 +2835,7 @@ fn sh8_rotate_lifted(cs: array<vec2<f32>, 98>, c: array<f32, 64>) -> array<f32, 
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1428 (336 mul, 0 add, 1092 fma); 0 constants, 70 live values.
-// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256 and memory for 141 more.
+// Vector registers on RDNA 2: 256 and memory for 329 more; in pieces 256.
 // Error: f32 rounding at most 2.7e-6 of the norm of a band, for an angle up to 17.14 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.9e-7).
 fn sh8_rotate_lifted_rgb(cs: array<vec2<f32>, 98>, c: array<vec3<f32>, 64>) -> array<vec3<f32>, 64> {

@@ -9,7 +9,8 @@
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 4016 (1777 mul, 10 add, 2229 fma); 464 constants, 691 live values.
-// Vector registers on RDNA 2: 256 and memory for 779 more; in pieces 256 and memory for 785 more.
+// Vector registers on RDNA 2: 256 and memory for 779 more; in pieces 256 and memory for 700 more, with
+//     arrays in memory 128.
 // Error: f32 rounding at most 6.3e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
 fn sh9_zhf(m: mat3x3<f32>, c: array<f32, 81>) -> array<f32, 81> {
@@ -1534,7 +1535,8 @@ fn sh9_zhf(m: mat3x3<f32>, c: array<f32, 81>) -> array<f32, 81> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 6918 (2071 mul, 18 add, 4829 fma); 464 constants, 691 live values.
-// Vector registers on RDNA 2: 256 and memory for 1328 more; in pieces 256 and memory for 987 more.
+// Vector registers on RDNA 2: 256 and memory for 1328 more; in pieces 256 and memory for 861 more,
+//     with arrays in memory 128.
 // Error: f32 rounding at most 6.3e-4 of the norm of a band, for every rotation matrix (proven for IEEE
 //     arithmetic, contracted or not; the worst of 256 measured is 7e-6).
 fn sh9_zhf_rgb(m: mat3x3<f32>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

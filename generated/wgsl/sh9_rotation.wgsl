@@ -3399,7 +3399,7 @@ fn sh9_lifted(q: vec4<f32>) -> array<vec2<f32>, 136> {
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 648 (144 mul, 0 add, 504 fma); 0 constants, 88 live values.
-// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256 and memory for 100 more.
+// Vector registers on RDNA 2: 256 and memory for 179 more; in pieces 256.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh9_rotate_lifted(cs: array<vec2<f32>, 136>, c: array<f32, 81>) -> array<f32, 81> {
@@ -3655,7 +3655,7 @@ fn sh9_rotate_lifted(cs: array<vec2<f32>, 136>, c: array<f32, 81>) -> array<f32,
 // c: the coefficients, index l(l+1)+m.
 // Returns the rotated coefficients.
 // Operations: 1944 (432 mul, 0 add, 1512 fma); 0 constants, 88 live values.
-// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256 and memory for 268 more.
+// Vector registers on RDNA 2: 256 and memory for 591 more; in pieces 256.
 // Error: f32 rounding at most 3e-6 of the norm of a band, for an angle up to 15 degrees about y
 //     (proven for IEEE arithmetic, contracted or not; the worst of 256 measured is 1.6e-7).
 fn sh9_rotate_lifted_rgb(cs: array<vec2<f32>, 136>, c: array<vec3<f32>, 81>) -> array<vec3<f32>, 81> {

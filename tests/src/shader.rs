@@ -9,8 +9,8 @@ use std::fmt::Debug;
 use naga::front::{glsl, wgsl};
 use naga::valid::{Capabilities, FunctionInfo, ValidationFlags, Validator};
 use naga::{
-    Arena, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Literal, MathFunction, Module, Scalar,
-    ShaderStage, Statement, Type, TypeInner, UnaryOperator, UniqueArena,
+    AddressSpace, Arena, ArraySize, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal,
+    MathFunction, Module, Scalar, ShaderStage, Statement, Type, TypeInner, UnaryOperator, UniqueArena,
 };
 
 /// A loop that runs longer than this is an error, so that a test of a wrong loop ends.
@@ -73,6 +73,23 @@ pub struct Shader {
     module: Module,
     /// The memory of each function, in the order of `module.functions`, or why it cannot run.
     frames: Vec<Result<Frame, String>>,
+    /// The words of its private variables.
+    global_words: usize,
+}
+
+/// Where private variables lie, at the start of a call's memory.
+type Globals = Vec<(Handle<GlobalVariable>, usize)>;
+
+/// The private variables of a module, which are zero at first, and how many words they take.
+fn globals(module: &Module) -> Result<(Globals, usize), String> {
+    let (mut places, mut next) = (Vec::new(), 0);
+    for (handle, global) in module.global_variables.iter() {
+        if global.space == AddressSpace::Private && global.init.is_none() {
+            places.push((handle, next));
+            next += Shape::of(&module.types, &module.types[global.ty].inner)?.words;
+        }
+    }
+    Ok((places, next))
 }
 
 impl Shader {
@@ -93,9 +110,10 @@ impl Shader {
         let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&module)
             .map_err(|error| error.emit_to_string(source))?;
-        let frames =
-            module.functions.iter().map(|(handle, function)| Frame::new(&module, function, &info[handle])).collect();
-        Ok(Shader { module, frames })
+        let (globals, global_words) = globals(&module)?;
+        let frame = |(handle, function)| Frame::new(&module, function, &info[handle], &globals);
+        let frames = module.functions.iter().map(frame).collect();
+        Ok(Shader { module, frames, global_words })
     }
 
     /// The names of the functions, callees before callers, entry points left out; overloads of one name repeat it.
@@ -118,7 +136,7 @@ impl Shader {
             .ok_or_else(|| format!("no `{function}` takes arguments of these types"))?;
         let result = self.module.functions[handle].result.as_ref();
         let ty = result.ok_or_else(|| format!("`{function}` returns nothing"))?.ty;
-        let mut machine = Machine { shader: self, memory: Vec::new(), counts, fma };
+        let mut machine = Machine { shader: self, memory: vec![0; self.global_words], counts, fma };
         machine
             .invoke(handle, &words)
             .and_then(|words| self.decode(ty, &words))
@@ -255,7 +273,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(module: &Module, function: &Function, info: &FunctionInfo) -> Result<Frame, String> {
+    fn new(module: &Module, function: &Function, info: &FunctionInfo, globals: &Globals) -> Result<Frame, String> {
         let types = &module.types;
         let mut words = Vec::new();
         let mut arguments = Vec::new();
@@ -285,9 +303,11 @@ impl Frame {
                     pointers.push((at, locals[local.index()]));
                     words.push(0);
                 }
-                Expression::GlobalVariable(_) | Expression::Override(_) => {
-                    return Err(unsupported(expression));
+                Expression::GlobalVariable(global) => {
+                    let place = globals.iter().find(|(known, _)| *known == global);
+                    words.push(place.ok_or_else(|| unsupported(expression))?.1 as u32);
                 }
+                Expression::Override(_) => return Err(unsupported(expression)),
                 _ => words.resize(at + shape.words, 0),
             }
             slots.push(Slot { at, shape });

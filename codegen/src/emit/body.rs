@@ -4,6 +4,7 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::language::expression::{Binding, Text};
 use crate::ir::graph::Kind;
+use crate::ir::kernel::Shape;
 use crate::ir::listing::{Listing, Operand};
 use crate::ir::op::Op;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,7 +24,7 @@ enum Purpose {
     /// It names a value.
     Name,
     /// It hands over a number of the result.
-    Result(usize),
+    Result(usize, Shape),
 }
 
 /// A named value, or a number of the result that is handed over.
@@ -43,8 +44,8 @@ pub struct Line {
 impl Line {
     /// Returns the statement that names the value, or hands it over.
     pub fn statement(&self, dialect: Dialect) -> String {
-        if let Purpose::Result(place) = self.purpose {
-            return format!("{RESULT}({place}, {});", self.text);
+        if let Purpose::Result(place, shape) = self.purpose {
+            return dialect.hand_over(RESULT, shape, self.kind, place, &self.text);
         }
         let declare = dialect.language.statements.declare;
         let start = declare(&dialect.number(self.kind), &format!("t{}", self.number), false);
@@ -122,7 +123,7 @@ impl Printer<'_> {
                 }
             }
             let result = self.result(operand);
-            self.line(Purpose::Result(place), listing.result_kind, result);
+            self.line(Purpose::Result(place, listing.result), listing.result_kind, result);
         }
     }
 
@@ -214,12 +215,14 @@ impl Body {
     }
 }
 
-/// The numbers that functions give, and how often each is used.
+/// The numbers of signals that functions give, and how often each is used. What is no signal lies where no result is put,
+/// and is asked for each time.
 fn asked(listing: &Listing, dialect: Dialect) -> BTreeMap<(usize, usize), Asked> {
     let mut asked: BTreeMap<_, Asked> = BTreeMap::new();
     for operand in listing.steps.iter().flat_map(|step| step.op.operands()).chain(listing.outputs.iter().copied()) {
         if let Operand::Input { param, index } = operand
             && dialect.is_asked_for(listing.params[param].shape, listing.params[param].kind)
+            && !listing.params[param].kind.is_scalar()
         {
             let asked = asked.entry((param, index)).or_default();
             (asked.uses, asked.left) = (asked.uses + 1, asked.left + 1);

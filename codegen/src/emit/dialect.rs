@@ -33,6 +33,11 @@ pub struct Laid {
     pub close: &'static str,
 }
 
+/// A place so many numbers behind another one.
+fn placed(name: &str, index: usize) -> String {
+    if index == 0 { name.to_owned() } else { format!("{name} + {index}") }
+}
+
 impl Dialect {
     /// Returns a language with a signal of one channel and numbers of f32, its arrays passed as it does by itself.
     pub fn new(language: Target) -> Self {
@@ -104,12 +109,36 @@ impl Dialect {
 
     /// Returns whether a result of this shape is handed to a function, number by number.
     pub fn is_handed_over(self, shape: Shape) -> bool {
-        self.arrays == Arrays::Sink && matches!(shape, Shape::Array(_))
+        self.arrays == Arrays::Sink && matches!(shape, Shape::Array(_)) || self.is_place(shape)
     }
 
     /// Returns whether a value is asked of a function, number by number.
     pub fn is_asked_for(self, shape: Shape, kind: Kind) -> bool {
-        self.is_handed_over(shape) && !kind.is_scalar()
+        self.is_place(shape) || self.is_handed_over(shape) && !kind.is_scalar()
+    }
+
+    /// Returns whether a value of this shape is a place in a memory of the user's.
+    pub fn is_place(self, shape: Shape) -> bool {
+        self.arrays == Arrays::Memory && shape.is_array()
+    }
+
+    /// Returns the type of a place.
+    fn place(self) -> Type {
+        let int = self.language.statements.int.to_owned();
+        Type { shape: Shape::Scalar, item: int.clone(), length: None, text: int }
+    }
+
+    /// Returns the name of the function of the user's that reads or writes a number of a kind.
+    pub fn accessor(self, does: &str, kind: Kind) -> String {
+        format!("zonal_{does}_{}", self.number(kind).replace(|c: char| !c.is_ascii_alphanumeric(), ""))
+    }
+
+    /// Returns the statement that hands over a number of the result.
+    pub fn hand_over(self, name: &str, shape: Shape, kind: Kind, place: usize, number: &str) -> String {
+        match self.is_place(shape) {
+            true => format!("{}({}, {number});", self.accessor("write", kind), placed(name, place)),
+            false => format!("{name}({place}, {number});"),
+        }
     }
 
     /// Returns a parameter in a signature.
@@ -117,13 +146,17 @@ impl Dialect {
         if let Some(generic) = self.language.generic.as_ref().filter(|_| self.is_asked_for(param.shape, param.kind)) {
             return (generic.source)(param.name, &self.number(param.kind));
         }
-        (self.language.parameter)(param.name, &self.passed(param.shape, param.kind), Way::In)
+        let of = if self.is_place(param.shape) { self.place() } else { self.passed(param.shape, param.kind) };
+        (self.language.parameter)(param.name, &of, Way::In)
     }
 
     /// Returns the parameter that a result is written to.
     pub fn output(self, name: &str, shape: Shape, kind: Kind) -> String {
         if let Some(generic) = self.language.generic.as_ref().filter(|_| self.is_handed_over(shape)) {
             return (generic.sink)(name, &self.number(kind));
+        }
+        if self.is_place(shape) {
+            return (self.language.parameter)(name, &self.place(), Way::In);
         }
         (self.language.parameter)(name, &self.passed(shape, kind), Way::Out)
     }
@@ -147,6 +180,10 @@ impl Dialect {
 
     /// Returns component `index`, in flat order, of a parameter or a result whose numbers are of a kind.
     pub fn component(self, name: &str, shape: Shape, kind: Kind, index: usize) -> String {
+        if self.is_place(shape) {
+            // A pair is two numbers, and a vector three.
+            return format!("{}({})", self.accessor("read", kind), placed(name, index));
+        }
         let name = self.items(name, shape);
         let of = |size: usize| format!("{name}[{}]{}", index / size, (self.language.component)(index % size));
         match shape {

@@ -99,7 +99,7 @@ fn cost(built: &Built, channels: usize, arrays: Arrays) -> String {
         n => format!(", {n} min, max or select"),
     };
     let footprint = built.code.footprint();
-    let live = if arrays == Arrays::Sink { footprint.passing } else { footprint.live };
+    let live = if matches!(arrays, Arrays::Sink | Arrays::Memory) { footprint.passing } else { footprint.live };
     let below = match &built.code {
         Code::Branch(branch) => format!(" above the limit, {} below it", branch.costs(channels)[0].total),
         _ => String::new(),
@@ -185,7 +185,9 @@ fn on_gpu(spec: &Spec) -> Option<String> {
     };
     let whole = of(Called::Whole)?;
     let pieces = of(Called::Pieces).map_or_else(String::new, |pieces| format!("; in pieces {pieces}"));
-    Some(format!("Vector registers on RDNA 2: {whole}{pieces}."))
+    let memory = of(Called::Memory).filter(|_| measured(spec, Called::Pieces).is_some_and(|found| found.spilled > 0));
+    let memory = memory.map_or_else(String::new, |memory| format!(", with arrays in memory {memory}"));
+    Some(format!("Vector registers on RDNA 2: {whole}{pieces}{memory}."))
 }
 
 /// All that stands above a function of a shader, a sentence a line.

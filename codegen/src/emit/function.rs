@@ -153,6 +153,30 @@ impl Printer<'_> {
 }
 
 impl Function {
+    /// What a user writes where arrays are places, as lines of a comment.
+    fn places(&self, dialect: Dialect) -> Vec<String> {
+        let code = &self.built.code;
+        let (shape, kind) = code.result();
+        let arrays = code.params().iter().filter(|param| dialect.is_place(param.shape));
+        let read: Vec<String> =
+            arrays.map(|param| format!("`{}({} + i)`", dialect.accessor("read", param.kind), param.name)).collect();
+        let mut text = String::new();
+        if !read.is_empty() {
+            text += &format!("Number i of what it takes is {}. ", read.join(", "));
+        }
+        if dialect.is_place(shape) {
+            let write = dialect.accessor("write", kind);
+            text += &format!("Number i of the result goes to `{write}({RESULT} + i, number)`. ");
+            if !read.is_empty() {
+                text += "The result may lie where a signal does, but not where other arrays do. ";
+            }
+        }
+        match text.is_empty() {
+            true => vec![],
+            false => docs::wrap(&format!("{text}You write these functions."), 4),
+        }
+    }
+
     /// Prints the function under a name; `spec` is what its documentation says it serves.
     ///
     /// # Errors
@@ -197,11 +221,12 @@ impl Function {
             }
         };
         let Printer { params, parts, .. } = printer;
+        let places = self.places(dialect);
         let generic = language.generic.as_ref();
         Ok(FunctionText {
             // What is generic is read in rustdoc.
             doc: generic.map_or_else(
-                || docs::function(&self.built, spec, dialect.arrays),
+                || [docs::function(&self.built, spec, dialect.arrays), places].concat(),
                 |_| docs::listed(&self.built, spec, dialect.arrays),
             ),
             tables,

@@ -3,7 +3,9 @@
 use crate::emit::dialect::Dialect;
 use crate::emit::language::{self, Arrays, Form, Target};
 use crate::families::family::Spec;
+use crate::ir::graph::Kind;
 use crate::promise::built::Built;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A function to print: a kernel, the spec it serves and its name.
@@ -71,6 +73,28 @@ impl Module {
     /// Returns the form of the file in a language, if it is not the language's own.
     pub fn form(&self, target: Target) -> Option<&'static Form> {
         self.form.and_then(|name| target.form(name))
+    }
+
+    /// Returns a text of the module with functions for those that a user writes, so that it can be checked.
+    ///
+    /// # Errors
+    ///
+    /// If a function cannot be printed in the language.
+    pub(crate) fn with_stand_ins(&self, target: Target, text: &str) -> Result<String, Limit> {
+        let Some(memory) = target.memory.filter(|_| self.arrays == Some(Arrays::Memory)) else {
+            return Ok(text.to_owned());
+        };
+        let mut functions: BTreeSet<String> = BTreeSet::new();
+        for function in &self.functions {
+            let dialect = function.dialect(target, self.arrays)?;
+            for kind in [Kind::Scalar, Kind::Signal] {
+                let of = dialect.number(kind);
+                functions.insert((memory.read)(&dialect.accessor("read", kind), &of));
+                functions.insert((memory.write)(&dialect.accessor("write", kind), &of));
+            }
+        }
+        let functions = functions.into_iter().collect::<Vec<_>>().join("\n");
+        Ok(if memory.first { format!("{functions}\n{text}") } else { format!("{text}\n{functions}\n") })
     }
 
     /// Returns what the file is called in a language, with its extension.

@@ -136,6 +136,14 @@ impl Branch {
         both
     }
 
+    /// What both ways and the condition cost together for so many channels.
+    pub fn both(&self, channels: usize) -> Cost {
+        [&self.condition, &self.below, &self.above]
+            .into_iter()
+            .map(|listing| listing.cost(channels))
+            .fold(Cost::default(), std::ops::Add::add)
+    }
+
     fn footprint(&self) -> Footprint {
         let [below, above] = [&self.below, &self.above].map(Listing::footprint);
         let mut constants: Vec<_> = [&self.below, &self.above].iter().flat_map(|listing| &listing.constants).collect();

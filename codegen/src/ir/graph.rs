@@ -40,6 +40,17 @@ pub struct Graph {
     directions: Vec<[Id; 3]>,
     as_made: bool,
     first: Vec<Id>,
+    done: Option<Done>,
+}
+
+/// The order in which a kernel's operations are done, where it is not that of its layout. Which products are fused does not
+/// depend on it, so that it changes no bit of the results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// As they were made.
+    AsMade,
+    /// Result by result in this order, each with all that it needs.
+    By(Vec<Id>),
 }
 
 impl Graph {
@@ -105,6 +116,16 @@ impl Graph {
     /// What is no result is not laid out for it.
     pub fn lay_out_in(&mut self, results: Vec<Id>) {
         self.first = results;
+    }
+
+    /// Notes the order in which operations are done.
+    pub fn do_in(&mut self, done: Done) {
+        self.done = Some(done);
+    }
+
+    /// The order in which operations are done, if it is noted.
+    pub fn done(&self) -> Option<&Done> {
+        self.done.as_ref()
     }
 
     /// The results that are laid out before others, in order.

@@ -1,7 +1,7 @@
 //! A kernel laid out: the operations in the order in which they are done, products fused into the sums that use them,
 //! what is used twice named. The interpreter runs a listing and the printers print it, so both do the same.
 
-use crate::ir::graph::{Graph, Id, Kind, Node};
+use crate::ir::graph::{Done, Graph, Id, Kind, Node};
 use crate::ir::kernel::{Kernel, Param, Shape};
 pub use crate::ir::op::Sign;
 use crate::ir::op::{self, Price};
@@ -123,46 +123,66 @@ fn unsigned(graph: &Graph, id: Id) -> (Id, bool) {
     }
 }
 
+/// What these nodes need and they themselves, depth first; each is shown with its operands when it is first met.
+fn depth_first(graph: &Graph, outputs: &[Id], mut met: impl FnMut(Id, &[Id])) -> Vec<Id> {
+    let (mut order, mut seen) = (Vec::new(), HashSet::new());
+    let mut stack: Vec<(Id, bool)> = outputs.iter().rev().map(|&id| (id, false)).collect();
+    while let Some((id, ready)) = stack.pop() {
+        if ready {
+            order.push(id);
+            continue;
+        }
+        if !seen.insert(id) {
+            continue;
+        }
+        stack.push((id, true));
+        let operands: Vec<Id> = match *graph.node(id) {
+            Node::Const(_) | Node::Tiny | Node::Input { .. } => vec![],
+            Node::Op(op) => op.operands().collect(),
+        };
+        stack.extend(operands.iter().rev().map(|&operand| (operand, false)));
+        met(id, &operands);
+    }
+    order
+}
+
 impl<'a> Layout<'a> {
     /// Depth first from the outputs, or as the graph was made; who uses each node, negations looked through.
     fn new(kernel: &'a Kernel) -> Self {
         let graph = &kernel.graph;
         let signed = kernel.outputs.iter().copied().collect();
         let mut layout = Self { graph, order: Vec::new(), users: HashMap::new(), signed };
-        let mut seen = HashSet::new();
         let first = graph.laid_out_first().iter().filter(|id| kernel.outputs.contains(id));
         let outputs: Vec<Id> = first.chain(&kernel.outputs).copied().collect();
-        let mut stack: Vec<(Id, bool)> = outputs.iter().rev().map(|&id| (id, false)).collect();
-        while let Some((id, ready)) = stack.pop() {
-            if ready {
-                layout.order.push(id);
-                continue;
-            }
-            if !seen.insert(id) {
-                continue;
-            }
-            stack.push((id, true));
-            let operands: Vec<Id> = match *graph.node(id) {
-                Node::Const(_) | Node::Tiny | Node::Input { .. } => vec![],
-                Node::Op(op) => op.operands().collect(),
-            };
-            for &operand in operands.iter().rev() {
-                stack.push((operand, false));
-            }
+        layout.order = depth_first(graph, &outputs, |id, operands| {
             if !matches!(graph.node(id), Node::Op(op::Op::Neg(_))) {
-                for &operand in &operands {
+                for &operand in operands {
                     layout.users.entry(unsigned(graph, operand).0).or_default().push(id);
                 }
                 if !matches!(graph.node(id), Node::Op(op::Op::Add(..))) {
-                    layout.signed.extend(&operands);
+                    layout.signed.extend(operands);
                 }
             }
-        }
+        });
         if graph.is_laid_out_as_made() {
             // What a node uses was made before it.
             layout.order.sort_unstable();
         }
         layout
+    }
+
+    /// The nodes in the order in which they are done.
+    fn done(&self, outputs: &[Id]) -> Vec<Id> {
+        let mut order = self.order.clone();
+        match self.graph.done() {
+            None => {}
+            Some(Done::AsMade) => order.sort_unstable(),
+            Some(Done::By(results)) => {
+                let all: Vec<Id> = results.iter().chain(outputs).copied().collect();
+                order = depth_first(self.graph, &all, |_, _| ());
+            }
+        }
+        order
     }
 
     /// For each sum, the product that is fused into it. A product is fused when every use of it is a sum that has no
@@ -222,7 +242,7 @@ impl Listing {
         };
         let mut operands: HashMap<Id, Operand> = HashMap::new();
         let mut constants: HashMap<Exact, usize> = HashMap::new();
-        for &id in &layout.order {
+        for id in layout.done(&kernel.outputs) {
             if vanished.contains(&id) {
                 continue;
             }

@@ -1,17 +1,18 @@
 //! A kernel that leaves bands apart, in pieces: a set-up of the numbers that several bands are made with, and a kernel a
-//! band, which makes what it alone takes. Their operations together are the kernel's, and so are their results, bit for
-//! bit; but what lives at once is one band, so that registers suffice where those of the whole spill (docs/GPU.md says by
-//! how much).
+//! band, which makes what it alone takes. Where nothing is made for several bands and arrays are given, of which a band
+//! takes a few numbers, there is no set-up, and bands take the parameters themselves. Their operations together are the
+//! kernel's, and so are their results, bit for bit; but what lives at once is one band, so that registers suffice where
+//! those of the whole spill (docs/GPU.md says by how much).
 
-use crate::ir::graph::{Id, Kind, Node};
+use crate::ir::graph::{Done, Id, Kind, Node};
 use crate::ir::kernel::{Builder, Domain, Kernel, Shape};
-use crate::ir::listing::fused_products;
+use crate::ir::listing::{Listing, fused_products};
 use crate::ir::op::Op;
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// What the set-up's result is called where a band takes it.
-const SET_UP: &str = "s";
+pub const SET_UP: &str = "s";
 
 /// A kernel whose results in a band depend on the signal in that band alone.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub struct Pieces {
     kernel: Kernel,
     order: usize,
     /// What several bands take that depends on no signal, and parameters, in the order in which the whole meets it, so that
-    /// the set-up is laid out, and its products are fused, as they are there.
+    /// the set-up is laid out, and its products are fused, as they are there; nothing if it would copy arrays alone.
     shared: Vec<Id>,
 }
 
@@ -62,46 +63,85 @@ impl Pieces {
         (0..self.order).filter(is_changed).collect()
     }
 
-    /// Returns the kernel that makes what bands take; none if the bands take the coefficients alone.
+    /// Returns the kernel that makes what bands take; none if they take what is given alone.
     pub fn set_up(&self) -> Option<Kernel> {
         let mut params = self.kernel.params.clone();
         params.pop();
-        (!self.shared.is_empty()).then(|| Kernel {
+        let kernel = || Kernel {
             params,
             graph: self.kernel.graph.clone(),
             outputs: self.shared.clone(),
             result: Shape::Array(self.shared.len()),
             result_kind: Kind::Scalar,
             result_doc: format!("the {} numbers that each band takes", self.shared.len()),
-        })
+        };
+        (!self.shared.is_empty()).then(|| roomy(kernel(), Done::AsMade))
     }
 
-    /// Returns the kernel of a band: what the set-up returned and 2l + 1 coefficients to as many.
+    /// Returns the kernel of a band: what the set-up returned, or those parameters that it takes if there is none, and 2l + 1
+    /// coefficients to as many.
     ///
     /// # Panics
     ///
     /// If there is no such band.
     pub fn band(&self, l: usize) -> Kernel {
         assert!(l < self.order, "band {l} of order {}", self.order);
+        let outputs = &self.kernel.outputs[band(l)];
+        let (signal, others) = self.kernel.params.split_last().expect("a signal is last");
         let mut builder = Builder::new();
-        let mut given = Vec::new();
-        if !self.shared.is_empty() {
+        let mut given: HashMap<Id, Id> = HashMap::new();
+        if self.shared.is_empty() {
+            let inputs = self.inputs(outputs);
+            let taken =
+                others.iter().enumerate().filter(|(place, _)| inputs.iter().any(|(_, param, _)| param == place));
+            for (place, param) in taken {
+                let numbers = builder.param(param.name, param.shape, param.domain, param.doc.clone());
+                given.extend(inputs.iter().filter(|input| input.1 == place).map(|&(id, _, at)| (id, numbers[at])));
+            }
+        } else {
             let shape = Shape::Array(self.shared.len());
-            given = builder.param(SET_UP, shape, Domain::SetUp, "what the set-up returns");
+            let made = builder.param(SET_UP, shape, Domain::SetUp, "what the set-up returns");
+            given.extend(self.shared.iter().copied().zip(made));
         }
-        let signal = self.kernel.params.last().expect("a signal is last");
         let doc = format!("the coefficients of band {l}, m from −{l} to {l}");
         let c = builder.param(signal.name, Shape::Array(2 * l + 1), signal.domain, doc);
-        let place: HashMap<Id, usize> = self.shared.iter().enumerate().map(|(place, &id)| (id, place)).collect();
         let leaf = |id: Id, node: &Node| match node {
             Node::Input { index, .. } if self.kernel.graph.kind(id) == Kind::Signal => {
                 Some(c[*index as usize - band(l).start])
             }
-            _ => place.get(&id).map(|&place| given[place]),
+            _ => given.get(&id).copied(),
         };
-        let outputs = builder.graph.take(&self.kernel.graph, &self.kernel.outputs[band(l)], leaf);
-        builder.finish(outputs, Shape::Array(2 * l + 1), format!("band {l} of the result, m from −{l} to {l}"))
+        let outputs = builder.graph.take(&self.kernel.graph, outputs, leaf);
+        // The orders m and −m of a band have factors in common.
+        let pairs = (1..=l).flat_map(|m| [l - m, l + m]).map(|place| outputs[place]);
+        let pairs = std::iter::once(outputs[l]).chain(pairs).collect();
+        let doc = format!("band {l} of the result, m from −{l} to {l}");
+        roomy(builder.finish(outputs, Shape::Array(2 * l + 1), doc), Done::By(pairs))
     }
+
+    /// The numbers of parameters that these outputs need, each with its parameter and its place there.
+    fn inputs(&self, outputs: &[Id]) -> Vec<(Id, usize, usize)> {
+        let of = |id: Id| match self.kernel.graph.node(id) {
+            Node::Input { param, index } => Some((id, *param as usize, *index as usize)),
+            _ => None,
+        };
+        self.kernel.graph.met(outputs).into_iter().filter_map(of).collect()
+    }
+}
+
+/// The numbers that live at once beyond which operations are done in the order in which fewer do.
+const MANY: usize = 64;
+
+/// The kernel with its operations done in this order, if many numbers live at once and fewer do so; else as it is.
+fn roomy(kernel: Kernel, done: Done) -> Kernel {
+    let passing = |kernel: &Kernel| Listing::new(kernel).footprint().passing;
+    let alive = passing(&kernel);
+    if alive <= MANY {
+        return kernel;
+    }
+    let mut other = kernel.clone();
+    other.graph.do_in(done);
+    if passing(&other) < alive { other } else { kernel }
 }
 
 /// What the set-up makes: numbers that several bands need, as far as a band uses them, and parameters that any does. A
@@ -120,7 +160,7 @@ fn shared(kernel: &Kernel, order: usize) -> Vec<Id> {
         Node::Input { .. } => true,
         Node::Op(_) => bands[&id] > 1 && !is_made_in_bands(id),
     };
-    let (mut shared, mut seen) = (BTreeSet::new(), HashSet::new());
+    let (mut shared, mut seen) = (HashSet::new(), HashSet::new());
     let mut stack = kernel.outputs.clone();
     while let Some(id) = stack.pop() {
         if !seen.insert(id) {
@@ -132,13 +172,17 @@ fn shared(kernel: &Kernel, order: usize) -> Vec<Id> {
             stack.extend(op.operands());
         }
     }
+    let is_made = |id: &Id| matches!(graph.node(*id), Node::Op(_));
+    let takes_arrays = kernel.params.iter().any(|param| param.kind.is_scalar() && param.shape.is_array());
+    if takes_arrays && !shared.iter().any(is_made) {
+        return vec![];
+    }
     graph.met(&kernel.outputs).into_iter().filter(|id| shared.contains(id)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::listing::Listing;
 
     /// Three bands, of which two are turned by a square, and the last by its square too.
     fn kernel(mixes: bool) -> Kernel {

@@ -15,7 +15,7 @@ use crate::plan::mixtures::{self, Budget, candidates, set_up};
 use crate::plan::text::short;
 use crate::promise::built::Built;
 use crate::promise::hemisphere::Trials;
-use crate::promise::registers::MOST;
+use crate::promise::registers::{MOST, Registers, waves};
 use crate::scene::diagnostic::Diagnostic;
 use crate::scene::{Hemisphere, Job, Located, Norm, Precision, Rotation};
 use serde::Serialize;
@@ -37,15 +37,41 @@ pub const READ_WEIGHT: usize = 1;
 /// read again, of which each takes the time of two operations.
 pub const SPILL_WEIGHT: usize = 4;
 
-/// What a kernel weighs when methods are compared, for so many channels.
-pub fn price(code: &Code, channels: usize) -> usize {
-    let cost = code.cost(channels);
-    weigh(cost.total, cost.special, code.reads()) + spill(code.held(channels))
+/// The cycles that a wave of RDNA keeps its unit busy for with an operation: 64 threads on 32 lanes.
+pub const ISSUE_CYCLES: usize = 2;
+
+/// The cycles after which a wave of RDNA has the result of an operation: an operation that needs it waits so long.
+pub const RESULT_CYCLES: usize = 5;
+
+/// The cycles until memory answers, as AMD's compiler takes them.
+pub const MEMORY_CYCLES: usize = 320;
+
+/// What a kernel weighs when methods are compared, for so many channels and in so many registers on RDNA 2.
+pub fn price(code: &Code, channels: usize, registers: usize) -> usize {
+    busy(weight(code, channels), channels, registers) + spill(code.held(channels))
+}
+
+/// What the operations of a kernel and the numbers that it reads besides the signal weigh together. Of a branch both sides
+/// count: the threads of a wave go both ways unless all of them go one.
+pub fn weight(code: &Code, channels: usize) -> usize {
+    let cost = match code {
+        Code::Branch(branch) => branch.both(channels),
+        _ => code.cost(channels),
+    };
+    weigh(cost.total, cost.special, code.reads())
 }
 
 /// What operations, special ones and numbers that are read besides the signal weigh together.
 pub fn weigh(total: usize, special: usize, reads: usize) -> usize {
     total + SPECIAL_WEIGHT * special + READ_WEIGHT * reads
+}
+
+/// What a kernel that weighs so much keeps a unit of the GPU for, in operations: its weight or, if that is more, what a wave
+/// waits, for memory and for each result before the next operation, shared between the waves that its registers leave room
+/// for. Channels do not wait for each other.
+pub fn busy(weight: usize, channels: usize, registers: usize) -> usize {
+    let waiting = RESULT_CYCLES * weight / channels + MEMORY_CYCLES;
+    weight.max(waiting / (ISSUE_CYCLES * waves(registers)))
 }
 
 /// What the numbers weigh that a kernel holds at once, and that registers do not.
@@ -71,8 +97,11 @@ pub struct Rival {
     pub reads: usize,
     /// The numbers that it holds at once.
     pub held: usize,
-    /// total + [`SPECIAL_WEIGHT`] · special + [`READ_WEIGHT`] · reads, and for each signal [`SPILL_WEIGHT`] for each number
-    /// that is held beyond the registers, unless the scene says how many may be taken: then it is printed in pieces.
+    /// How many waves its registers leave room for on RDNA 2, in the form in which the scene gets it.
+    pub waves: usize,
+    /// total + [`SPECIAL_WEIGHT`] · special + [`READ_WEIGHT`] · reads or, if that is more, what its waves wait for
+    /// ([`busy`]); and for each signal [`SPILL_WEIGHT`] for each number that is held beyond the registers, unless the scene
+    /// says how many may be taken: then it is printed in pieces.
     pub price: usize,
     /// The method's error at the largest angle, by its law, in the norm that the scene asks for.
     pub method_error: f64,
@@ -210,8 +239,15 @@ impl<'a> Contest<'a> {
         let reads = self.rotation.signals * built.code.reads() + read_once;
         let held = built.code.held(spec.channels());
         // What a scene's registers do not suffice for is in pieces, which hold less.
-        let spilled = if self.registers.is_some() { 0 } else { self.rotation.signals * spill(held) };
-        let price = weigh(all(|cost| cost.total), all(|cost| cost.special), reads) + spilled;
+        let within = |most: &Located<usize>| fit::within(spec, most.value).ok().map(|(_, found)| found);
+        let registers = self.registers.and_then(within).unwrap_or_else(|| Registers::of(spec, &built.code)).registers;
+        let spilled = if self.registers.is_some() { 0 } else { spill(held) };
+        let each = busy(weight(&built.code, spec.channels()), spec.channels(), registers) + spilled;
+        let made = set_up.as_ref().map_or(0, |set_up| {
+            let code = &set_up.built.code;
+            busy(weight(code, 1), 1, Registers::of(&set_up.spec, code).registers)
+        });
+        let price = self.rotation.signals * each + made;
         let method_error = self.method_error(spec);
         let rounding = |built: &Built| built.rounding_within(self.budget.max_angle);
         let rounding_f32 = rounding(built) + set_up.as_ref().map_or(0.0, |set_up| rounding(&set_up.built));
@@ -237,6 +273,7 @@ impl<'a> Contest<'a> {
             special: all(|cost| cost.special),
             reads,
             held,
+            waves: waves(registers),
             price: if spec.half { price.div_ceil(HALF_SHARE) } else { price },
             method_error,
             rounding_f32,

@@ -23,6 +23,7 @@ fn words((called, found): &Way) -> String {
         Called::Whole => format!("whole {number}"),
         Called::Pieces => format!("in pieces {number}"),
         Called::Channels => format!("in pieces of one channel, called for a channel after the other, {number}"),
+        Called::Memory => format!("in pieces of one channel with `arrays = \"memory\"` {number}"),
     }
 }
 
@@ -73,7 +74,7 @@ pub(super) fn fitted(spec: &Spec, most: &Located<usize>) -> Result<(Vec<Spec>, O
     Ok(match called {
         Called::Whole => (vec![spec.clone()], None),
         Called::Pieces => (spec.in_pieces(), why),
-        Called::Channels => (spec.base().in_pieces(), why),
+        Called::Channels | Called::Memory => (spec.base().in_pieces(), why),
     })
 }
 
@@ -82,7 +83,11 @@ pub(super) fn spilled(spec: &Spec) -> Option<String> {
     let whole = registers(spec, Called::Whole).filter(|whole| whole.spilled > 0)?;
     let about = if whole.measured { "" } else { "about " };
     let mut text = format!("on RDNA 2 memory stands in for {about}{} of its registers", whole.spilled);
-    let others: Vec<Way> = WAYS[1..].iter().filter_map(|&called| Some((called, registers(spec, called)?))).collect();
+    let mut others: Vec<Way> =
+        WAYS[1..].iter().filter_map(|&called| Some((called, registers(spec, called)?))).collect();
+    if others.iter().all(|(_, found)| found.spilled > 0) {
+        others.extend(registers(spec, Called::Memory).map(|found| (Called::Memory, found)));
+    }
     if !others.is_empty() {
         let ways: Vec<String> = others.iter().map(words).collect();
         text += &format!("; `{spec}:pieces`: {}", ways.join(", "));

@@ -13,7 +13,10 @@ pub mod order;
 mod report;
 pub mod text;
 
-pub use crate::plan::contest::{Chosen, HALF_SHARE, READ_WEIGHT, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT, price};
+pub use crate::plan::contest::{
+    Chosen, HALF_SHARE, ISSUE_CYCLES, MEMORY_CYCLES, READ_WEIGHT, RESULT_CYCLES, Rival, SPECIAL_WEIGHT, SPILL_WEIGHT,
+    price,
+};
 
 use crate::emit::language::Target;
 use crate::emit::names::Use;

@@ -1,7 +1,9 @@
 //! A plan as people read it: what each kernel costs and why it was chosen.
 
 use crate::plan::Plan;
-use crate::plan::contest::{HALF_SHARE, READ_WEIGHT, SPECIAL_WEIGHT, SPILL_WEIGHT};
+use crate::plan::contest::{
+    HALF_SHARE, ISSUE_CYCLES, MEMORY_CYCLES, READ_WEIGHT, RESULT_CYCLES, SPECIAL_WEIGHT, SPILL_WEIGHT,
+};
 use crate::plan::text::{row, short, table};
 use crate::promise::registers::MOST;
 use crate::scene::Hemisphere;
@@ -63,6 +65,7 @@ impl fmt::Display for Plan {
                 "special",
                 "reads",
                 "held",
+                "waves",
                 "price",
                 "method error",
                 "f32 rounding",
@@ -79,6 +82,7 @@ impl fmt::Display for Plan {
                     rival.special.to_string(),
                     rival.reads.to_string(),
                     rival.held.to_string(),
+                    rival.waves.to_string(),
                     rival.price.to_string(),
                     short(rival.method_error),
                     short(rival.rounding_f32),
@@ -88,7 +92,7 @@ impl fmt::Display for Plan {
             f.write_str(&table(&rows))?;
             writeln!(
                 f,
-                "\nThe price is the total, {SPECIAL_WEIGHT} for each special, {READ_WEIGHT} for each number that is read besides the signal and {SPILL_WEIGHT} for each that is held at once beyond {MOST}, unless the scene says how many registers may be taken; in f16 by {HALF_SHARE}. Errors are {}, at the largest angle.",
+                "\nThe price is the total, {SPECIAL_WEIGHT} for each special and {READ_WEIGHT} for each number that is read besides the signal; or what a wave waits for, if that is more: {RESULT_CYCLES} cycles for each of these of one channel and {MEMORY_CYCLES} for memory, by {ISSUE_CYCLES} cycles an operation and by the waves that registers leave room for on RDNA 2. And {SPILL_WEIGHT} for each number that is held at once beyond {MOST}, unless the scene says how many registers may be taken; in f16 by {HALF_SHARE}. Errors are {}, at the largest angle.",
                 chosen.hemisphere.map_or_else(|| chosen.norm.unwrap_or_default().meaning(), Hemisphere::meaning)
             )?;
         }

@@ -15,6 +15,16 @@ const MEASURED: &str = include_str!("../../data/registers.tsv");
 /// The vector registers that a thread may have on RDNA 2.
 pub const MOST: usize = 256;
 
+/// Registers of a unit of RDNA 2, for each of the 64 threads of a wave.
+pub const ROOM: usize = 512;
+/// The waves of 64 threads that a unit of RDNA 2 holds at the most.
+pub const MOST_WAVES: usize = 16;
+
+/// Returns how many waves a unit of RDNA 2 holds of a kernel that takes so many registers: while one waits, others run.
+pub fn waves(registers: usize) -> usize {
+    (ROOM / registers.max(1)).clamp(ROOM / MOST, MOST_WAVES)
+}
+
 /// How a kernel is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -25,6 +35,8 @@ pub enum Called {
     Pieces,
     /// As pieces, a channel after the other in each band, by the functions of one channel.
     Channels,
+    /// As pieces of one channel that read and write a memory: a pass for the set-up and one for each band, a thread a channel.
+    Memory,
 }
 
 impl Called {
@@ -34,7 +46,7 @@ impl Called {
     pub fn for_a_number(self) -> f64 {
         match self {
             Self::Whole => 1.5,
-            Self::Pieces | Self::Channels => 2.0,
+            Self::Pieces | Self::Channels | Self::Memory => 2.0,
         }
     }
 }
@@ -85,6 +97,7 @@ pub fn key(spec: &str, called: Called) -> String {
         Called::Whole => spec.to_owned(),
         Called::Pieces => format!("{spec}:{PIECES}"),
         Called::Channels => format!("{spec}:{PIECES}:channels"),
+        Called::Memory => format!("{spec}:{PIECES}:memory"),
     }
 }
 
@@ -111,7 +124,8 @@ pub fn held(spec: &Spec, called: Called) -> Option<usize> {
         _ if spec.form.is_piece() => return None,
         Called::Pieces => spec.in_pieces(),
         Called::Channels if spec.rgb => spec.base().in_pieces(),
-        Called::Channels => return None,
+        // Arrays that lie in memory take no registers, so that what is held is not what takes them.
+        Called::Channels | Called::Memory => return None,
     };
     // What the set-up made is among what a band is given.
     let bands = pieces.iter().filter(|piece| piece.form != Form::SetUp);

@@ -33,7 +33,8 @@ struct Manifest {
     targets: Option<Placed<Vec<Placed<String>>>>,
     /// How functions take and return arrays; if it is left out, as a value, which every language does. `vec4` puts each
     /// item into a vector of four, as uniform buffers hold them. `sink`, in Rust alone, takes a signal as a function of the index
-    /// and gives each number of the result to a function as soon as it is known.
+    /// and gives each number of the result to a function as soon as it is known. `memory`, in shaders alone, takes places
+    /// in a memory that functions of yours read and write, so that arrays take no registers.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::words::Passed>"))]
     arrays: Option<Placed<String>>,
     /// The form of the files for what takes them in: `naga_oil` (WGSL with its import path), `wesl` (WGSL as a module of a

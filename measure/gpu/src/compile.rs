@@ -2,7 +2,7 @@
 //! be.
 
 use crate::device::{Compiler, Counted};
-use crate::kernels::{Called, Kernel};
+use crate::kernels::{Called, Kernel, Pass};
 use crate::loops;
 use serde::{Deserialize, Serialize};
 use std::error::Error;
@@ -36,8 +36,8 @@ pub struct Row {
     pub operations: usize,
     /// Its roots and reciprocals.
     pub special: usize,
-    /// Numbers that it is given besides the signal.
-    pub reads: usize,
+    /// What its operations and the numbers that it is given besides the signal weigh together.
+    pub weight: usize,
     /// Numbers that it holds at once.
     pub held: usize,
     /// What was counted.
@@ -73,6 +73,20 @@ fn manifest() -> Result<PathBuf, String> {
     })
 }
 
+/// What is counted of passes that run after each other: what any of them needs, and what all of them take.
+fn together(passes: &[Pass], counted: &[Counted]) -> Counted {
+    let mut all = Counted { waves: u64::MAX, ..Counted::default() };
+    for (pass, counted) in passes.iter().zip(counted) {
+        all.instructions += pass.times * counted.instructions;
+        all.registers = all.registers.max(counted.registers);
+        all.spilled = all.spilled.max(counted.spilled);
+        all.waves = all.waves.min(counted.waves);
+        all.cycles += pass.times * counted.cycles;
+        all.latency += counted.latency;
+    }
+    all
+}
+
 fn path(folder: &Path, place: usize) -> PathBuf {
     folder.join(format!("{place}.spv"))
 }
@@ -102,8 +116,9 @@ pub fn child(folder: &Path) -> Result<(), Box<dyn Error>> {
 pub fn compile(program: &Path, kernels: &[Kernel], step: impl Fn()) -> Result<Report, Box<dyn Error>> {
     let manifest = manifest()?;
     let folder = tempfile::tempdir()?;
-    for (place, kernel) in kernels.iter().enumerate() {
-        let bytes: Vec<u8> = kernel.spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let passes: Vec<&Pass> = kernels.iter().flat_map(|kernel| &kernel.passes).collect();
+    for (place, pass) in passes.iter().enumerate() {
+        let bytes: Vec<u8> = pass.spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
         std::fs::write(path(folder.path(), place), bytes)?;
     }
     let mut driver = String::new();
@@ -122,11 +137,17 @@ pub fn compile(program: &Path, kernels: &[Kernel], step: impl Fn()) -> Result<Re
             true => serde_json::from_slice(&output.stdout)?,
             false => return Err(format!("{}: {}", gpu.family, String::from_utf8_lossy(&output.stderr)).into()),
         };
-        if told.counted.len() != kernels.len() {
-            return Err(format!("{}: {} of {} shaders", gpu.family, told.counted.len(), kernels.len()).into());
+        if told.counted.len() != passes.len() {
+            return Err(format!("{}: {} of {} shaders", gpu.family, told.counted.len(), passes.len()).into());
         }
         driver = told.driver;
-        columns.push(told.counted);
+        let mut rest = &told.counted[..];
+        let of = |kernel: &Kernel| {
+            let (own, others) = rest.split_at(kernel.passes.len());
+            rest = others;
+            together(&kernel.passes, own)
+        };
+        columns.push(kernels.iter().map(of).collect::<Vec<Counted>>());
         step();
     }
     let row = |(place, kernel): (usize, &Kernel)| Row {
@@ -134,7 +155,7 @@ pub fn compile(program: &Path, kernels: &[Kernel], step: impl Fn()) -> Result<Re
         called: kernel.called,
         operations: kernel.operations,
         special: kernel.special,
-        reads: kernel.reads,
+        weight: kernel.weight,
         held: kernel.held,
         gpus: std::array::from_fn(|gpu| columns[gpu][place]),
     };

@@ -63,6 +63,7 @@ pub static CUDA: Language = Language {
     max_table: usize::MAX,
     chunk: None,
     generic: None,
+    memory: None,
     template: TEMPLATE,
     reserved: &[],
     renames_digits: false,

@@ -7,7 +7,7 @@
 
 use crate::compile::{self, GPUS, Report};
 use crate::device::Counted;
-use crate::kernels::{Called, Kernel, shaders};
+use crate::kernels::{Called, Kernel, Pass, shaders};
 use crate::page::{SHOWN, table};
 use crate::shader::{self, GROUP, ROW};
 use serde::{Deserialize, Serialize};
@@ -181,7 +181,11 @@ pub fn measured(program: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut asked: Vec<(usize, Way, bool)> = Vec::new();
     for order in ORDERS {
         for kernel in shaders(&[spec(format!("taylor15:{order}"))]) {
-            let way = if kernel.called == Called::Whole { Way::Straight } else { Way::Pieces };
+            let way = match kernel.called {
+                Called::Whole => Way::Straight,
+                Called::Pieces => Way::Pieces,
+                Called::Channels | Called::Memory => continue,
+            };
             asked.push((order, way, true));
             kernels.push(kernel);
         }
@@ -195,7 +199,8 @@ pub fn measured(program: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
                     _ => in_memory(&looped, way, has_loop),
                 };
                 asked.push((order, way, has_loop));
-                kernels.push(Kernel { spirv: shader::spirv(&text), ..like.clone() });
+                let pass = Pass { spirv: shader::spirv(&text), times: 1 };
+                kernels.push(Kernel { passes: vec![pass], ..like.clone() });
             }
         }
     }

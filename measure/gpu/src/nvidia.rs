@@ -12,6 +12,7 @@ use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::families::{Form, Spec};
 use zonal_codegen::generate;
 use zonal_codegen::ir::kernel::Shape;
+use zonal_codegen::ir::pieces::SET_UP;
 
 /// The architectures: Ampere (A100) and Ada (RTX 40).
 pub const ARCHITECTURES: [&str; 2] = ["sm_80", "sm_89"];
@@ -85,7 +86,8 @@ fn programs(folder: &Path) -> Result<Programs, String> {
     for (package, program) in PROGRAMS {
         if found(folder, program).is_none() {
             let pip = ["-m", "pip", "install", "--quiet", "--no-deps", "--target"];
-            let status = Command::new("python3").args(pip).arg(folder).arg(package).status();
+            // Both packages have a folder of one name, which pip does not write twice.
+            let status = Command::new("python3").args(pip).arg(folder.join(package)).arg(package).status();
             if !status.is_ok_and(|status| status.success()) {
                 return Err(format!("`{program}` cannot be had: `python3 -m pip install {package}` fails here"));
             }
@@ -157,6 +159,25 @@ struct Writer {
 }
 
 impl Writer {
+    /// The statements that read what a function takes besides the signal and what is made, unless it is known.
+    fn read(&mut self, function: &Function) -> String {
+        let dialect = function.dialect(&CUDA, None).expect("what is chosen is printed");
+        let mut text = String::new();
+        for param in function.built.code.params().iter().filter(|param| param.kind.is_scalar()) {
+            if param.name == SET_UP || self.known.contains(&param.name) {
+                continue;
+            }
+            let passed = dialect.passed(param.shape, param.kind);
+            text += &format!("    {}\n", (CUDA.statements.variable)(&passed, param.name));
+            let load = |place: String, number: usize| format!("    {place} = in[{number} * N];\n");
+            let (loads, next) = numbers(param.name, param.shape, 1, self.params, load);
+            text += &loads;
+            self.params = next;
+            self.known.push(param.name);
+        }
+        text
+    }
+
     /// The statements that call a function, whose signal is at a place of what is read, and name its result.
     fn call(&mut self, function: &Function, signal: usize, result: &str) -> String {
         let code = &function.built.code;
@@ -165,21 +186,10 @@ impl Writer {
             format!("    {}\n", (CUDA.statements.variable)(&dialect.passed(shape, kind), name))
         };
         let mut text = String::new();
-        for param in code.params() {
-            let (kind, name) = (param.kind, param.name);
-            if self.known.contains(&name) {
-                continue;
-            }
-            text += &variable(param.shape, kind, name);
+        for param in code.params().iter().filter(|param| !param.kind.is_scalar()) {
+            text += &variable(param.shape, param.kind, param.name);
             let load = |place: String, number: usize| format!("    {place} = in[{number} * N];\n");
-            if kind.is_scalar() {
-                let (loads, next) = numbers(name, param.shape, 1, self.params, load);
-                text += &loads;
-                self.params = next;
-                self.known.push(name);
-            } else {
-                text += &numbers(name, param.shape, function.spec.channels(), signal, load).0;
-            }
+            text += &numbers(param.name, param.shape, function.spec.channels(), signal, load).0;
         }
         let (shape, kind) = code.result();
         let arguments: Vec<&str> = code.params().iter().map(|param| param.name).collect();
@@ -201,12 +211,14 @@ fn program(functions: &[Function]) -> String {
     let text = module.text(&CUDA).expect("what is chosen is printed");
     let (mut body, mut writer) = (String::new(), Writer::default());
     for function in functions {
+        body += &writer.read(function);
+    }
+    for function in functions {
         let (shape, kind) = function.built.code.result();
         let channels = function.spec.channels();
         let first = match function.spec.form {
             Form::SetUp => {
                 body += &writer.call(function, SIGNALS, SET_UP);
-                writer.known.push(SET_UP);
                 continue;
             }
             Form::Band(l) => l * l * channels,
@@ -222,9 +234,6 @@ fn program(functions: &[Function]) -> String {
          const unsigned id = __nvvm_read_ptx_sreg_tid_x() + __nvvm_read_ptx_sreg_ctaid_x() * 256;\n    in += id;\n    o += id;\n{body}}}\n"
     )
 }
-
-/// What the set-up's result is called, which bands take.
-const SET_UP: &str = "s";
 
 fn output(command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;

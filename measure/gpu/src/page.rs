@@ -2,7 +2,7 @@
 
 use crate::compile::{GPUS, Report, Row};
 use crate::device::Counted;
-use crate::kernels::Called;
+use crate::kernels::{Called, MUCH};
 use crate::{loops, price, registers};
 use std::collections::BTreeMap;
 use zonal_codegen::families::Spec;
@@ -78,11 +78,21 @@ fn heads(ways: &[Called]) -> Vec<String> {
                 Called::Whole => "whole",
                 Called::Pieces => "pieces",
                 Called::Channels => "by channels",
+                Called::Memory => "in memory",
             };
             heads.extend(["registers", "waves", "cycles"].map(|what| format!("{name}, {called}: {what}")));
         }
     }
     heads
+}
+
+/// Kernels with their arrays in memory beside another way in which they spill.
+fn in_memory_table(rows: &Rows<'_>, other: Called, specs: &[&str]) -> String {
+    let spills =
+        |spec: &str| rows.get(spec, other).is_some_and(|row| SHOWN.iter().any(|&gpu| row.gpus[gpu].spilled > 0));
+    let ways = [other, Called::Memory];
+    let specs = specs.iter().filter(|spec| spec.ends_with(":rgb") == (other == Called::Channels) && spills(spec));
+    table(&heads(&ways), specs.filter_map(|spec| compared(rows, spec, &ways)))
 }
 
 /// A loop beside the straight lines that do the same.
@@ -122,6 +132,8 @@ pub fn markdown(report: &Report) -> String {
         };
         (0..GPUS.len()).map(of).collect::<Vec<_>>()
     };
+    let in_memory: Vec<&str> =
+        report.rows.iter().filter(|row| row.called == Called::Memory).map(|row| row.spec.as_str()).collect();
     let shared = report.rows.iter().filter(|row| row.called == Called::Pieces).count();
     let turns = |suffix: &str, name: &str| -> String {
         let ways = match suffix {
@@ -180,13 +192,32 @@ pub fn markdown(report: &Report) -> String {
             "`rotate:8:pieces` is a set-up and a function a band: a shader loads, turns and stores one band at a time. The \
              operations are those of the whole; what lives at once is less. Of the {shared} kernels of the catalogue that have \
              pieces, so many spill registers on {}: whole {whole}; in pieces {pieces}. *By channels* turns a band of one channel \
-             after the other by the functions of one channel: of the kernels of three channels {channels} spill so.",
+             after the other by the functions of one channel: of the kernels of three channels {channels} spill so. Bands that hold \
+             {MUCH} numbers or more were compiled with their arrays in memory too, below.",
             GPUS.map(|gpu| gpu.family).join(", ")
         ),
         turns("", "rotate"),
         turns(":rgb", "rotate"),
         turns("", "tilt"),
         turns(":rgb", "tilt"),
+        "## Arrays in memory".to_owned(),
+        format!(
+            "Arrays that are values take registers, and so does what a set-up hands on: too many where bands take hundreds of \
+             numbers, as the lifted rotation's do and those of the zonal factorisation. With `arrays = \"memory\"` a function takes \
+             places in a memory that functions of the user's read and write: each number is read where it is used, and each \
+             result is written as soon as it is known. Here a shader a piece, the set-up's once a signal and those of bands once a \
+             channel, with all arrays in storage buffers; in one shader the compiler keeps what it read for a band until another \
+             one reads it again. Cycles are those of all shaders together; what a band alone makes is made for each channel. Of \
+             the {} kernels that were compiled so {} spill on {}. Where values suffice, memory costs cycles; those that spill in \
+             pieces, or by channels, on {} or {} are:",
+            in_memory.len(),
+            spills(Called::Memory).join(", "),
+            GPUS.map(|gpu| gpu.family).join(", "),
+            GPUS[SHOWN[0]].family,
+            GPUS[SHOWN[1]].family
+        ),
+        in_memory_table(&rows, Called::Pieces, &in_memory),
+        in_memory_table(&rows, Called::Channels, &in_memory),
         "## Loops".to_owned(),
         format!(
             "A loop over a local array indexes registers by chains of moves. It saves text and time to compile: from order 4 on \

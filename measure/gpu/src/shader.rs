@@ -3,11 +3,13 @@
 
 use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use zonal_codegen::emit::language::WGSL;
+use std::collections::BTreeMap;
+use zonal_codegen::emit::language::{Arrays, WGSL};
 use zonal_codegen::emit::{Function, Module};
 use zonal_codegen::families::Form;
 use zonal_codegen::ir::graph::Kind;
 use zonal_codegen::ir::kernel::{Param, Shape};
+use zonal_codegen::ir::pieces::SET_UP;
 
 /// Threads of a group: a wave of the GPUs before RDNA, two of those since.
 pub(crate) const GROUP: usize = 64;
@@ -69,6 +71,12 @@ impl Main {
         dialect(function).argument(param.shape, param.kind, &numbers)
     }
 
+    /// What a piece takes besides the signal, each thing read once however many pieces take it.
+    fn given(&mut self, piece: &Function, known: &mut BTreeMap<&'static str, String>) -> Vec<String> {
+        let params = piece.built.code.params().iter().filter(|param| param.kind.is_scalar());
+        params.map(|param| known.entry(param.name).or_insert_with(|| self.argument(piece, param)).clone()).collect()
+    }
+
     /// A call, whose result gets a name.
     fn call(&mut self, function: &Function, name: &str, arguments: &[String]) {
         self.body += &format!("    let {name} = {}({});\n", function.shader_name(), arguments.join(", "));
@@ -116,11 +124,11 @@ pub fn whole(function: &Function) -> String {
 /// alike, signal after signal in each band.
 pub fn in_pieces(pieces: &[Function], order: usize, times: usize) -> String {
     let mut main = Main::new();
-    let set_up = pieces.iter().find(|piece| piece.spec.form == Form::SetUp);
-    if let Some(set_up) = set_up {
-        let arguments: Vec<String> =
-            set_up.built.code.params().iter().map(|param| main.argument(set_up, param)).collect();
+    let mut known = BTreeMap::new();
+    if let Some(set_up) = pieces.iter().find(|piece| piece.spec.form == Form::SetUp) {
+        let arguments = main.given(set_up, &mut known);
         main.call(set_up, "set_up", &arguments);
+        known.insert(SET_UP, "set_up".to_owned());
     }
     let channels = pieces.iter().map(|piece| piece.spec.channels()).max().unwrap_or(1);
     for l in 0..order {
@@ -133,15 +141,69 @@ pub fn in_pieces(pieces: &[Function], order: usize, times: usize) -> String {
                 continue;
             };
             let signal = piece.built.code.params().last().expect("a band takes a signal").clone();
-            let coefficients = main.argument(piece, &signal);
-            let shared = set_up.map(|_| "set_up".to_owned());
-            let arguments: Vec<String> = shared.into_iter().chain([coefficients]).collect();
+            let mut arguments = main.given(piece, &mut known);
+            arguments.push(main.argument(piece, &signal));
             let name = format!("band_{l}_{time}_");
             main.call(piece, &name, &arguments);
             main.write(piece, &name, piece.built.code.result());
         }
     }
     main.around(pieces)
+}
+
+/// Where numbers of the signal and of the result lie in the memory of [`in_memory`], and those of the set-up; parameters lie
+/// before.
+const SIGNAL: usize = 2 << 20;
+const MADE: usize = 1 << 20;
+
+/// Returns the shaders that do what the pieces of a kernel do, a shader a piece with all arrays in memory.
+pub fn in_memory(pieces: &[Function]) -> Vec<String> {
+    let mut known = BTreeMap::from([(SET_UP, MADE.to_string())]);
+    let mut parameters = Buffer::new("parameters");
+    let mut shader = |piece: &Function| {
+        let dialect = piece.dialect(&WGSL, Some(Arrays::Memory)).unwrap_or_else(|limit| panic!("{limit}"));
+        let mut arguments: Vec<String> = Vec::new();
+        for param in piece.built.code.params().iter().filter(|param| param.kind.is_scalar()) {
+            let argument = known.entry(param.name).or_insert_with(|| {
+                let first = parameters.next;
+                let numbers: Vec<String> = (0..param.shape.len()).map(|_| parameters.number()).collect();
+                match dialect.is_place(param.shape) {
+                    true => first.to_string(),
+                    false => dialect.argument(param.shape, param.kind, &numbers),
+                }
+            });
+            arguments.push(argument.clone());
+        }
+        match piece.spec.form {
+            Form::Band(l) => arguments.extend([SIGNAL + l * l; 2].map(|place| place.to_string())),
+            _ => arguments.push(MADE.to_string()),
+        }
+        over_memory(piece, &format!("    {}({});\n", piece.shader_name(), arguments.join(", ")))
+    };
+    pieces.iter().map(&mut shader).collect()
+}
+
+/// A shader of a function that reads and writes a memory.
+fn over_memory(function: &Function, body: &str) -> String {
+    let module = Module { arrays: Some(Arrays::Memory), ..Module::of(function.clone()) };
+    let text = module.text(&WGSL).unwrap_or_else(|limit| panic!("{limit}"));
+    format!(
+        "{text}\n\
+         @group(0) @binding(0) var<storage, read> parameters: array<f32>;\n\
+         @group(0) @binding(1) var<storage, read> coefficients: array<f32>;\n\
+         @group(0) @binding(2) var<storage, read_write> results: array<f32>;\n\
+         @group(0) @binding(3) var<storage, read_write> made: array<f32>;\n\
+         var<private> at: u32;\n\
+         fn zonal_read_f32(place: i32) -> f32 {{\n    \
+         if place >= {SIGNAL} {{ return coefficients[u32(place - {SIGNAL}) * {ROW}u + at]; }}\n    \
+         if place >= {MADE} {{ return made[u32(place - {MADE}) * {ROW}u + at]; }}\n    \
+         return parameters[u32(place) * {ROW}u + at];\n}}\n\
+         fn zonal_write_f32(place: i32, number: f32) {{\n    \
+         if place >= {SIGNAL} {{ results[u32(place - {SIGNAL}) * {ROW}u + at] = number; }} else {{ \
+         made[u32(place - {MADE}) * {ROW}u + at] = number; }}\n}}\n\
+         @compute @workgroup_size({GROUP})\n\
+         fn main(@builtin(global_invocation_id) thread: vec3<u32>) {{\n    at = thread.x;\n{body}}}\n"
+    )
 }
 
 /// Returns a shader as SPIR-V.

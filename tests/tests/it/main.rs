@@ -32,6 +32,7 @@ mod lights;
 mod loops;
 mod maps;
 mod measured;
+mod memory;
 mod methods;
 mod mothers;
 mod operations;

@@ -7,6 +7,7 @@ use zonal_codegen::ir::listing::Cost;
 use zonal_codegen::plan::contest::weigh;
 use zonal_codegen::plan::{SPECIAL_WEIGHT, price};
 use zonal_codegen::promise::accuracy::{band_errors, method_errors};
+use zonal_codegen::promise::registers::Registers;
 use zonal_codegen::promise::samples::{self, Random};
 use zonal_tests::{Runner, band_error, norm, quaternion_of_angles, spec};
 
@@ -393,7 +394,8 @@ fn lifting_costs_registers() {
     let all = |n: usize, calls: usize| -> [usize; 3] {
         let own = |text: &str| {
             let spec = spec(text);
-            price(&spec.code(), spec.channels())
+            let code = spec.code();
+            price(&code, spec.channels(), Registers::of(&spec, &code).registers)
         };
         let pair = |method: &str| own(&format!("{method}:{n}")) + calls * own(&format!("rotate:{n}:{method}:rgb"));
         [calls * own(&format!("rotate:{n}:rgb")), pair(SHARED[0]), pair(SHARED[1])]

@@ -54,10 +54,17 @@ fn pieces_together_are_the_whole() {
                         Form::SetUp => shared = program.run(given, contraction),
                         Form::Band(l) => {
                             let band = l * l..(l + 1) * (l + 1);
-                            let taken: Vec<&[f32]> = match shared.is_empty() {
-                                true => vec![&c[band.clone()]],
-                                false => vec![&shared, &c[band.clone()]],
+                            let mut taken: Vec<&[f32]> = match shared.is_empty() {
+                                // Without a set-up a band takes those of the parameters that it uses.
+                                true => rows[..given.len()]
+                                    .iter()
+                                    .zip(&whole.params)
+                                    .filter(|(_, param)| taking(&listings, l).contains(&param.name))
+                                    .map(|(row, _)| *row)
+                                    .collect(),
+                                false => vec![&shared],
                             };
+                            taken.push(&c[band.clone()]);
                             got[band].copy_from_slice(&program.run(&taken, contraction));
                         }
                         other => panic!("{other:?} is no piece"),
@@ -67,6 +74,26 @@ fn pieces_together_are_the_whole() {
                 assert!(same, "{spec} {contraction:?}: {got:?} is not {want:?}");
             }
         }
+    }
+}
+
+/// The parameters of a band.
+fn taking(listings: &[(Form, Listing)], l: usize) -> Vec<&'static str> {
+    let (_, listing) = listings.iter().find(|(form, _)| *form == Form::Band(l)).expect("it was built");
+    listing.params.iter().map(|param| param.name).collect()
+}
+
+/// What is given as numbers that several bands take is not copied by a set-up.
+#[test]
+fn where_nothing_is_made_for_several_bands_there_is_no_set_up() {
+    for text in ["rotate:5:lifted", "rotate:5:angles"] {
+        let pieces = spec(text).in_pieces();
+        assert!(pieces.iter().all(|piece| matches!(piece.form, Form::Band(_))), "{pieces:?}");
+        assert!(pieces.iter().all(|piece| piece.code().params()[0].name == "cs"), "{text} takes pairs");
+    }
+    // One band takes a quaternion as a set-up hands it on.
+    for text in ["rotate:5", "rotate:2"] {
+        assert_eq!(spec(text).in_pieces()[0].form, Form::SetUp);
     }
 }
 

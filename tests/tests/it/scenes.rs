@@ -4,6 +4,7 @@ use std::path::Path;
 use zonal_codegen::builder::Builder;
 use zonal_codegen::plan::{Plan, price};
 use zonal_codegen::promise::accuracy::method_error;
+use zonal_codegen::promise::registers::Registers;
 use zonal_codegen::scene::diagnostic::Diagnostic;
 use zonal_codegen::scene::{Maps, Scene};
 use zonal_tests::command::Folder;
@@ -175,7 +176,8 @@ fn the_cheapest_rotation_within_the_error_is_chosen() {
                     let plan = rotation(kind, order, max_angle, max_error).unwrap_or_else(|error| panic!("{error}"));
                     let best = &plan.kernels[0];
                     let function = &plan.module.functions[0];
-                    let cost = price(&function.built.code, 1);
+                    let code = &function.built.code;
+                    let cost = price(code, 1, Registers::of(&function.spec, code).registers);
                     let angle = f64::to_radians(max_angle);
                     assert!(method_error(&function.spec, angle) + best.row.accuracy.rounding_f32 <= max_error);
                     assert!(function.spec.max_angle().is_none_or(|limit| angle <= limit));

@@ -533,7 +533,7 @@ fn what_is_not_supported_is_an_error_of_its_call_alone() {
         override scale: f32 = 2.0;
         @group(0) @binding(0) var image: texture_2d<f32>;
         @group(0) @binding(1) var<storage, read_write> cell: atomic<u32>;
-        var<private> state: f32;
+        var<workgroup> state: f32;
         struct Pair { a: f32, b: f32 }
         fn overridden(x: f32) -> f32 { return x * scale; }
         fn textured(i: i32) -> f32 { return textureLoad(image, vec2<i32>(i, i), 0).x; }

@@ -89,6 +89,7 @@ const C: Language = Language {
     max_table: usize::MAX,
     chunk: None,
     generic: None,
+    memory: None,
     template: TEMPLATE,
     reserved: &[KEYWORDS, LIBRARY],
     renames_digits: false,

@@ -5,7 +5,9 @@ use crate::emit::language::expression::Text;
 use crate::emit::language::form::{self, Form};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
-use crate::emit::language::record::{Arrays, Float, ITEMS, Language, MultiplyAdd, Statements, Type, Types, Way, Words};
+use crate::emit::language::record::{
+    Arrays, Float, ITEMS, Language, Memory, MultiplyAdd, Statements, Type, Types, Way, Words,
+};
 use crate::emit::language::shader;
 
 /// GLSL that is the same text in 4.50, 3.30 and ES 3.00.
@@ -29,7 +31,7 @@ pub static GLSL: Language = Language {
         matrix: |_| "mat3".to_owned(),
         array: |of, n| format!("{of}[{n}]"),
     },
-    arrays: &[Arrays::Value, Arrays::Struct, Arrays::Reference, Arrays::Vec4],
+    arrays: &[Arrays::Value, Arrays::Struct, Arrays::Reference, Arrays::Vec4, Arrays::Memory],
     structure,
     parameter: |name, of, way| match way {
         Way::In => format!("{} {name}", precise(of)),
@@ -62,6 +64,11 @@ pub static GLSL: Language = Language {
     max_table: shader::MAX_TABLE,
     chunk: None,
     generic: None,
+    memory: Some(Memory {
+        first: true,
+        read: |name, of| format!("{of} {name}(int place) {{ return {of}(0.0); }}"),
+        write: |name, of| format!("void {name}(int place, {of} number) {{}}"),
+    }),
     template: zonal_templates::GLSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses,

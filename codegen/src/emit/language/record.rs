@@ -66,6 +66,8 @@ pub struct Language {
     pub chunk: Option<usize>,
     /// What a language needs whose functions are generic over their numbers.
     pub generic: Option<Generic>,
+    /// The functions that read and write a memory of the user's, in a language that passes arrays as places there.
+    pub memory: Option<Memory>,
     /// The template of a file, or of a module's items in a language with [`Generic`].
     pub template: &'static str,
     /// The words that no name may be.
@@ -189,16 +191,21 @@ pub enum Arrays {
     /// it is known, so that fewer live at once and nothing says where numbers lie. What the signal's function gave for an
     /// index is not asked for again after the result of that index, so that both may be one place.
     Sink,
+    /// As places in a memory of the user's, where [`Memory`] reads and writes numbers: what a function takes is read where it
+    /// is used, and a number of the result is written as soon as it is known, so that an array takes no registers. A signal and
+    /// the result may be one place; other arrays, which may be read several times, lie elsewhere.
+    Memory,
 }
 
 impl Arrays {
     /// All of them, each with its name.
-    pub const ALL: [(Self, &'static str); 5] = [
+    pub const ALL: [(Self, &'static str); 6] = [
         (Self::Value, "value"),
         (Self::Struct, "struct"),
         (Self::Reference, "reference"),
         (Self::Vec4, "vec4"),
         (Self::Sink, "sink"),
+        (Self::Memory, "memory"),
     ];
 
     /// Returns its name.
@@ -291,6 +298,18 @@ pub struct Generic {
     pub source: fn(name: &str, of: &str) -> String,
     /// A parameter that is a function which takes an index and a number of this type.
     pub sink: fn(name: &str, of: &str) -> String,
+}
+
+/// The functions by which a kernel reads and writes a memory of the user's, where arrays are places there: the user writes
+/// them. A place is a whole number and counts numbers, or numbers of a signal.
+#[derive(Clone, Copy, Debug)]
+pub struct Memory {
+    /// Whether they have to stand before what calls them.
+    pub first: bool,
+    /// One that reads a number of this type, so that a text can be checked without the user's.
+    pub read: fn(name: &str, of: &str) -> String,
+    /// One that writes a number of this type.
+    pub write: fn(name: &str, of: &str) -> String,
 }
 
 /// Words that no name may be.

@@ -67,6 +67,7 @@ pub static RUST: Language = Language {
         source: |name, of| format!("{name}: &impl Fn(usize) -> {of}"),
         sink: |name, of| format!("{name}: &mut impl FnMut(usize, {of})"),
     }),
+    memory: None,
     template: zonal_templates::RUST,
     reserved: &[RESERVED],
     refuses: |_| None,

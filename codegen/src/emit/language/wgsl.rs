@@ -4,7 +4,7 @@ use crate::emit::language::expression::Text;
 use crate::emit::language::form::{self, Form};
 #[cfg(not(feature = "check"))]
 use crate::emit::language::record::unchecked as check;
-use crate::emit::language::record::{Arrays, Float, Language, MultiplyAdd, Statements, Type, Types, Words};
+use crate::emit::language::record::{Arrays, Float, Language, Memory, MultiplyAdd, Statements, Type, Types, Words};
 use crate::emit::language::shader;
 
 /// WebGPU's shading language.
@@ -39,7 +39,7 @@ pub static WGSL: Language = Language {
         matrix: |of| format!("mat3x3<{of}>"),
         array: |of, n| format!("array<{of}, {n}>"),
     },
-    arrays: &[Arrays::Value, Arrays::Vec4],
+    arrays: &[Arrays::Value, Arrays::Vec4, Arrays::Memory],
     structure: |name, of| format!("struct {name} {{ at: {} }}", of.text),
     parameter: |name, of, _| format!("{name}: {}", of.text),
     result: |of| of.text.clone(),
@@ -66,6 +66,11 @@ pub static WGSL: Language = Language {
     max_table: shader::MAX_TABLE,
     chunk: None,
     generic: None,
+    memory: Some(Memory {
+        first: false,
+        read: |name, of| format!("fn {name}(place: i32) -> {of} {{ return {of}(); }}"),
+        write: |name, of| format!("fn {name}(place: i32, number: {of}) {{}}"),
+    }),
     template: zonal_templates::WGSL,
     reserved: &[RESERVED, shader::FUNCTIONS],
     refuses: |_| None,

@@ -2,17 +2,21 @@
 //! same operations, and loops over local arrays do not pay. The driver's version may be another than the page's, so that
 //! no figure of it is compared.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::OnceLock;
 use zonal_codegen::families::Spec;
+use zonal_codegen::promise::registers::waves;
 use zonal_measure_gpu::compile::{GPUS, Report, Row, compile};
-use zonal_measure_gpu::kernels::{Called, Kernel, shaders};
+use zonal_measure_gpu::kernels::{Called, Kernel, Pass, shaders};
 use zonal_measure_gpu::price::{COMPARED, agreement};
 use zonal_measure_gpu::shader::spirv;
 use zonal_measure_gpu::{loops, page, registers};
 
 /// What is compiled here.
-const SPECS: [&str; 12] = [
+const SPECS: [&str; 14] = [
+    IN_MEMORY[0],
+    IN_MEMORY[1],
     "rotate:5",
     "rotate:5:rgb",
     "rotate:8",
@@ -26,6 +30,9 @@ const SPECS: [&str; 12] = [
     "rotate:5:loop",
     "eval:5",
 ];
+
+/// What spills unless its arrays lie in memory.
+const IN_MEMORY: [&str; 2] = ["rotate:9:lifted", "zhf:6:rgb"];
 
 fn report() -> &'static Report {
     static REPORT: OnceLock<Report> = OnceLock::new();
@@ -46,11 +53,22 @@ fn pieces_spill_nothing_where_the_whole_does() {
     for row in report().rows.iter().filter(|row| row.called != Called::Whole) {
         for (gpu, counted) in GPUS.iter().zip(row.gpus) {
             println!("{} {:?} on {}: {counted:?}", row.spec, row.called, gpu.family);
-            // Three channels at once are too many from order 7 on, channel after channel is not.
-            if !(row.called == Called::Pieces && row.spec.ends_with(":rgb")) {
+            // Three channels at once are too many from order 7 on, channel after channel is not; hundreds of numbers that bands
+            // take are too many as values, in memory they are not.
+            let is_small = match row.called {
+                Called::Memory => true,
+                Called::Pieces => !row.spec.ends_with(":rgb") && !IN_MEMORY.contains(&&*row.spec),
+                _ => !IN_MEMORY.contains(&&*row.spec),
+            };
+            if is_small {
                 assert_eq!(counted.spilled, 0, "{} {:?} on {}", row.spec, row.called, gpu.family);
             }
         }
+    }
+    for spec in IN_MEMORY {
+        let other = if spec.ends_with(":rgb") { Called::Channels } else { Called::Pieces };
+        assert!(row(spec, other).gpus[2].spilled > 0, "{spec} needs no memory");
+        assert_eq!(row(spec, Called::Memory).gpus[2].spilled, 0, "{spec}");
     }
     for gpu in [1, 2] {
         let [whole, by_channels] =
@@ -93,9 +111,9 @@ fn the_driver_takes_a_loop_to_run_eight_times() {
             called: Called::Whole,
             operations: 0,
             special: 0,
-            reads: 0,
+            weight: 0,
             held: 0,
-            spirv: spirv(&text),
+            passes: vec![Pass { spirv: spirv(&text), times: 1 }],
         }
     };
     let program = Path::new(env!("CARGO_BIN_EXE_zonal-measure-gpu"));
@@ -136,10 +154,6 @@ fn checked_in() -> Report {
     serde_json::from_str(&text).expect("they are as this program writes them")
 }
 
-/// Where the planner's order agrees with fewer pairs than 95 in 100: whole kernels of order 8 on RDNA 2, of which some
-/// have room for four waves and some for six, whatever their operations. All pairs that disagree there are of such.
-const STEPS: (usize, usize) = (1, 8);
-
 #[test]
 fn the_planner_orders_kernels_as_their_cycles_do() {
     let report = checked_in();
@@ -151,15 +165,38 @@ fn the_planner_orders_kernels_as_their_cycles_do() {
                 let words = format!("{}, {}, order {}", compared.words, GPUS[gpu].family, agreed.order);
                 println!("{words}: {:.1} %, ranks {:.3}", 100.0 * agreed.share, agreed.correlation);
                 assert!(agreed.kernels >= 19 && agreed.correlation > 0.95, "{words}");
-                if compared.called == Called::Whole && (gpu, agreed.order) == STEPS {
-                    assert!(agreed.share > 0.92, "{words}: {}", agreed.share);
-                    assert!(agreed.wrong.iter().all(|wrong| wrong.waves[0] <= 4), "{words}: {:?}", agreed.wrong);
-                } else {
-                    assert!(agreed.share >= 0.95, "{words}: {} {:?}", agreed.share, agreed.wrong);
-                }
+                assert!(agreed.share >= 0.95, "{words}: {} {:?}", agreed.share, agreed.wrong);
             }
         }
     }
+}
+
+/// The driver counts waves of 32 threads, two for each of 64.
+#[test]
+fn registers_leave_room_for_as_many_waves_as_the_planner_counts() {
+    let report = checked_in();
+    let mut found = BTreeSet::new();
+    for row in &report.rows {
+        let counted = row.gpus[registers::GPU];
+        assert_eq!(2 * waves(counted.registers as usize) as u64, counted.waves, "{} {:?}", row.spec, row.called);
+        found.insert(counted.waves);
+    }
+    assert!(found.len() >= 8, "{found:?}");
+}
+
+/// On RDNA 2 and RDNA 3, whatever has pieces: as they are, a channel after the other, or with its arrays in memory.
+#[test]
+fn in_some_form_nothing_spills() {
+    let report = checked_in();
+    let mut least: BTreeMap<(&str, usize), u64> = BTreeMap::new();
+    for row in report.rows.iter().filter(|row| row.called != Called::Whole) {
+        for gpu in [1, 2] {
+            let spilled = least.entry((&row.spec, gpu)).or_insert(u64::MAX);
+            *spilled = row.gpus[gpu].spilled.min(*spilled);
+        }
+    }
+    let spilled: Vec<_> = least.iter().filter(|(_, spilled)| **spilled > 0).collect();
+    assert!(least.len() > 900 && spilled.is_empty(), "of {}: {spilled:?}", least.len());
 }
 
 #[test]
@@ -185,8 +222,7 @@ fn the_page_is_made_of_its_figures() {
     let page = std::fs::read_to_string(folder.join(page::PAGE)).expect("docs hold the page");
     assert!(page == page::markdown(&report), "docs/GPU.md is not of docs/gpu.json: `cargo measure-gpu --page`");
     // Every kernel of the catalogue is in it, with the operations that it has now.
-    let known: std::collections::BTreeMap<&str, usize> =
-        report.rows.iter().map(|row| (row.spec.as_str(), row.operations)).collect();
+    let known: BTreeMap<&str, usize> = report.rows.iter().map(|row| (row.spec.as_str(), row.operations)).collect();
     for spec in zonal_codegen::catalog::standard() {
         let operations = spec.code().cost(spec.channels()).total;
         assert_eq!(known.get(spec.to_string().as_str()), Some(&operations), "{spec}: `cargo measure-gpu`");
