@@ -3,8 +3,8 @@
 //! seven multiply-adds turn a channel of one row without a transposition. A block is a cycle of permutations: diagonal d takes
 //! number i + d of the band, counted around.
 
-use super::kernels::{Aside, MOST_CHANNELS};
 use super::numbers::Number;
+use super::pass::{Aside, MOST_CHANNELS};
 use super::registers::{BLOCK, source};
 use super::rows::Row;
 use super::signals::{Places, View};

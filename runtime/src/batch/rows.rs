@@ -3,7 +3,7 @@
 
 use core::mem::MaybeUninit;
 
-use super::kernels::MOST_CHANNELS;
+use super::pass::MOST_CHANNELS;
 use super::registers::{BLOCK, Quads, sink, source};
 
 /// The most coefficients of a channel: order 10.

@@ -3,8 +3,8 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::kernels::MOST_CHANNELS;
 use super::numbers::Storage;
+use super::pass::MOST_CHANNELS;
 use super::registers::BLOCK;
 use super::rows::{MOST_COUNT, Row};
 use crate::error::Error;

@@ -4,10 +4,11 @@
 use core::ops::Range;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
-use super::kernels::{Aside, GROUPS, Lines, MOST_CHANNELS, Pass};
 use super::moving::{Moving, Room, narrow, read};
 use super::numbers::Storage;
+use super::pass::{Aside, GROUPS, Lines, MOST_CHANNELS, Pass};
 use super::registers::BLOCK;
+use super::room::{FEW_LINES, MOST_GROUP, Needs, ROOM_LINES, aside};
 use super::rows::MOST_LINES;
 use super::signals::{Places, View};
 use super::units::{Run, Unit, fence};
@@ -145,62 +146,12 @@ fn direct<S: Storage>(view: &View<S>, blocks: &Range<usize>) -> Option<Lines<*mu
     })
 }
 
-/// The lines of blocks on the stack, in the places of some groups.
-fn aside<T>(first: *mut T, count: usize, step: usize, group: usize) -> Lines<*mut T> {
-    let at = [0, 1, 2, 3].map(|channel| first.wrapping_add(channel * count * BLOCK));
-    Lines { at, step, mask: GROUPS * group - 1 }
-}
-
 /// Where everything that a task works on lies, if it is lines.
 struct Spots<T> {
     params: Option<Lines<*mut T>>,
     from: Option<Lines<*mut T>>,
     other: Option<Lines<*mut T>>,
     to: Option<Lines<*mut T>>,
-}
-
-/// The most blocks of a group.
-const MOST_GROUP: usize = 8;
-
-/// The most lines of blocks in all their channels that are on the stack at once: signals of [`GROUPS`] blocks and what is written past
-/// the caches.
-const ROOM_LINES: usize = (GROUPS + 1) * MOST_LINES;
-
-/// Lines that suffice but for many channels of high orders; they stay in the nearest cache, and a call goes through fewer pages.
-const FEW_LINES: usize = 512;
-
-/// The lines that a block needs on the stack.
-#[derive(Clone, Copy)]
-struct Needs {
-    from: usize,
-    other: usize,
-    to: usize,
-    /// Whether results are put where the signals were.
-    is_in_place: bool,
-}
-
-impl Needs {
-    /// How many lines groups of so many blocks need.
-    fn lines(&self, group: usize) -> usize {
-        let Self { from, other, to, is_in_place } = *self;
-        GROUPS * group * (from + other + if is_in_place { 0 } else { to }) + to
-    }
-
-    /// How many blocks a group has, so that all have room.
-    fn group(&self, lines: usize) -> usize {
-        let mut group = MOST_GROUP;
-        while group > 1 && self.lines(group) > lines {
-            group /= 2;
-        }
-        group
-    }
-
-    /// The first lines of signals, of other factors, of results and of what is streamed.
-    fn places(&self, group: usize) -> [usize; 4] {
-        let blocks = GROUPS * group;
-        let (other, end) = (blocks * self.from, blocks * (self.from + self.other));
-        if self.is_in_place { [0, other, 0, end] } else { [0, other, end, end + blocks * self.to] }
-    }
 }
 
 /// Numbers that all blocks share.

@@ -4,7 +4,8 @@
 use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use super::kernels::{self, Kernel, Pass};
+use super::kernels::{self, Kernel};
+use super::pass::{Pass, align_stack};
 use super::registers::pair::Pair;
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
@@ -113,7 +114,7 @@ macro_rules! unit {
             /// As [`Kernel::run`]; the processor has the unit.
             $(#[$features])?
             unsafe fn run<K: Kernel, R: Register>(pass: &Pass<'_, R::Number>) {
-                kernels::align_stack();
+                align_stack();
                 // Its own copy, which nothing that a kernel writes can change.
                 let pass = *pass;
                 // SAFETY: the caller's, and this function is compiled for the unit.
