@@ -7,19 +7,7 @@ use zonal_kernels::real::{Real, Signal};
 /// How many signals a block has.
 pub const BLOCK: usize = 16;
 
-/// A function of an index, always inlined: only so is it compiled for the unit of the function around it.
-#[inline(always)]
-pub fn source<V, F: Fn(usize) -> V>(of: F) -> F {
-    of
-}
-
-/// A function that takes an index and a number, always inlined as [`source`] is.
-#[inline(always)]
-pub fn sink<V, F: FnMut(usize, V)>(of: F) -> F {
-    of
-}
-
-/// A function of two registers, always inlined as [`source`] is.
+/// A function of two registers, always inlined as [`source`](crate::pieces::source) is.
 #[inline(always)]
 #[allow(dead_code)]
 fn of_two<V, F: Fn(V, V) -> (V, V)>(of: F) -> F {
