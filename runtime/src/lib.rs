@@ -221,7 +221,7 @@ pub fn evaluate_basis<C: Coefficients<Basis = C>>(dir: impl Into<[C::Scalar; 3]>
 /// ```
 /// let mut y = [0.0_f32; 9];
 /// zonal::evaluate_basis_into([0.0, 0.6, 0.8], &mut y);
-/// assert_eq!(y, zonal::evaluate_basis([0.0, 0.6, 0.8]));
+/// assert_eq!(y, zonal::evaluate_basis::<[f32; 9]>([0.0, 0.6, 0.8]));
 /// ```
 #[inline]
 pub fn evaluate_basis_into<C: Coefficients<Basis = C>>(dir: impl Into<[C::Scalar; 3]>, to: &mut C) {

@@ -238,6 +238,18 @@ macro_rules! register {
                 self * other
             }
             #[inline(always)]
+            fn times_fma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fma(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fms(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fms(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fnma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fnma(self, other, c)
+            }
+            #[inline(always)]
             fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
                 let ($a, $b, $c, $d) = (a.0, b.0, c.0, d.0);
                 Self(unsafe { $chosen })
@@ -263,6 +275,18 @@ macro_rules! register {
             #[inline(always)]
             fn times(self, other: Self) -> Self {
                 self * other
+            }
+            #[inline(always)]
+            fn times_fma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fma(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fms(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fms(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fnma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fnma(self, other, c)
             }
             #[inline(always)]
             fn choose(a: $number, b: $number, c: Self, d: Self) -> Self {

@@ -291,7 +291,7 @@ fn what_is_written_in_place_has_the_bits_of_what_is_returned() {
             assert_eq!(to, zonal::tilt(n_narrow, &c));
             to = [f32::NAN; N];
             zonal::evaluate_basis_into(n_narrow, &mut to);
-            assert_eq!(to, zonal::evaluate_basis(n_narrow));
+            assert_eq!(to, zonal::evaluate_basis::<[f32; N]>(n_narrow));
             let mut three = [Vec3::NAN; N];
             zonal::rotate_into(q_narrow, &rgb, &mut three);
             assert_eq!(three, zonal::rotate(q_narrow, &rgb));
