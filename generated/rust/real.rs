@@ -36,6 +36,21 @@ pub trait Signal<
     fn fnma(self, t: T, c: Self) -> Self;
     /// `self · other`, channel by channel: linear in each of two signals.
     fn times(self, other: Self) -> Self;
+    /// `self · other + c`; so rounded too, where a type does not leave it at two roundings.
+    #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        self.times(other) + c
+    }
+    /// `self · other − c`; so rounded too.
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        self.times(other) - c
+    }
+    /// `c − self · other`; so rounded too.
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        c - self.times(other)
+    }
     /// `c` where `a < b`, else `d`, also where `a` or `b` is not a number.
     fn choose(a: T, b: T, c: Self, d: Self) -> Self;
 }
@@ -95,6 +110,18 @@ impl Signal<f32> for f32 {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         self * other
+    }
+    #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        self.fma(other, c)
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        self.fms(other, c)
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        self.fnma(other, c)
     }
     #[inline(always)]
     fn choose(a: f32, b: f32, c: Self, d: Self) -> Self {
@@ -168,6 +195,18 @@ impl Signal<f64> for f64 {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         self * other
+    }
+    #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        self.fma(other, c)
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        self.fms(other, c)
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        self.fnma(other, c)
     }
     #[inline(always)]
     fn choose(a: f64, b: f64, c: Self, d: Self) -> Self {
@@ -278,6 +317,18 @@ impl<T: Real, const N: usize> Signal<T> for Channels<T, N> {
         Self(core::array::from_fn(#[inline(always)] |i| self.0[i].times(other.0[i])))
     }
     #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| self.0[i].times_fma(other.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| self.0[i].times_fms(other.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        Self(core::array::from_fn(#[inline(always)] |i| self.0[i].times_fnma(other.0[i], c.0[i])))
+    }
+    #[inline(always)]
     fn choose(a: T, b: T, c: Self, d: Self) -> Self {
         Self(core::array::from_fn(#[inline(always)] |i| T::choose(a, b, c.0[i], d.0[i])))
     }
@@ -309,6 +360,18 @@ impl<const N: usize> Signal<f64> for Channels<f32, N> {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         Signal::<f32>::times(self, other)
+    }
+    #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        Signal::<f32>::times_fma(self, other, c)
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        Signal::<f32>::times_fms(self, other, c)
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        Signal::<f32>::times_fnma(self, other, c)
     }
     #[inline(always)]
     fn choose(a: f64, b: f64, c: Self, d: Self) -> Self {
@@ -368,6 +431,18 @@ impl<T: Real, const N: usize> Signal<Lanes<T, N>> for Lanes<T, N> {
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         self * other
+    }
+    #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        self.fma(other, c)
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        self.fms(other, c)
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        self.fnma(other, c)
     }
     #[inline(always)]
     fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {

@@ -16988,27 +16988,31 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 100]) -> [[T; 3]; 100] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 100], b: &[V; 100]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
-    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
-    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
-    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
-    let t5 = t4 + a[25].times(b[25]) + a[26].times(b[26]) + a[27].times(b[27]) + a[28].times(b[28]) + a[29].times(b[29]);
-    let t6 = t5 + a[30].times(b[30]) + a[31].times(b[31]) + a[32].times(b[32]) + a[33].times(b[33]) + a[34].times(b[34]);
-    let t7 = t6 + a[35].times(b[35]) + a[36].times(b[36]) + a[37].times(b[37]) + a[38].times(b[38]) + a[39].times(b[39]);
-    let t8 = t7 + a[40].times(b[40]) + a[41].times(b[41]) + a[42].times(b[42]) + a[43].times(b[43]) + a[44].times(b[44]);
-    let t9 = t8 + a[45].times(b[45]) + a[46].times(b[46]) + a[47].times(b[47]) + a[48].times(b[48]) + a[49].times(b[49]);
-    let t10 = t9 + a[50].times(b[50]) + a[51].times(b[51]) + a[52].times(b[52]) + a[53].times(b[53]) + a[54].times(b[54]);
-    let t11 = t10 + a[55].times(b[55]) + a[56].times(b[56]) + a[57].times(b[57]) + a[58].times(b[58]) + a[59].times(b[59]);
-    let t12 = t11 + a[60].times(b[60]) + a[61].times(b[61]) + a[62].times(b[62]) + a[63].times(b[63]) + a[64].times(b[64]);
-    let t13 = t12 + a[65].times(b[65]) + a[66].times(b[66]) + a[67].times(b[67]) + a[68].times(b[68]) + a[69].times(b[69]);
-    let t14 = t13 + a[70].times(b[70]) + a[71].times(b[71]) + a[72].times(b[72]) + a[73].times(b[73]) + a[74].times(b[74]);
-    let t15 = t14 + a[75].times(b[75]) + a[76].times(b[76]) + a[77].times(b[77]) + a[78].times(b[78]) + a[79].times(b[79]);
-    let t16 = t15 + a[80].times(b[80]) + a[81].times(b[81]) + a[82].times(b[82]) + a[83].times(b[83]) + a[84].times(b[84]);
-    let t17 = t16 + a[85].times(b[85]) + a[86].times(b[86]) + a[87].times(b[87]) + a[88].times(b[88]) + a[89].times(b[89]);
-    let t18 = t17 + a[90].times(b[90]) + a[91].times(b[91]) + a[92].times(b[92]) + a[93].times(b[93]) + a[94].times(b[94]);
-    let t19 = t18 + a[95].times(b[95]) + a[96].times(b[96]) + a[97].times(b[97]) + a[98].times(b[98]) + a[99].times(b[99]);
-    t19
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    let t2 = a[12].times_fma(b[12], a[11].times_fma(b[11], a[10].times_fma(b[10], a[9].times_fma(b[9], t1))));
+    let t3 = a[16].times_fma(b[16], a[15].times_fma(b[15], a[14].times_fma(b[14], a[13].times_fma(b[13], t2))));
+    let t4 = a[20].times_fma(b[20], a[19].times_fma(b[19], a[18].times_fma(b[18], a[17].times_fma(b[17], t3))));
+    let t5 = a[24].times_fma(b[24], a[23].times_fma(b[23], a[22].times_fma(b[22], a[21].times_fma(b[21], t4))));
+    let t6 = a[28].times_fma(b[28], a[27].times_fma(b[27], a[26].times_fma(b[26], a[25].times_fma(b[25], t5))));
+    let t7 = a[32].times_fma(b[32], a[31].times_fma(b[31], a[30].times_fma(b[30], a[29].times_fma(b[29], t6))));
+    let t8 = a[36].times_fma(b[36], a[35].times_fma(b[35], a[34].times_fma(b[34], a[33].times_fma(b[33], t7))));
+    let t9 = a[40].times_fma(b[40], a[39].times_fma(b[39], a[38].times_fma(b[38], a[37].times_fma(b[37], t8))));
+    let t10 = a[44].times_fma(b[44], a[43].times_fma(b[43], a[42].times_fma(b[42], a[41].times_fma(b[41], t9))));
+    let t11 = a[48].times_fma(b[48], a[47].times_fma(b[47], a[46].times_fma(b[46], a[45].times_fma(b[45], t10))));
+    let t12 = a[52].times_fma(b[52], a[51].times_fma(b[51], a[50].times_fma(b[50], a[49].times_fma(b[49], t11))));
+    let t13 = a[56].times_fma(b[56], a[55].times_fma(b[55], a[54].times_fma(b[54], a[53].times_fma(b[53], t12))));
+    let t14 = a[60].times_fma(b[60], a[59].times_fma(b[59], a[58].times_fma(b[58], a[57].times_fma(b[57], t13))));
+    let t15 = a[64].times_fma(b[64], a[63].times_fma(b[63], a[62].times_fma(b[62], a[61].times_fma(b[61], t14))));
+    let t16 = a[68].times_fma(b[68], a[67].times_fma(b[67], a[66].times_fma(b[66], a[65].times_fma(b[65], t15))));
+    let t17 = a[72].times_fma(b[72], a[71].times_fma(b[71], a[70].times_fma(b[70], a[69].times_fma(b[69], t16))));
+    let t18 = a[76].times_fma(b[76], a[75].times_fma(b[75], a[74].times_fma(b[74], a[73].times_fma(b[73], t17))));
+    let t19 = a[80].times_fma(b[80], a[79].times_fma(b[79], a[78].times_fma(b[78], a[77].times_fma(b[77], t18))));
+    let t20 = a[84].times_fma(b[84], a[83].times_fma(b[83], a[82].times_fma(b[82], a[81].times_fma(b[81], t19))));
+    let t21 = a[88].times_fma(b[88], a[87].times_fma(b[87], a[86].times_fma(b[86], a[85].times_fma(b[85], t20))));
+    let t22 = a[92].times_fma(b[92], a[91].times_fma(b[91], a[90].times_fma(b[90], a[89].times_fma(b[89], t21))));
+    let t23 = a[96].times_fma(b[96], a[95].times_fma(b[95], a[94].times_fma(b[94], a[93].times_fma(b[93], t22))));
+    a[99].times_fma(b[99], a[98].times_fma(b[98], a[97].times_fma(b[97], t23)))
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.

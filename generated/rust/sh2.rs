@@ -1737,12 +1737,12 @@ pub fn light_fit_along_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 4]) -> [[T; 3]; 2]
 pub fn product<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 4]) -> [V; 4] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = b[0] * T::lit(0.28209479177387814);
-    let t2 = (a[2].times(b[2]) + a[0].times(b[0]) + a[3].times(b[3]) + a[1].times(b[1])) * T::lit(0.28209479177387814);
+    let t2 = a[1].times_fma(b[1], a[3].times_fma(b[3], a[0].times_fma(b[0], a[2].times(b[2])))) * T::lit(0.28209479177387814);
     [
         t2,
-        a[1].times(t1) + b[1].times(t0),
-        a[2].times(t1) + b[2].times(t0),
-        a[3].times(t1) + b[3].times(t0),
+        b[1].times_fma(t0, a[1].times(t1)),
+        b[2].times_fma(t0, a[2].times(t1)),
+        b[3].times_fma(t0, a[3].times(t1)),
     ]
 }
 
@@ -1764,7 +1764,7 @@ pub fn product_rgb<T: Real>(a: &[[T; 3]; 4], b: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 #[inline(always)]
 pub fn square<T: Real, V: Signal<T>>(a: &[V; 4]) -> [V; 4] {
     let t0 = a[0] * T::lit(0.5641895835477563);
-    let t1 = (a[2].times(a[2]) + a[0].times(a[0]) + a[3].times(a[3]) + a[1].times(a[1])) * T::lit(0.28209479177387814);
+    let t1 = a[1].times_fma(a[1], a[3].times_fma(a[3], a[0].times_fma(a[0], a[2].times(a[2])))) * T::lit(0.28209479177387814);
     [
         t1,
         a[1].times(t0),
@@ -1791,7 +1791,7 @@ pub fn square_rgb<T: Real>(a: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 4]) -> V {
-    a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3])
+    a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1]))))
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.
@@ -1900,9 +1900,9 @@ pub fn product_grey_rgb<T: Real>(a: &[T; 4], b: &[[T; 3]; 4]) -> [[T; 3]; 4] {
 pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 2], b: &[V; 4]) -> [V; 4] {
     let t0 = g[0] * T::lit(0.28209479177387814);
     [
-        (g[1].times(b[2]) + g[0].times(b[0])) * T::lit(0.28209479177387814),
+        g[0].times_fma(b[0], g[1].times(b[2])) * T::lit(0.28209479177387814),
         b[1].times(t0),
-        g[1].times(b[0] * T::lit(0.28209479177387814)) + b[2].times(t0),
+        b[2].times_fma(t0, g[1].times(b[0] * T::lit(0.28209479177387814))),
         b[3].times(t0),
     ]
 }
@@ -1938,10 +1938,10 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 2], b: &[
     let t8 = g[0] * T::lit(0.28209479177387814);
     let t9 = t6.fma(dir[2], b[2] * t5).times(t8);
     let t10 = b[1].fms(t3, b[3] * t4).times(t8);
-    let t11 = g[1].times(b[0] * T::lit(0.28209479177387814)) - t7.times(t8);
+    let t11 = t7.times_fnma(t8, g[1].times(b[0] * T::lit(0.28209479177387814)));
     let t12 = t9.fms(dir[2], t11 * t5);
     [
-        (g[0].times(b[0]) - g[1].times(t7)) * T::lit(0.28209479177387814),
+        g[0].times_fms(b[0], g[1].times(t7)) * T::lit(0.28209479177387814),
         t10.fma(t3, t12 * t4),
         t11.fma(dir[2], t9 * t5),
         t12.fms(t3, t10 * t4),
@@ -1973,10 +1973,10 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 3], g: &[
     let t2 = g[0] * T::lit(0.28209479177387814);
     let t3 = t0.fma(cs[1][0], b[2] * cs[1][1]).times(t2);
     let t4 = b[1].fms(cs[0][0], b[3] * cs[0][1]).times(t2);
-    let t5 = g[1].times(b[0] * T::lit(0.28209479177387814)) - t1.times(t2);
+    let t5 = t1.times_fnma(t2, g[1].times(b[0] * T::lit(0.28209479177387814)));
     let t6 = t3.fms(cs[1][0], t5 * cs[1][1]);
     [
-        (g[0].times(b[0]) - g[1].times(t1)) * T::lit(0.28209479177387814),
+        g[0].times_fms(b[0], g[1].times(t1)) * T::lit(0.28209479177387814),
         t4.fma(cs[0][0], t6 * cs[0][1]),
         t5.fma(cs[1][0], t3 * cs[1][1]),
         t6.fms(cs[0][0], t4 * cs[0][1]),

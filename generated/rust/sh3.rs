@@ -1684,7 +1684,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], g: &[V; 9]) -> V {
     let t19 = q[1].fnma(t1, t11);
     let t20 = T::lit(0.5773502691896257) * t19;
     let t21 = T::lit(0.5773502691896257).fma(t17, T::lit(0.5773502691896257).fms(t18, t20));
-    let t22 = w[1].times(g[3].fnma(t21, g[2].fms(t9, g[1] * t16))) + w[0].times(g[0]) + w[2].times(g[3].fnma(t19, g[2].fms(t7, g[1] * t14)));
+    let t22 = w[2].times_fma(g[3].fnma(t19, g[2].fms(t7, g[1] * t14)), w[0].times_fma(g[0], w[1].times(g[3].fnma(t21, g[2].fms(t9, g[1] * t16)))));
     let t23 = T::lit(0.5773502691896257).fma(t12, t15);
     let t24 = T::lit(0.5773502691896257).fms(t10, t23);
     let t25 = T::lit(0.5773502691896257).fma(t18, t20);
@@ -1697,7 +1697,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], g: &[V; 9]) -> V {
     let t32 = T::lit(1.7320508075688772) * t7;
     let t33 = g[6].fma(T::lit(1.5).fms(t7 * t7, T::lit(0.5)), g[4].fms(t14 * (T::lit(1.7320508075688772) * t19), g[5] * (t14 * t32)));
     let t34 = g[8].fma(T::lit(0.8660254037844386) * t19.fms(t19, t14 * t14), g[7].fnma(t19 * t32, t33));
-    let t35 = t22 + w[3].times(g[3].fnma(t17, g[2].fms(t2, g[1] * t10))) + w[4].times(t31) + w[5].times(t34);
+    let t35 = w[5].times_fma(t34, w[4].times_fma(t31, w[3].times_fma(g[3].fnma(t17, g[2].fms(t2, g[1] * t10)), t22)));
     let t36 = T::lit(1.7320508075688772) * t9;
     let t37 = g[6].fma(T::lit(1.5).fms(t9 * t9, T::lit(0.5)), g[4].fms(t16 * (T::lit(1.7320508075688772) * t21), g[5] * (t16 * t36)));
     let t38 = g[8].fma(T::lit(0.8660254037844386) * t21.fms(t21, t16 * t16), g[7].fnma(t21 * t36, t37));
@@ -1710,7 +1710,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], g: &[V; 9]) -> V {
     let t45 = T::lit(1.7320508075688772) * t44;
     let t46 = g[6].fma(T::lit(1.5).fms(t44 * t44, T::lit(0.5)), g[4].fms(t42 * (T::lit(1.7320508075688772) * t43), g[5] * (t42 * t45)));
     let t47 = g[8].fma(T::lit(0.8660254037844386) * t43.fms(t43, t42 * t42), g[7].fnma(t43 * t45, t46));
-    t35 + w[6].times(t38) + w[7].times(t41) + w[8].times(t47)
+    w[8].times_fma(t47, w[7].times_fma(t41, w[6].times_fma(t38, t35)))
 }
 
 /// [`zhf_dot`] of three channels that share the parameters, as plain arrays.
@@ -1759,7 +1759,7 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], v: &[V; 9]) -
     let t23 = T::lit(0.5773502691896257).fma(t9, T::lit(0.5773502691896257).fms(t15, t22));
     let t24 = t14 - t20 + t8;
     let t25 = T::lit(0.5773502691896257).fma(t2, T::lit(0.5773502691896257).fms(t10, t17));
-    let t26 = v[2].times(w[3].fma(t16, w[1].fma(t21, w[2] * t19))) + v[1].times(w[3].fma(t25, w[1].fma(t23, w[2] * t24)));
+    let t26 = v[1].times_fma(w[3].fma(t25, w[1].fma(t23, w[2] * t24)), v[2].times(w[3].fma(t16, w[1].fma(t21, w[2] * t19))));
     let t27 = T::lit(0.5773502691896257).fma(t5, t8);
     let t28 = T::lit(0.5773502691896257).fms(t2, t27);
     let t29 = T::lit(0.5773502691896257).fma(t18, t20);
@@ -1783,14 +1783,14 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], v: &[V; 9]) -
     let t47 = T::lit(0.5773502691896257).fms(t43, t46);
     let t48 = w[4].fma(t30.fms(t30, T::lit(0.3333333333333333)), w[5] * t19.fms(t19, T::lit(0.3333333333333333)));
     let t49 = w[7].fma(t16.fms(t16, T::lit(0.3333333333333333)), w[6].fma(t21.fms(t21, T::lit(0.3333333333333333)), t48));
-    let t50 = v[5].times(w[8].fma(t44.fms(t44, T::lit(0.3333333333333333)), t49)) + v[4].times(w[8].fma(t47.fms(t47, T::lit(0.3333333333333333)), t42));
+    let t50 = v[4].times_fma(w[8].fma(t47.fms(t47, T::lit(0.3333333333333333)), t42), v[5].times(w[8].fma(t44.fms(t44, T::lit(0.3333333333333333)), t49)));
     let t51 = T::lit(0.5773502691896257).fma(t28, T::lit(0.5773502691896257).fnma(t30, t32));
     let t52 = w[4].fma(t51.fms(t51, T::lit(0.3333333333333333)), w[5] * t24.fms(t24, T::lit(0.3333333333333333)));
     let t53 = w[7].fma(t25.fms(t25, T::lit(0.3333333333333333)), w[6].fma(t23.fms(t23, T::lit(0.3333333333333333)), t52));
     let t54 = T::lit(0.5773502691896257).fma(t43, T::lit(0.5773502691896257).fnma(t44, t45));
     let t55 = w[4].fma(t28.fms(t28, T::lit(0.3333333333333333)), w[5] * t7.fms(t7, T::lit(0.3333333333333333)));
     let t56 = w[7].fma(t2.fms(t2, T::lit(0.3333333333333333)), w[6].fma(t9.fms(t9, T::lit(0.3333333333333333)), t55));
-    let t57 = t50 + v[6].times(w[8].fma(t54.fms(t54, T::lit(0.3333333333333333)), t53)) + v[7].times(w[8].fma(t43.fms(t43, T::lit(0.3333333333333333)), t56));
+    let t57 = v[7].times_fma(w[8].fma(t43.fms(t43, T::lit(0.3333333333333333)), t56), v[6].times_fma(w[8].fma(t54.fms(t54, T::lit(0.3333333333333333)), t53), t50));
     let t58 = T::lit(0.5773502691896257).fma(t28, t33);
     let t59 = t8 + t35;
     let t60 = w[4].fma(t58.fms(t58, T::lit(0.3333333333333333)), w[5] * t59.fms(t59, T::lit(0.3333333333333333)));
@@ -1798,7 +1798,7 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 9], v: &[V; 9]) -
     let t62 = T::lit(0.5773502691896257).fma(t2, t40);
     let t63 = w[7].fma(t62.fms(t62, T::lit(0.3333333333333333)), w[6].fma(t61.fms(t61, T::lit(0.3333333333333333)), t60));
     let t64 = T::lit(0.5773502691896257).fma(t43, t46);
-    let t65 = (t57 + v[8].times(w[8].fma(t64.fms(t64, T::lit(0.3333333333333333)), t63))).fma(T::lit(1.5), t26 + v[3].times(w[3].fma(t2, w[1].fma(t9, w[2] * t7))) + w[0].times(v[0]));
+    let t65 = v[8].times_fma(w[8].fma(t64.fms(t64, T::lit(0.3333333333333333)), t63), t57).fma(T::lit(1.5), w[0].times_fma(v[0], v[3].times_fma(w[3].fma(t2, w[1].fma(t9, w[2] * t7)), t26)));
     t65
 }
 
@@ -2558,45 +2558,46 @@ pub fn product<T: Real, V: Signal<T>>(a: &[V; 9], b: &[V; 9]) -> [V; 9] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
-    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
+    let t3 = b[2].times_fma(a[6].fma(T::lit(0.252313252202016), t0), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)));
     let t4 = a[1].times(b[1]);
-    let t5 = t4 + a[3].times(b[3]);
+    let t5 = a[3].times_fma(b[3], t4);
     let t6 = a[4] * T::lit(0.2185096861184158);
     let t7 = a[6].fnma(T::lit(0.126156626101008), t0);
     let t8 = b[4] * T::lit(0.2185096861184158);
     let t9 = b[6].fnma(T::lit(0.126156626101008), t1);
-    let t10 = b[1].times(t6) + b[3].times(a[8].fma(T::lit(0.2185096861184158), t7)) + a[3].times(b[8].fma(T::lit(0.2185096861184158), t9));
-    let t11 = b[1].times(a[8].fnma(T::lit(0.2185096861184158), t7)) + b[3].times(t6) + a[3].times(t8) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t9));
-    let t12 = (a[5].times(b[1]) + a[7].times(b[3]) + a[3].times(b[7]) + a[1].times(b[5])).fma(T::lit(0.2185096861184158), t3);
+    let t10 = a[3].times_fma(b[8].fma(T::lit(0.2185096861184158), t9), b[3].times_fma(a[8].fma(T::lit(0.2185096861184158), t7), b[1].times(t6)));
+    let t11 = a[3].times_fma(t8, b[3].times_fma(t6, b[1].times(a[8].fnma(T::lit(0.2185096861184158), t7))));
+    let t12 = a[1].times_fma(b[5], a[3].times_fma(b[7], a[7].times_fma(b[3], a[5].times(b[1])))).fma(T::lit(0.2185096861184158), t3);
     let t13 = a[2] * T::lit(0.2185096861184158);
     let t14 = b[2] * T::lit(0.2185096861184158);
-    let t15 = a[6].times(b[6]);
-    let t16 = t15.fma(T::lit(0.18022375157286857), t2.fms(T::lit(0.252313252202016), t5 * T::lit(0.126156626101008)));
-    let t17 = a[5].times(b[5]);
-    let t18 = t17 + a[7].times(b[7]);
-    let t19 = (a[3].times(b[3]) - t4).fma(T::lit(0.2185096861184158), (a[7].times(b[7]) - t17) * T::lit(0.15607834722743988));
-    let t20 = (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), (a[5].times(b[7]) + a[7].times(b[5])) * T::lit(0.15607834722743988));
-    let t21 = a[4] * T::lit(0.15607834722743988);
-    let t22 = a[6].fma(T::lit(0.09011187578643429), t0);
-    let t23 = a[3].times(t14) + b[3].times(t13) + b[7].times(a[8].fma(T::lit(0.15607834722743988), t22));
-    let t24 = a[1].times(t14) + b[1].times(t13) + b[7].times(t21) + b[5].times(a[8].fnma(T::lit(0.15607834722743988), t22));
-    let t25 = b[4] * T::lit(0.15607834722743988);
-    let t26 = b[6].fma(T::lit(0.09011187578643429), t1);
-    let t27 = t23 + b[5].times(t21) + a[7].times(b[8].fma(T::lit(0.15607834722743988), t26)) + a[5].times(t25);
-    let t28 = a[4].times(b[4]) + a[8].times(b[8]);
-    let t29 = t28.fnma(T::lit(0.18022375157286857), t18.fma(T::lit(0.09011187578643429), t16 + b[6].times(t0) + a[6].times(t1)));
-    let t30 = a[6].fnma(T::lit(0.18022375157286857), t0);
-    let t31 = b[6].fnma(T::lit(0.18022375157286857), t1);
+    let t15 = a[5].times_fma(t14, b[5].times_fma(t13, a[1].times_fma(b[8].fnma(T::lit(0.2185096861184158), t9), t11)));
+    let t16 = a[6].times(b[6]);
+    let t17 = t16.fma(T::lit(0.18022375157286857), t2.fms(T::lit(0.252313252202016), t5 * T::lit(0.126156626101008)));
+    let t18 = a[5].times(b[5]);
+    let t19 = a[7].times_fma(b[7], t18);
+    let t20 = a[3].times_fms(b[3], t4).fma(T::lit(0.2185096861184158), a[7].times_fms(b[7], t18) * T::lit(0.15607834722743988));
+    let t21 = a[3].times_fma(b[1], a[1].times(b[3])).fma(T::lit(0.2185096861184158), a[7].times_fma(b[5], a[5].times(b[7])) * T::lit(0.15607834722743988));
+    let t22 = a[4] * T::lit(0.15607834722743988);
+    let t23 = a[6].fma(T::lit(0.09011187578643429), t0);
+    let t24 = b[7].times_fma(a[8].fma(T::lit(0.15607834722743988), t23), b[3].times_fma(t13, a[3].times(t14)));
+    let t25 = b[5].times_fma(a[8].fnma(T::lit(0.15607834722743988), t23), b[7].times_fma(t22, b[1].times_fma(t13, a[1].times(t14))));
+    let t26 = b[4] * T::lit(0.15607834722743988);
+    let t27 = b[6].fma(T::lit(0.09011187578643429), t1);
+    let t28 = a[5].times_fma(t26, a[7].times_fma(b[8].fma(T::lit(0.15607834722743988), t27), b[5].times_fma(t22, t24)));
+    let t29 = a[8].times_fma(b[8], a[4].times(b[4]));
+    let t30 = t29.fnma(T::lit(0.18022375157286857), t19.fma(T::lit(0.09011187578643429), a[6].times_fma(t1, b[6].times_fma(t0, t17))));
+    let t31 = a[6].fnma(T::lit(0.18022375157286857), t0);
+    let t32 = b[6].fnma(T::lit(0.18022375157286857), t1);
     [
-        (t2 + a[0].times(b[0]) + t5 + t15 + t18 + t28) * T::lit(0.28209479177387814),
-        t11 + b[5].times(t13) + a[5].times(t14),
+        (a[0].times_fma(b[0], t2) + t5 + t16 + t19 + t29) * T::lit(0.28209479177387814),
+        t15,
         t12,
-        t10 + a[1].times(t8) + b[7].times(t13) + a[7].times(t14),
-        t20 + b[4].times(t30) + a[4].times(t31),
-        t24 + a[7].times(t25) + a[5].times(b[8].fnma(T::lit(0.15607834722743988), t26)),
-        t29,
-        t27,
-        t19 + b[8].times(t30) + a[8].times(t31),
+        a[7].times_fma(t14, b[7].times_fma(t13, a[1].times_fma(t8, t10))),
+        a[4].times_fma(t32, b[4].times_fma(t31, t21)),
+        a[5].times_fma(b[8].fnma(T::lit(0.15607834722743988), t27), a[7].times_fma(t26, t25)),
+        t30,
+        t28,
+        a[8].times_fma(t32, b[8].times_fma(t31, t20)),
     ]
 }
 
@@ -2622,24 +2623,24 @@ pub fn of_sh2_and_sh3_product<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 9]) -> 
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
     let t3 = a[1].times(b[1]);
-    let t4 = t3 + a[3].times(b[3]);
+    let t4 = a[3].times_fma(b[3], t3);
     let t5 = b[4] * T::lit(0.2185096861184158);
     let t6 = b[6].fnma(T::lit(0.126156626101008), t1);
-    let t7 = (a[1].times(b[5]) + a[3].times(b[7])).fma(T::lit(0.2185096861184158), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(t0));
-    let t8 = a[2] * T::lit(0.2185096861184158);
-    let t9 = a[3].times(b[8].fma(T::lit(0.2185096861184158), t6)) + b[3].times(t0) + a[1].times(t5) + b[7].times(t8);
-    let t10 = a[3].times(t5) + b[1].times(t0) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t6)) + b[5].times(t8);
+    let t7 = a[1].times_fma(t5, b[3].times_fma(t0, a[3].times(b[8].fma(T::lit(0.2185096861184158), t6))));
+    let t8 = a[1].times_fma(b[8].fnma(T::lit(0.2185096861184158), t6), b[1].times_fma(t0, a[3].times(t5)));
+    let t9 = a[3].times_fma(b[7], a[1].times(b[5])).fma(T::lit(0.2185096861184158), b[2].times_fma(t0, a[2].times(b[6].fma(T::lit(0.252313252202016), t1))));
+    let t10 = a[2] * T::lit(0.2185096861184158);
     let t11 = b[2] * T::lit(0.2185096861184158);
     [
-        (t2 + a[0].times(b[0]) + t4) * T::lit(0.28209479177387814),
-        t10,
-        t7,
+        (a[0].times_fma(b[0], t2) + t4) * T::lit(0.28209479177387814),
+        b[5].times_fma(t10, t8),
         t9,
-        (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), b[4].times(t0)),
-        a[1].times(t11) + b[1].times(t8) + b[5].times(t0),
-        t2.fms(T::lit(0.252313252202016), t4 * T::lit(0.126156626101008)) + b[6].times(t0),
-        a[3].times(t11) + b[3].times(t8) + b[7].times(t0),
-        (a[3].times(b[3]) - t3).fma(T::lit(0.2185096861184158), b[8].times(t0)),
+        b[7].times_fma(t10, t7),
+        a[3].times_fma(b[1], a[1].times(b[3])).fma(T::lit(0.2185096861184158), b[4].times(t0)),
+        b[5].times_fma(t0, b[1].times_fma(t10, a[1].times(t11))),
+        b[6].times_fma(t0, t2.fms(T::lit(0.252313252202016), t4 * T::lit(0.126156626101008))),
+        b[7].times_fma(t0, b[3].times_fma(t10, a[3].times(t11))),
+        a[3].times_fms(b[3], t3).fma(T::lit(0.2185096861184158), b[8].times(t0)),
     ]
 }
 
@@ -2663,34 +2664,36 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 9]) -> [V; 9] {
     let t0 = a[0] * T::lit(0.5641895835477563);
     let t1 = a[2].times(a[2]);
     let t2 = a[1].times(a[1]);
-    let t3 = t2 + a[3].times(a[3]);
+    let t3 = a[3].times_fma(a[3], t2);
     let t4 = a[4] * T::lit(0.4370193722368316);
     let t5 = a[6].fnma(T::lit(0.252313252202016), t0);
-    let t6 = (a[1].times(a[5]) + a[3].times(a[7])) * T::lit(0.4370193722368316) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0));
+    let t6 = a[2].times_fma(a[6].fma(T::lit(0.504626504404032), t0), a[3].times_fma(a[7], a[1].times(a[5])) * T::lit(0.4370193722368316));
     let t7 = a[2] * T::lit(0.4370193722368316);
-    let t8 = a[6].times(a[6]);
-    let t9 = t8.fma(T::lit(0.18022375157286857), t1.fms(T::lit(0.252313252202016), t3 * T::lit(0.126156626101008)));
-    let t10 = a[5].times(a[5]);
-    let t11 = t10 + a[7].times(a[7]);
-    let t12 = (a[3].times(a[3]) - t2).fma(T::lit(0.2185096861184158), (a[7].times(a[7]) - t10) * T::lit(0.15607834722743988));
-    let t13 = a[1].times(a[3]).fma(T::lit(0.4370193722368316), a[5].times(a[7]) * T::lit(0.31215669445487976));
-    let t14 = a[4] * T::lit(0.31215669445487976);
-    let t15 = a[6].fma(T::lit(0.18022375157286857), t0);
-    let t16 = a[7].times(a[8].fma(T::lit(0.31215669445487976), t15)) + a[3].times(t7) + a[5].times(t14);
-    let t17 = a[7].times(t14) + a[1].times(t7) + a[5].times(a[8].fnma(T::lit(0.31215669445487976), t15));
-    let t18 = a[4].times(a[4]) + a[8].times(a[8]);
-    let t19 = t18.fnma(T::lit(0.18022375157286857), t11.fma(T::lit(0.09011187578643429), t9 + a[6].times(t0)));
-    let t20 = a[6].fnma(T::lit(0.36044750314573715), t0);
+    let t8 = a[7].times_fma(t7, a[3].times_fma(a[8].fma(T::lit(0.4370193722368316), t5), a[1].times(t4)));
+    let t9 = a[5].times_fma(t7, a[3].times_fma(t4, a[1].times(a[8].fnma(T::lit(0.4370193722368316), t5))));
+    let t10 = a[6].times(a[6]);
+    let t11 = t10.fma(T::lit(0.18022375157286857), t1.fms(T::lit(0.252313252202016), t3 * T::lit(0.126156626101008)));
+    let t12 = a[5].times(a[5]);
+    let t13 = a[7].times_fma(a[7], t12);
+    let t14 = a[3].times_fms(a[3], t2).fma(T::lit(0.2185096861184158), a[7].times_fms(a[7], t12) * T::lit(0.15607834722743988));
+    let t15 = a[1].times(a[3]).fma(T::lit(0.4370193722368316), a[5].times(a[7]) * T::lit(0.31215669445487976));
+    let t16 = a[4] * T::lit(0.31215669445487976);
+    let t17 = a[6].fma(T::lit(0.18022375157286857), t0);
+    let t18 = a[5].times_fma(t16, a[3].times_fma(t7, a[7].times(a[8].fma(T::lit(0.31215669445487976), t17))));
+    let t19 = a[5].times_fma(a[8].fnma(T::lit(0.31215669445487976), t17), a[1].times_fma(t7, a[7].times(t16)));
+    let t20 = a[8].times_fma(a[8], a[4].times(a[4]));
+    let t21 = t20.fnma(T::lit(0.18022375157286857), t13.fma(T::lit(0.09011187578643429), a[6].times_fma(t0, t11)));
+    let t22 = a[6].fnma(T::lit(0.36044750314573715), t0);
     [
-        (t1 + a[0].times(a[0]) + t3 + t8 + t11 + t18) * T::lit(0.28209479177387814),
-        a[1].times(a[8].fnma(T::lit(0.4370193722368316), t5)) + a[3].times(t4) + a[5].times(t7),
+        (a[0].times_fma(a[0], t1) + t3 + t10 + t13 + t20) * T::lit(0.28209479177387814),
+        t9,
         t6,
-        a[1].times(t4) + a[3].times(a[8].fma(T::lit(0.4370193722368316), t5)) + a[7].times(t7),
-        t13 + a[4].times(t20),
-        t17,
+        t8,
+        a[4].times_fma(t22, t15),
         t19,
-        t16,
-        t12 + a[8].times(t20),
+        t21,
+        t18,
+        a[8].times_fma(t22, t14),
     ]
 }
 
@@ -2712,8 +2715,9 @@ pub fn square_rgb<T: Real>(a: &[[T; 3]; 9]) -> [[T; 3]; 9] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 9], b: &[V; 9]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8])
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    t1
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.
@@ -2914,15 +2918,18 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 3], b: &[V; 9]) -> [V; 9] {
     let t4 = g[2].fma(T::lit(0.09011187578643429), t0);
     let t5 = g[2].fnma(T::lit(0.18022375157286857), t0);
     let t6 = b[0] * T::lit(0.28209479177387814);
+    let t7 = g[1].times_fma(t6, b[2].times_fma(g[2].fma(T::lit(0.252313252202016), t0), b[6].times(t1)));
+    let t8 = g[2].times_fma(t6, b[2].times_fma(t1, b[6].times(g[2].fma(T::lit(0.18022375157286857), t0))));
+    let t9 = g[2].times_fma(b[6], g[0].times_fma(b[0], g[1].times(b[2]))) * T::lit(0.28209479177387814);
     [
-        (g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6])) * T::lit(0.28209479177387814),
-        b[5].times(t3) + b[1].times(t2),
-        b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + g[1].times(t6),
-        b[7].times(t3) + b[3].times(t2),
+        t9,
+        b[1].times_fma(t2, b[5].times(t3)),
+        t7,
+        b[3].times_fma(t2, b[7].times(t3)),
         b[4].times(t5),
-        b[5].times(t4) + b[1].times(t3),
-        b[6].times(g[2].fma(T::lit(0.18022375157286857), t0)) + b[2].times(t1) + g[2].times(t6),
-        b[7].times(t4) + b[3].times(t3),
+        b[1].times_fma(t3, b[5].times(t4)),
+        t8,
+        b[3].times_fma(t3, b[7].times(t4)),
         b[8].times(t5),
     ]
 }
@@ -2977,17 +2984,17 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 3], b: &[
     let t27 = g[1] * T::lit(0.252313252202016);
     let t28 = g[2].fnma(T::lit(0.126156626101008), t26);
     let t29 = g[1] * T::lit(0.2185096861184158);
-    let t30 = t22.times(t29) + t16.times(t28);
-    let t31 = t25.times(t29) + t14.times(t28);
+    let t30 = t16.times_fma(t28, t22.times(t29));
+    let t31 = t14.times_fma(t28, t25.times(t29));
     let t32 = g[2].fma(T::lit(0.09011187578643429), t26);
-    let t33 = t22.times(t32) + t16.times(t29);
-    let t34 = t25.times(t32) + t14.times(t29);
+    let t33 = t16.times_fma(t29, t22.times(t32));
+    let t34 = t14.times_fma(t29, t25.times(t32));
     let t35 = g[2].fnma(T::lit(0.18022375157286857), t26);
     let t36 = (t19 - t23).times(t35);
     let t37 = t20.fma(dir[2], t18 * t5).times(t35);
     let t38 = b[0] * T::lit(0.28209479177387814);
-    let t39 = t24.times(t27) - t15.times(g[2].fma(T::lit(0.252313252202016), t26)) + g[1].times(t38);
-    let t40 = t24.times(g[2].fma(T::lit(0.18022375157286857), t26)) - t15.times(t27) + g[2].times(t38);
+    let t39 = g[1].times_fma(t38, t15.times_fnma(g[2].fma(T::lit(0.252313252202016), t26), t24.times(t27)));
+    let t40 = g[2].times_fma(t38, t15.times_fnma(t27, t24.times(g[2].fma(T::lit(0.18022375157286857), t26))));
     let t41 = t30.fms(dir[2], t39 * t5);
     let t42 = t40.fnma(T::lit(1.7320508075688772), t36);
     let t43 = t33.fma(t9, t42 * t6);
@@ -2996,7 +3003,7 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 3], b: &[
     let t46 = t34.fma(dir[2], t37 * t5);
     let t47 = t37.fnma(dir[2], t34 * t5);
     [
-        (g[0].times(b[0]) - g[1].times(t15) + g[2].times(t24)) * T::lit(0.28209479177387814),
+        g[2].times_fma(t24, g[0].times_fms(b[0], g[1].times(t15))) * T::lit(0.28209479177387814),
         t31.fma(t3, t41 * t4),
         t39.fma(dir[2], t30 * t5),
         t41.fms(t3, t31 * t4),
@@ -3045,17 +3052,17 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 5], g: &[
     let t14 = g[1] * T::lit(0.252313252202016);
     let t15 = g[2].fnma(T::lit(0.126156626101008), t13);
     let t16 = g[1] * T::lit(0.2185096861184158);
-    let t17 = t9.times(t16) + t3.times(t15);
-    let t18 = t12.times(t16) + t1.times(t15);
+    let t17 = t3.times_fma(t15, t9.times(t16));
+    let t18 = t1.times_fma(t15, t12.times(t16));
     let t19 = g[2].fma(T::lit(0.09011187578643429), t13);
-    let t20 = t9.times(t19) + t3.times(t16);
-    let t21 = t12.times(t19) + t1.times(t16);
+    let t20 = t3.times_fma(t16, t9.times(t19));
+    let t21 = t1.times_fma(t16, t12.times(t19));
     let t22 = g[2].fnma(T::lit(0.18022375157286857), t13);
     let t23 = (t6 - t10).times(t22);
     let t24 = t7.fma(cs[2][0], t5 * cs[2][1]).times(t22);
     let t25 = b[0] * T::lit(0.28209479177387814);
-    let t26 = t11.times(t14) - t2.times(g[2].fma(T::lit(0.252313252202016), t13)) + g[1].times(t25);
-    let t27 = t11.times(g[2].fma(T::lit(0.18022375157286857), t13)) - t2.times(t14) + g[2].times(t25);
+    let t26 = g[1].times_fma(t25, t2.times_fnma(g[2].fma(T::lit(0.252313252202016), t13), t11.times(t14)));
+    let t27 = g[2].times_fma(t25, t2.times_fnma(t14, t11.times(g[2].fma(T::lit(0.18022375157286857), t13))));
     let t28 = t17.fms(cs[2][0], t26 * cs[2][1]);
     let t29 = t27.fnma(T::lit(1.7320508075688772), t23);
     let t30 = t20.fma(cs[3][0], t29 * cs[4][1]);
@@ -3064,7 +3071,7 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 5], g: &[
     let t33 = t21.fma(cs[2][0], t24 * cs[2][1]);
     let t34 = t24.fnma(cs[2][0], t21 * cs[2][1]);
     [
-        (g[0].times(b[0]) - g[1].times(t2) + g[2].times(t11)) * T::lit(0.28209479177387814),
+        g[2].times_fma(t11, g[0].times_fms(b[0], g[1].times(t2))) * T::lit(0.28209479177387814),
         t18.fma(cs[0][0], t28 * cs[0][1]),
         t26.fma(cs[2][0], t17 * cs[2][1]),
         t28.fms(cs[0][0], t18 * cs[0][1]),
@@ -6609,17 +6616,17 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9]) 
     let t19 = T::lit(0.9881052322920201).fms(t7, T::lit(0.010903840461104026).fma(t3, T::lit(0.15339216466407848) * t6));
     let t20 = T::lit(0.9881052322920201).fms(t13, T::lit(0.010903840461104026).fma(t10, T::lit(0.15339216466407848) * t12));
     let t21 = T::lit(0.9881052322920201).fms(t17, T::lit(0.010903840461104026).fma(t15, T::lit(0.15339216466407848) * t16));
-    let t22 = lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14))) + e[0].times(lambda[0]) + lambda[2].times(e[3].fnma(t21, e[2].fms(t19, e[1] * t20)));
+    let t22 = lambda[2].times_fma(e[3].fnma(t21, e[2].fms(t19, e[1] * t20)), e[0].times_fma(lambda[0], lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14)))));
     let t23 = T::lit(0.3225518871412586).fms(t7, T::lit(0.1571684038255837).fma(t3, T::lit(0.9334122202652647) * t6));
     let t24 = T::lit(0.3225518871412586).fms(t13, T::lit(0.1571684038255837).fma(t10, T::lit(0.9334122202652647) * t12));
     let t25 = T::lit(0.3225518871412586).fms(t17, T::lit(0.1571684038255837).fma(t15, T::lit(0.9334122202652647) * t16));
     let t26 = T::lit(1.7320508075688772) * t8;
     let t27 = e[6].fma(T::lit(1.5).fms(t8 * t8, T::lit(0.5)), e[4].fms(t14 * (T::lit(1.7320508075688772) * t18), e[5] * (t14 * t26)));
     let t28 = e[8].fma(T::lit(0.8660254037844386) * t18.fms(t18, t14 * t14), e[7].fnma(t18 * t26, t27));
-    let t29 = T::lit(1.7320508075688772) * t19;
-    let t30 = e[6].fma(T::lit(1.5).fms(t19 * t19, T::lit(0.5)), e[4].fms(t20 * (T::lit(1.7320508075688772) * t21), e[5] * (t20 * t29)));
-    let t31 = e[8].fma(T::lit(0.8660254037844386) * t21.fms(t21, t20 * t20), e[7].fnma(t21 * t29, t30));
-    let t32 = t22 + lambda[3].times(e[3].fnma(t25, e[2].fms(t23, e[1] * t24))) + lambda[4].times(t28) + lambda[5].times(t31);
+    let t29 = lambda[4].times_fma(t28, lambda[3].times_fma(e[3].fnma(t25, e[2].fms(t23, e[1] * t24)), t22));
+    let t30 = T::lit(1.7320508075688772) * t19;
+    let t31 = e[6].fma(T::lit(1.5).fms(t19 * t19, T::lit(0.5)), e[4].fms(t20 * (T::lit(1.7320508075688772) * t21), e[5] * (t20 * t30)));
+    let t32 = e[8].fma(T::lit(0.8660254037844386) * t21.fms(t21, t20 * t20), e[7].fnma(t21 * t30, t31));
     let t33 = T::lit(1.7320508075688772) * t23;
     let t34 = e[6].fma(T::lit(1.5).fms(t23 * t23, T::lit(0.5)), e[4].fms(t24 * (T::lit(1.7320508075688772) * t25), e[5] * (t24 * t33)));
     let t35 = e[8].fma(T::lit(0.8660254037844386) * t25.fms(t25, t24 * t24), e[7].fnma(t25 * t33, t34));
@@ -6635,7 +6642,8 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9]) 
     let t45 = T::lit(1.7320508075688772) * t44;
     let t46 = e[6].fma(T::lit(1.5).fms(t44 * t44, T::lit(0.5)), e[4].fms(t42 * (T::lit(1.7320508075688772) * t43), e[5] * (t42 * t45)));
     let t47 = e[8].fma(T::lit(0.8660254037844386) * t43.fms(t43, t42 * t42), e[7].fnma(t43 * t45, t46));
-    t32 + lambda[6].times(t35) + lambda[7].times(t41) + lambda[8].times(t47)
+    let t48 = lambda[8].times_fma(t47, lambda[7].times_fma(t41, lambda[6].times_fma(t35, lambda[5].times_fma(t32, t29))));
+    t48
 }
 
 /// [`isd_shade`] of three channels that share the parameters, as plain arrays.
@@ -6833,7 +6841,7 @@ pub fn mother_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9
     let t23 = T::lit(2.23606797749979) * t9;
     let t24 = e[6].fma(T::lit(0.94617469575756).fms(t9 * t9, T::lit(0.31539156525252)), e[4].fms(t16 * (T::lit(2.23606797749979) * t20), e[5] * (t16 * t23)));
     let t25 = e[8].fma(T::lit(2.2882280821594225) * t21.fms(t21, t16 * t16), e[7].fnma(t21 * t23, t24));
-    let t26 = lambda[1].times(t25.fma(T::lit(0.3308286649526779), t22)) + lambda[0].times(e[0] * T::lit(3.544907701811032));
+    let t26 = lambda[0].times_fma(e[0] * T::lit(3.544907701811032), lambda[1].times(t25.fma(T::lit(0.3308286649526779), t22)));
     let t27 = T::lit(0.2082429510494806).fnma(t8, T::lit(0.7762658175274851).fms(t7, T::lit(0.5950178601324407) * t4));
     let t28 = T::lit(0.2082429510494806).fnma(t14, T::lit(0.7762658175274851).fms(t13, T::lit(0.5950178601324407) * t11));
     let t29 = T::lit(0.4886025119029199) * t28;
@@ -6852,7 +6860,7 @@ pub fn mother_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9
     let t42 = T::lit(2.23606797749979) * t38;
     let t43 = e[6].fma(T::lit(0.94617469575756).fms(t38 * t38, T::lit(0.31539156525252)), e[4].fms(t37 * (T::lit(2.23606797749979) * t39), e[5] * (t37 * t42)));
     let t44 = e[8].fma(T::lit(2.2882280821594225) * t40.fms(t40, t37 * t37), e[7].fnma(t40 * t42, t43));
-    let t45 = t26 + lambda[2].times(t35.fma(T::lit(0.3308286649526779), t32)) + lambda[3].times(t44.fma(T::lit(0.3308286649526779), t41));
+    let t45 = lambda[3].times_fma(t44.fma(T::lit(0.3308286649526779), t41), lambda[2].times_fma(t35.fma(T::lit(0.3308286649526779), t32), t26));
     let t46 = e[0] * T::lit(0.44296481471971383);
     let t47 = T::lit(0.7311309195163816).fma(t8, T::lit(0.6812999250018271).fms(t7, T::lit(0.03574899606471498) * t4));
     let t48 = T::lit(0.7311309195163816).fma(t14, T::lit(0.6812999250018271).fms(t13, T::lit(0.03574899606471498) * t11));
@@ -6872,7 +6880,7 @@ pub fn mother_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9
     let t62 = T::lit(2.23606797749979) * t56;
     let t63 = e[6].fma(T::lit(0.94617469575756).fms(t56 * t56, T::lit(0.31539156525252)), e[4].fms(t58 * (T::lit(2.23606797749979) * t59), e[5] * (t58 * t62)));
     let t64 = e[8].fma(T::lit(2.2882280821594225) * t60.fms(t60, t58 * t58), e[7].fnma(t60 * t62, t63));
-    let t65 = t45 + lambda[4].times(t55.fma(T::lit(0.6862024400118752), t52)) + lambda[5].times(t64.fma(T::lit(0.6862024400118752), t61));
+    let t65 = lambda[5].times_fma(t64.fma(T::lit(0.6862024400118752), t61), lambda[4].times_fma(t55.fma(T::lit(0.6862024400118752), t52), t45));
     let t66 = T::lit(0.3697419063122195).fms(t8, T::lit(0.7054908212378199).fma(t7, T::lit(0.6046268467954367) * t4));
     let t67 = T::lit(0.3697419063122195).fms(t14, T::lit(0.7054908212378199).fma(t13, T::lit(0.6046268467954367) * t11));
     let t68 = T::lit(0.4886025119029199) * t67;
@@ -6891,7 +6899,7 @@ pub fn mother_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9
     let t81 = T::lit(2.23606797749979) * t75;
     let t82 = e[6].fma(T::lit(0.94617469575756).fms(t75 * t75, T::lit(0.31539156525252)), e[4].fms(t77 * (T::lit(2.23606797749979) * t78), e[5] * (t77 * t81)));
     let t83 = e[8].fma(T::lit(2.2882280821594225) * t79.fms(t79, t77 * t77), e[7].fnma(t79 * t81, t82));
-    let t84 = t65 + lambda[6].times(t74.fma(T::lit(0.6862024400118752), t71)) + lambda[7].times(t83.fma(T::lit(0.6862024400118752), t80));
+    let t84 = lambda[7].times_fma(t83.fma(T::lit(0.6862024400118752), t80), lambda[6].times_fma(t74.fma(T::lit(0.6862024400118752), t71), t65));
     let t85 = T::lit(0.9539979488423384).fnma(t8, T::lit(0.29397098423595336).fms(t7, T::lit(0.05889799684162445) * t4));
     let t86 = T::lit(0.9539979488423384).fnma(t14, T::lit(0.29397098423595336).fms(t13, T::lit(0.05889799684162445) * t11));
     let t87 = T::lit(0.4886025119029199) * t86;
@@ -6901,7 +6909,7 @@ pub fn mother_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], lambda: &[V; 9
     let t91 = T::lit(2.23606797749979) * t85;
     let t92 = e[6].fma(T::lit(0.94617469575756).fms(t85 * t85, T::lit(0.31539156525252)), e[4].fms(t87 * (T::lit(2.23606797749979) * t88), e[5] * (t87 * t91)));
     let t93 = e[8].fma(T::lit(2.2882280821594225) * t89.fms(t89, t87 * t87), e[7].fnma(t89 * t91, t92));
-    t84 + lambda[8].times(t93.fma(T::lit(0.6862024400118752), t90))
+    lambda[8].times_fma(t93.fma(T::lit(0.6862024400118752), t90), t84)
 }
 
 /// [`mother_shade`] of three channels that share the parameters, as plain arrays.
@@ -6948,7 +6956,7 @@ pub fn shade_zyz<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], c: &[V; 9]) -> V 
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[2].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[6].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[6].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[2].times(e[2].fma(t4, t13 * t14))));
     let t25 = t13.fms(t4, e[2] * t14);
     let t26 = e[1].fma(t10, e[3] * t12);
     let t27 = t21.fma(t4.fms(t4, t20), t19 * t22);
@@ -6957,11 +6965,11 @@ pub fn shade_zyz<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], c: &[V; 9]) -> V 
     let t30 = t28.fma(t4, t29 * t14);
     let t31 = t2.fma(t7, t9);
     let t32 = t2.fms(t8, t11);
-    let t33 = (c[1].times(t26) + c[3].times(t25) + c[7].times(t27) + c[5].times(t30)).fma(t31, (c[1].times(t25) - c[3].times(t26) - c[7].times(t30) + c[5].times(t27)) * t32);
+    let t33 = c[5].times_fma(t30, c[7].times_fma(t27, c[3].times_fma(t25, c[1].times(t26)))).fma(t31, c[5].times_fma(t27, c[7].times_fnma(t30, c[1].times_fms(t25, c[3].times(t26)))) * t32);
     let t34 = t18 - t23;
     let t35 = t28.fms(t14, t29 * t4);
     let t36 = t31 * t32;
-    let t37 = (c[8].times(t34) - c[4].times(t35)).fma(t31.fms(t31, t32 * t32), (c[4].times(t34) + c[8].times(t35)) * (t36 + t36));
+    let t37 = c[8].times_fms(t34, c[4].times(t35)).fma(t31.fms(t31, t32 * t32), c[8].times_fma(t35, c[4].times(t34)) * (t36 + t36));
     t24 + t33 + t37
 }
 
@@ -6998,7 +7006,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], c: &[V; 9]) -> V {
     let t10 = q[3] * t4;
     let t11 = q[0].fms(t0, t10);
     let t12 = q[1].fma(t0, t2);
-    let t13 = e[0].times(c[0]) - c[1].times(e[2].fms(t3, e[3].fma(t6, e[1] * t8))) + c[2].times(e[2].fms(t9, e[3].fma(t11, e[1] * t12)));
+    let t13 = c[2].times_fma(e[2].fms(t9, e[3].fma(t11, e[1] * t12)), e[0].times_fms(c[0], c[1].times(e[2].fms(t3, e[3].fma(t6, e[1] * t8)))));
     let t14 = q[0].fma(t0, t10);
     let t15 = q[1].fnma(t4, t7);
     let t16 = q[0].fms(t4, t5);
@@ -7007,14 +7015,14 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], c: &[V; 9]) -> V {
     let t19 = e[6].fma(T::lit(1.7320508075688772), e[8]);
     let t20 = e[5].fnma(t14, e[4].fms(t15, t19 * t16));
     let t21 = e[7].fma(t15, e[5] * t16);
-    let t22 = t13 - c[3].times(e[2].fms(t14, e[3].fma(t15, e[1] * t16))) + c[4].times(t21.fnma(t3, t18.fma(t6, t20 * t8)));
+    let t22 = c[4].times_fma(t21.fnma(t3, t18.fma(t6, t20 * t8)), c[3].times_fnma(e[2].fms(t14, e[3].fma(t15, e[1] * t16)), t13));
     let t23 = e[7].fnma(t3, t17.fma(t6, e[4] * t8));
     let t24 = e[5].fnma(t3, e[4].fms(t6, t19 * t8));
     let t25 = e[7].fma(t6, e[5] * t8);
     let t26 = t21.fnma(t14, t18.fma(t15, t20 * t16));
     let t27 = t25.fnma(t3, t23.fma(t6, t24 * t8));
-    let t28 = t22 - c[5].times(t25.fnma(t9, t23.fma(t11, t24 * t12))) - c[6].times(e[6].fma(T::lit(2.0), (t26 + t27) * T::lit(0.8660254037844386)));
-    let t29 = t28 - c[7].times(t21.fnma(t9, t18.fma(t11, t20 * t12))) + c[8].times((t26 - t27) * T::lit(0.5));
+    let t28 = c[6].times_fnma(e[6].fma(T::lit(2.0), (t26 + t27) * T::lit(0.8660254037844386)), c[5].times_fnma(t25.fnma(t9, t23.fma(t11, t24 * t12)), t22));
+    let t29 = c[8].times_fma((t26 - t27) * T::lit(0.5), c[7].times_fnma(t21.fnma(t9, t18.fma(t11, t20 * t12)), t28));
     t29
 }
 
@@ -7057,14 +7065,14 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 9], c: &[V; 6])
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[1].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[3].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[3].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[1].times(e[2].fma(t4, t13 * t14))));
     let t25 = t2.fma(t7, t9);
     let t26 = e[5].fma(t10, e[7] * t12);
     let t27 = e[4].fma(t15, e[8] * t17);
     let t28 = t2.fms(t8, t11);
-    let t29 = (c[4].times(t21.fma(t4.fms(t4, t20), t19 * t22)) + c[2].times(t13.fms(t4, e[2] * t14))).fms(t25, (c[4].times(t26.fma(t4, t27 * t14)) + c[2].times(e[1].fma(t10, e[3] * t12))) * t28);
+    let t29 = c[2].times_fma(t13.fms(t4, e[2] * t14), c[4].times(t21.fma(t4.fms(t4, t20), t19 * t22))).fms(t25, c[2].times_fma(e[1].fma(t10, e[3] * t12), c[4].times(t26.fma(t4, t27 * t14))) * t28);
     let t30 = t25 * t28;
-    let t31 = t24 + t29 + c[5].times((t18 - t23).fma(t25.fms(t25, t28 * t28), t26.fms(t14, t27 * t4) * (t30 + t30)));
+    let t31 = c[5].times_fma((t18 - t23).fma(t25.fms(t25, t28 * t28), t26.fms(t14, t27 * t4) * (t30 + t30)), t24 + t29);
     t31
 }
 

@@ -2885,7 +2885,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t16 = q[0].fms(t1, t9);
     let t17 = T::lit(0.5) * t16;
     let t18 = T::lit(0.8660254037844386).fma(t15, t17);
-    let t19 = w[1].times(g[3].fnma(t18, g[2].fms(t8, g[1] * t14))) + w[0].times(g[0]) + w[2].times(g[3].fnma(t16, g[2].fms(t6, g[1] * t12)));
+    let t19 = w[2].times_fma(g[3].fnma(t16, g[2].fms(t6, g[1] * t12)), w[0].times_fma(g[0], w[1].times(g[3].fnma(t18, g[2].fms(t8, g[1] * t14)))));
     let t20 = q[1].fnma(t1, q[0].fnma(t4, T::lit(1.0)));
     let t21 = q[1].fms(t0, t5);
     let t22 = q[0].fma(t0, t2);
@@ -2900,7 +2900,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t31 = t29 * t29;
     let t32 = g[7].fnma(t26 * t30, g[6].fma(T::lit(1.5).fms(t31, T::lit(0.5)), g[4].fms(t27, g[5] * (t24 * t30))));
     let t33 = T::lit(0.8660254037844386) * t26.fms(t26, t24 * t24);
-    let t34 = t19 + w[3].times(g[3].fnma(t22, g[2].fms(t20, g[1] * t21))) + w[4].times(g[8].fma(t33, t32));
+    let t34 = w[4].times_fma(g[8].fma(t33, t32), w[3].times_fma(g[3].fnma(t22, g[2].fms(t20, g[1] * t21)), t19));
     let t35 = t21 * (T::lit(1.7320508075688772) * t22);
     let t36 = T::lit(1.7320508075688772) * t20;
     let t37 = t20 * t20;
@@ -2922,7 +2922,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t53 = t51 * t51;
     let t54 = g[7].fnma(t49 * t52, g[6].fma(T::lit(1.5).fms(t53, T::lit(0.5)), g[4].fms(t50, g[5] * (t48 * t52))));
     let t55 = T::lit(0.8660254037844386) * t49.fms(t49, t48 * t48);
-    let t56 = t34 + w[5].times(g[8].fma(t39, t38)) + w[6].times(g[8].fma(t47, t46)) + w[7].times(g[8].fma(t55, t54));
+    let t56 = w[7].times_fma(g[8].fma(t55, t54), w[6].times_fma(g[8].fma(t47, t46), w[5].times_fma(g[8].fma(t39, t38), t34)));
     let t57 = t12 * (T::lit(1.7320508075688772) * t16);
     let t58 = T::lit(1.7320508075688772) * t6;
     let t59 = t6 * t6;
@@ -2933,25 +2933,25 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t64 = T::lit(0.9128709291752769) * t12;
     let t65 = T::lit(3.0618621784789726).fms(t59, T::lit(0.6123724356957945));
     let t66 = g[12].fma(t6 * T::lit(2.5).fms(t59, T::lit(1.5)), g[11].fnma(t12 * t65, g[10].fms(t57 * t62, g[9] * t57.fma(t63, t61 * t64))));
-    let t67 = t56 + w[8].times(g[8].fma(t61, t60)) + w[9].times(g[15].fma(t57.fms(t64, t61 * t63), g[14].fma(t61 * t62, g[13].fnma(t16 * t65, t66))));
+    let t67 = w[9].times_fma(g[15].fma(t57.fms(t64, t61 * t63), g[14].fma(t61 * t62, g[13].fnma(t16 * t65, t66))), w[8].times_fma(g[8].fma(t61, t60), t56));
     let t68 = T::lit(2.23606797749979) * t51;
     let t69 = T::lit(0.9128709291752769) * t49;
     let t70 = T::lit(0.9128709291752769) * t48;
     let t71 = T::lit(3.0618621784789726).fms(t53, T::lit(0.6123724356957945));
     let t72 = g[12].fma(t51 * T::lit(2.5).fms(t53, T::lit(1.5)), g[11].fnma(t48 * t71, g[10].fms(t50 * t68, g[9] * t50.fma(t69, t55 * t70))));
-    let t73 = t67 + w[10].times(g[15].fma(t50.fms(t70, t55 * t69), g[14].fma(t55 * t68, g[13].fnma(t49 * t71, t72))));
+    let t73 = w[10].times_fma(g[15].fma(t50.fms(t70, t55 * t69), g[14].fma(t55 * t68, g[13].fnma(t49 * t71, t72))), t67);
     let t74 = T::lit(2.23606797749979) * t29;
     let t75 = T::lit(0.9128709291752769) * t26;
     let t76 = T::lit(0.9128709291752769) * t24;
     let t77 = T::lit(3.0618621784789726).fms(t31, T::lit(0.6123724356957945));
     let t78 = g[12].fma(t29 * T::lit(2.5).fms(t31, T::lit(1.5)), g[11].fnma(t24 * t77, g[10].fms(t27 * t74, g[9] * t27.fma(t75, t33 * t76))));
-    let t79 = t73 + w[11].times(g[15].fma(t27.fms(t76, t33 * t75), g[14].fma(t33 * t74, g[13].fnma(t26 * t77, t78))));
+    let t79 = w[11].times_fma(g[15].fma(t27.fms(t76, t33 * t75), g[14].fma(t33 * t74, g[13].fnma(t26 * t77, t78))), t73);
     let t80 = T::lit(2.23606797749979) * t43;
     let t81 = T::lit(0.9128709291752769) * t41;
     let t82 = T::lit(0.9128709291752769) * t40;
     let t83 = T::lit(3.0618621784789726).fms(t45, T::lit(0.6123724356957945));
     let t84 = g[12].fma(t43 * T::lit(2.5).fms(t45, T::lit(1.5)), g[11].fnma(t40 * t83, g[10].fms(t42 * t80, g[9] * t42.fma(t81, t47 * t82))));
-    let t85 = t79 + w[12].times(g[15].fma(t42.fms(t82, t47 * t81), g[14].fma(t47 * t80, g[13].fnma(t41 * t83, t84))));
+    let t85 = w[12].times_fma(g[15].fma(t42.fms(t82, t47 * t81), g[14].fma(t47 * t80, g[13].fnma(t41 * t83, t84))), t79);
     let t86 = t14 * (T::lit(1.7320508075688772) * t18);
     let t87 = T::lit(2.23606797749979) * t8;
     let t88 = T::lit(0.9128709291752769) * t18;
@@ -2960,7 +2960,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t91 = t8 * t8;
     let t92 = T::lit(3.0618621784789726).fms(t91, T::lit(0.6123724356957945));
     let t93 = g[12].fma(t8 * T::lit(2.5).fms(t91, T::lit(1.5)), g[11].fnma(t14 * t92, g[10].fms(t86 * t87, g[9] * t86.fma(t88, t89 * t90))));
-    let t94 = t85 + w[13].times(g[15].fma(t86.fms(t90, t89 * t88), g[14].fma(t89 * t87, g[13].fnma(t18 * t92, t93))));
+    let t94 = w[13].times_fma(g[15].fma(t86.fms(t90, t89 * t88), g[14].fma(t89 * t87, g[13].fnma(t18 * t92, t93))), t85);
     let t95 = T::lit(0.8660254037844386).fnma(t10, t13);
     let t96 = T::lit(0.8660254037844386).fnma(t15, t17);
     let t97 = t95 * (T::lit(1.7320508075688772) * t96);
@@ -2979,7 +2979,7 @@ pub fn zhf_dot<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], g: &[V; 16]) -> V 
     let t110 = T::lit(3.0618621784789726).fms(t37, T::lit(0.6123724356957945));
     let t111 = g[12].fma(t20 * T::lit(2.5).fms(t37, T::lit(1.5)), g[11].fnma(t21 * t110, g[10].fms(t35 * t107, g[9] * t35.fma(t108, t39 * t109))));
     let t112 = g[15].fma(t35.fms(t109, t39 * t108), g[14].fma(t39 * t107, g[13].fnma(t22 * t110, t111)));
-    t94 + w[14].times(t106) + w[15].times(t112)
+    w[15].times_fma(t112, w[14].times_fma(t106, t94))
 }
 
 /// [`zhf_dot`] of three channels that share the parameters, as plain arrays.
@@ -3024,7 +3024,7 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], v: &[V; 16])
     let t19 = q[1].fms(t0, t18);
     let t20 = T::lit(0.5) * t19;
     let t21 = T::lit(0.8660254037844386).fma(t17, t20);
-    let t22 = v[2].times(w[3].fma(t19, w[1].fma(t12, w[2] * t10))) + v[1].times(w[3].fma(t21, w[1].fma(t14, w[2] * t15)));
+    let t22 = v[1].times_fma(w[3].fma(t21, w[1].fma(t14, w[2] * t15)), v[2].times(w[3].fma(t19, w[1].fma(t12, w[2] * t10))));
     let t23 = q[0].fms(t0, t16);
     let t24 = q[1].fma(t0, t18);
     let t25 = T::lit(0.5) * t24;
@@ -3061,7 +3061,7 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], v: &[V; 16])
     let t56 = t40.fms(t40, T::lit(0.3333333333333333));
     let t57 = t46.fms(t46, T::lit(0.3333333333333333));
     let t58 = t24.fms(t24, T::lit(0.3333333333333333));
-    let t59 = v[5].times(w[8].fma(t58, w[7].fma(t57, w[6].fma(t56, w[4].fma(t54, w[5] * t55))))) + v[4].times(w[8].fma(t53, w[7].fma(t51, w[6].fma(t45, w[4].fma(t37, w[5] * t39)))));
+    let t59 = v[4].times_fma(w[8].fma(t53, w[7].fma(t51, w[6].fma(t45, w[4].fma(t37, w[5] * t39)))), v[5].times(w[8].fma(t58, w[7].fma(t57, w[6].fma(t56, w[4].fma(t54, w[5] * t55))))));
     let t60 = T::lit(0.4472135954999579).fma(t29, T::lit(0.4472135954999579).fnma(t32, t35));
     let t61 = t60.fms(t60, T::lit(0.3333333333333333));
     let t62 = T::lit(0.4472135954999579).fma(t27, T::lit(0.7745966692414834).fms(t19, t30));
@@ -3072,87 +3072,89 @@ pub fn zhf_dot_lobes<T: Real, V: Signal<T>>(q: [T; 4], w: &[V; 16], v: &[V; 16])
     let t67 = t66.fms(t66, T::lit(0.3333333333333333));
     let t68 = T::lit(0.4472135954999579).fma(t24, T::lit(0.4472135954999579).fnma(t5, t33));
     let t69 = t68.fms(t68, T::lit(0.3333333333333333));
-    let t70 = T::lit(0.4472135954999579).fma(t29, T::lit(0.4472135954999579).fma(t32, t35));
-    let t71 = t70.fms(t70, T::lit(0.3333333333333333));
-    let t72 = T::lit(0.4472135954999579).fma(t27, T::lit(0.7745966692414834).fma(t19, t30));
-    let t73 = t72.fms(t72, T::lit(0.3333333333333333));
-    let t74 = T::lit(0.4472135954999579).fma(t40, T::lit(0.4472135954999579).fma(t41, t43));
-    let t75 = t74.fms(t74, T::lit(0.3333333333333333));
-    let t76 = T::lit(0.4472135954999579).fma(t46, T::lit(0.4472135954999579).fma(t47, t49));
-    let t77 = t76.fms(t76, T::lit(0.3333333333333333));
-    let t78 = T::lit(0.4472135954999579).fma(t24, T::lit(0.4472135954999579).fma(t5, t33));
-    let t79 = t78.fms(t78, T::lit(0.3333333333333333));
-    let t80 = t59 + v[6].times(w[8].fma(t69, w[7].fma(t67, w[6].fma(t65, w[4].fma(t61, w[5] * t63))))) + v[7].times(w[8].fma(t79, w[7].fma(t77, w[6].fma(t75, w[4].fma(t71, w[5] * t73)))));
-    let t81 = t34.fms(t34, T::lit(0.3333333333333333));
-    let t82 = t19.fms(t19, T::lit(0.3333333333333333));
-    let t83 = t42.fms(t42, T::lit(0.3333333333333333));
-    let t84 = t48.fms(t48, T::lit(0.3333333333333333));
-    let t85 = t10.fms(t10, T::lit(0.3333333333333333));
-    let t86 = (t80 + v[8].times(w[8].fma(t85, w[7].fma(t84, w[6].fma(t83, w[4].fma(t81, w[5] * t82)))))).fma(T::lit(1.5), t22 + v[3].times(w[3].fma(t27, w[1].fma(t26, w[2] * t24))) + w[0].times(v[0]));
-    let t87 = w[9].fma(t10.fms(t85, T::lit(0.26666666666666666) * t10), w[10] * t48.fms(t84, T::lit(0.26666666666666666) * t48));
-    let t88 = w[12].fma(t42.fms(t83, T::lit(0.26666666666666666) * t42), w[11].fma(t34.fms(t81, T::lit(0.26666666666666666) * t34), t87));
-    let t89 = w[13].fma(t12.fms(t12.fms(t12, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t12), t88);
-    let t90 = T::lit(0.8660254037844386).fnma(t8, t11);
-    let t91 = w[14].fma(t90.fms(t90.fms(t90, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t90), t89);
-    let t92 = w[9].fma(t78.fms(t79, T::lit(0.26666666666666666) * t78), w[10] * t76.fms(t77, T::lit(0.26666666666666666) * t76));
-    let t93 = w[12].fma(t74.fms(t75, T::lit(0.26666666666666666) * t74), w[11].fma(t70.fms(t71, T::lit(0.26666666666666666) * t70), t92));
-    let t94 = T::lit(0.7745966692414834) * t12;
-    let t95 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fma(t7, t94));
-    let t96 = w[13].fma(t95.fms(t95.fms(t95, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t95), t93);
-    let t97 = T::lit(0.8660254037844386).fnma(t3, t6);
-    let t98 = T::lit(0.7745966692414834) * t90;
-    let t99 = T::lit(0.8660254037844386).fnma(t23, t25);
-    let t100 = T::lit(0.4472135954999579).fma(t99, T::lit(0.4472135954999579).fma(t97, t98));
-    let t101 = w[14].fma(t100.fms(t100.fms(t100, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t100), t96);
-    let t102 = v[10].times(w[15].fma(t72.fms(t73, T::lit(0.26666666666666666) * t72), t101)) + v[9].times(w[15].fma(t19.fms(t82, T::lit(0.26666666666666666) * t19), t91));
-    let t103 = w[9].fma(t52.fms(t53, T::lit(0.26666666666666666) * t52), w[10] * t50.fms(t51, T::lit(0.26666666666666666) * t50));
-    let t104 = w[12].fma(t44.fms(t45, T::lit(0.26666666666666666) * t44), w[11].fma(t36.fms(t37, T::lit(0.26666666666666666) * t36), t103));
-    let t105 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fms(t7, t94));
-    let t106 = w[13].fma(t105.fms(t105.fms(t105, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t105), t104);
-    let t107 = T::lit(0.4472135954999579).fma(t99, T::lit(0.4472135954999579).fms(t97, t98));
-    let t108 = w[14].fma(t107.fms(t107.fms(t107, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t107), t106);
-    let t109 = w[9].fma(t68.fms(t69, T::lit(0.26666666666666666) * t68), w[10] * t66.fms(t67, T::lit(0.26666666666666666) * t66));
-    let t110 = w[12].fma(t64.fms(t65, T::lit(0.26666666666666666) * t64), w[11].fma(t60.fms(t61, T::lit(0.26666666666666666) * t60), t109));
-    let t111 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fnma(t7, t94));
-    let t112 = w[13].fma(t111.fms(t111.fms(t111, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t111), t110);
-    let t113 = T::lit(0.4472135954999579).fma(t99, T::lit(0.4472135954999579).fnma(t97, t98));
-    let t114 = w[14].fma(t113.fms(t113.fms(t113, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t113), t112);
-    let t115 = t102 + v[11].times(w[15].fma(t38.fms(t39, T::lit(0.26666666666666666) * t38), t108)) + v[12].times(w[15].fma(t62.fms(t63, T::lit(0.26666666666666666) * t62), t114));
-    let t116 = T::lit(0.5) * t48;
-    let t117 = T::lit(0.8660254037844386).fma(t47, t116);
-    let t118 = w[10] * t117.fms(t117.fms(t117, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t117);
-    let t119 = w[9].fma(t15.fms(t15.fms(t15, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t15), t118);
-    let t120 = T::lit(0.5) * t34;
-    let t121 = T::lit(0.8660254037844386).fma(t32, t120);
-    let t122 = w[11].fma(t121.fms(t121.fms(t121, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t121), t119);
-    let t123 = T::lit(0.5) * t42;
-    let t124 = T::lit(0.8660254037844386).fma(t41, t123);
-    let t125 = w[12].fma(t124.fms(t124.fms(t124, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t124), t122);
-    let t126 = w[13].fma(t14.fms(t14.fms(t14, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t14), t125);
-    let t127 = T::lit(0.5) * t90;
-    let t128 = T::lit(0.8660254037844386).fma(t97, t127);
-    let t129 = w[14].fma(t128.fms(t128.fms(t128, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t128), t126);
-    let t130 = w[15].fma(t21.fms(t21.fms(t21, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t21), t129);
-    let t131 = T::lit(0.8660254037844386).fnma(t5, t11);
-    let t132 = T::lit(0.8660254037844386).fnma(t47, t116);
-    let t133 = w[10] * t132.fms(t132.fms(t132, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t132);
-    let t134 = w[9].fma(t131.fms(t131.fms(t131, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t131), t133);
-    let t135 = T::lit(0.8660254037844386).fnma(t32, t120);
-    let t136 = w[11].fma(t135.fms(t135.fms(t135, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t135), t134);
-    let t137 = T::lit(0.8660254037844386).fnma(t41, t123);
-    let t138 = w[12].fma(t137.fms(t137.fms(t137, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t137), t136);
-    let t139 = T::lit(0.8660254037844386).fnma(t7, t13);
-    let t140 = w[13].fma(t139.fms(t139.fms(t139, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t139), t138);
-    let t141 = T::lit(0.8660254037844386).fnma(t97, t127);
-    let t142 = w[14].fma(t141.fms(t141.fms(t141, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t141), t140);
-    let t143 = T::lit(0.8660254037844386).fnma(t17, t20);
-    let t144 = w[15].fma(t143.fms(t143.fms(t143, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t143), t142);
-    let t145 = w[9].fma(t24.fms(t58, T::lit(0.26666666666666666) * t24), w[10] * t46.fms(t57, T::lit(0.26666666666666666) * t46));
-    let t146 = w[12].fma(t40.fms(t56, T::lit(0.26666666666666666) * t40), w[11].fma(t29.fms(t54, T::lit(0.26666666666666666) * t29), t145));
-    let t147 = w[13].fma(t26.fms(t26.fms(t26, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t26), t146);
-    let t148 = w[14].fma(t99.fms(t99.fms(t99, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t99), t147);
-    let t149 = t115 + v[13].times(t130) + v[14].times(t144) + v[15].times(w[15].fma(t27.fms(t55, T::lit(0.26666666666666666) * t27), t148));
-    t149.fma(T::lit(2.5), t86)
+    let t70 = v[6].times_fma(w[8].fma(t69, w[7].fma(t67, w[6].fma(t65, w[4].fma(t61, w[5] * t63)))), t59);
+    let t71 = T::lit(0.4472135954999579).fma(t29, T::lit(0.4472135954999579).fma(t32, t35));
+    let t72 = t71.fms(t71, T::lit(0.3333333333333333));
+    let t73 = T::lit(0.4472135954999579).fma(t27, T::lit(0.7745966692414834).fma(t19, t30));
+    let t74 = t73.fms(t73, T::lit(0.3333333333333333));
+    let t75 = T::lit(0.4472135954999579).fma(t40, T::lit(0.4472135954999579).fma(t41, t43));
+    let t76 = t75.fms(t75, T::lit(0.3333333333333333));
+    let t77 = T::lit(0.4472135954999579).fma(t46, T::lit(0.4472135954999579).fma(t47, t49));
+    let t78 = t77.fms(t77, T::lit(0.3333333333333333));
+    let t79 = T::lit(0.4472135954999579).fma(t24, T::lit(0.4472135954999579).fma(t5, t33));
+    let t80 = t79.fms(t79, T::lit(0.3333333333333333));
+    let t81 = v[7].times_fma(w[8].fma(t80, w[7].fma(t78, w[6].fma(t76, w[4].fma(t72, w[5] * t74)))), t70);
+    let t82 = t34.fms(t34, T::lit(0.3333333333333333));
+    let t83 = t19.fms(t19, T::lit(0.3333333333333333));
+    let t84 = t42.fms(t42, T::lit(0.3333333333333333));
+    let t85 = t48.fms(t48, T::lit(0.3333333333333333));
+    let t86 = t10.fms(t10, T::lit(0.3333333333333333));
+    let t87 = v[8].times_fma(w[8].fma(t86, w[7].fma(t85, w[6].fma(t84, w[4].fma(t82, w[5] * t83)))), t81);
+    let t88 = t87.fma(T::lit(1.5), w[0].times_fma(v[0], v[3].times_fma(w[3].fma(t27, w[1].fma(t26, w[2] * t24)), t22)));
+    let t89 = w[9].fma(t10.fms(t86, T::lit(0.26666666666666666) * t10), w[10] * t48.fms(t85, T::lit(0.26666666666666666) * t48));
+    let t90 = w[12].fma(t42.fms(t84, T::lit(0.26666666666666666) * t42), w[11].fma(t34.fms(t82, T::lit(0.26666666666666666) * t34), t89));
+    let t91 = w[13].fma(t12.fms(t12.fms(t12, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t12), t90);
+    let t92 = T::lit(0.8660254037844386).fnma(t8, t11);
+    let t93 = w[14].fma(t92.fms(t92.fms(t92, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t92), t91);
+    let t94 = w[9].fma(t79.fms(t80, T::lit(0.26666666666666666) * t79), w[10] * t77.fms(t78, T::lit(0.26666666666666666) * t77));
+    let t95 = w[12].fma(t75.fms(t76, T::lit(0.26666666666666666) * t75), w[11].fma(t71.fms(t72, T::lit(0.26666666666666666) * t71), t94));
+    let t96 = T::lit(0.7745966692414834) * t12;
+    let t97 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fma(t7, t96));
+    let t98 = w[13].fma(t97.fms(t97.fms(t97, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t97), t95);
+    let t99 = T::lit(0.8660254037844386).fnma(t3, t6);
+    let t100 = T::lit(0.7745966692414834) * t92;
+    let t101 = T::lit(0.8660254037844386).fnma(t23, t25);
+    let t102 = T::lit(0.4472135954999579).fma(t101, T::lit(0.4472135954999579).fma(t99, t100));
+    let t103 = w[14].fma(t102.fms(t102.fms(t102, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t102), t98);
+    let t104 = v[9].times_fma(w[15].fma(t19.fms(t83, T::lit(0.26666666666666666) * t19), t93), v[10].times(w[15].fma(t73.fms(t74, T::lit(0.26666666666666666) * t73), t103)));
+    let t105 = w[9].fma(t52.fms(t53, T::lit(0.26666666666666666) * t52), w[10] * t50.fms(t51, T::lit(0.26666666666666666) * t50));
+    let t106 = w[12].fma(t44.fms(t45, T::lit(0.26666666666666666) * t44), w[11].fma(t36.fms(t37, T::lit(0.26666666666666666) * t36), t105));
+    let t107 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fms(t7, t96));
+    let t108 = w[13].fma(t107.fms(t107.fms(t107, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t107), t106);
+    let t109 = T::lit(0.4472135954999579).fma(t101, T::lit(0.4472135954999579).fms(t99, t100));
+    let t110 = w[14].fma(t109.fms(t109.fms(t109, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t109), t108);
+    let t111 = w[9].fma(t68.fms(t69, T::lit(0.26666666666666666) * t68), w[10] * t66.fms(t67, T::lit(0.26666666666666666) * t66));
+    let t112 = w[12].fma(t64.fms(t65, T::lit(0.26666666666666666) * t64), w[11].fma(t60.fms(t61, T::lit(0.26666666666666666) * t60), t111));
+    let t113 = T::lit(0.4472135954999579).fma(t26, T::lit(0.4472135954999579).fnma(t7, t96));
+    let t114 = w[13].fma(t113.fms(t113.fms(t113, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t113), t112);
+    let t115 = T::lit(0.4472135954999579).fma(t101, T::lit(0.4472135954999579).fnma(t99, t100));
+    let t116 = w[14].fma(t115.fms(t115.fms(t115, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t115), t114);
+    let t117 = v[12].times_fma(w[15].fma(t62.fms(t63, T::lit(0.26666666666666666) * t62), t116), v[11].times_fma(w[15].fma(t38.fms(t39, T::lit(0.26666666666666666) * t38), t110), t104));
+    let t118 = T::lit(0.5) * t48;
+    let t119 = T::lit(0.8660254037844386).fma(t47, t118);
+    let t120 = w[10] * t119.fms(t119.fms(t119, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t119);
+    let t121 = w[9].fma(t15.fms(t15.fms(t15, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t15), t120);
+    let t122 = T::lit(0.5) * t34;
+    let t123 = T::lit(0.8660254037844386).fma(t32, t122);
+    let t124 = w[11].fma(t123.fms(t123.fms(t123, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t123), t121);
+    let t125 = T::lit(0.5) * t42;
+    let t126 = T::lit(0.8660254037844386).fma(t41, t125);
+    let t127 = w[12].fma(t126.fms(t126.fms(t126, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t126), t124);
+    let t128 = w[13].fma(t14.fms(t14.fms(t14, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t14), t127);
+    let t129 = T::lit(0.5) * t92;
+    let t130 = T::lit(0.8660254037844386).fma(t99, t129);
+    let t131 = w[14].fma(t130.fms(t130.fms(t130, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t130), t128);
+    let t132 = w[15].fma(t21.fms(t21.fms(t21, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t21), t131);
+    let t133 = T::lit(0.8660254037844386).fnma(t5, t11);
+    let t134 = T::lit(0.8660254037844386).fnma(t47, t118);
+    let t135 = w[10] * t134.fms(t134.fms(t134, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t134);
+    let t136 = w[9].fma(t133.fms(t133.fms(t133, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t133), t135);
+    let t137 = T::lit(0.8660254037844386).fnma(t32, t122);
+    let t138 = w[11].fma(t137.fms(t137.fms(t137, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t137), t136);
+    let t139 = T::lit(0.8660254037844386).fnma(t41, t125);
+    let t140 = w[12].fma(t139.fms(t139.fms(t139, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t139), t138);
+    let t141 = T::lit(0.8660254037844386).fnma(t7, t13);
+    let t142 = w[13].fma(t141.fms(t141.fms(t141, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t141), t140);
+    let t143 = T::lit(0.8660254037844386).fnma(t99, t129);
+    let t144 = w[14].fma(t143.fms(t143.fms(t143, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t143), t142);
+    let t145 = T::lit(0.8660254037844386).fnma(t17, t20);
+    let t146 = w[15].fma(t145.fms(t145.fms(t145, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t145), t144);
+    let t147 = w[9].fma(t24.fms(t58, T::lit(0.26666666666666666) * t24), w[10] * t46.fms(t57, T::lit(0.26666666666666666) * t46));
+    let t148 = w[12].fma(t40.fms(t56, T::lit(0.26666666666666666) * t40), w[11].fma(t29.fms(t54, T::lit(0.26666666666666666) * t29), t147));
+    let t149 = w[13].fma(t26.fms(t26.fms(t26, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t26), t148);
+    let t150 = w[14].fma(t101.fms(t101.fms(t101, T::lit(0.3333333333333333)), T::lit(0.26666666666666666) * t101), t149);
+    let t151 = v[15].times_fma(w[15].fma(t27.fms(t55, T::lit(0.26666666666666666) * t27), t150), v[14].times_fma(t146, v[13].times_fma(t132, t117)));
+    t151.fma(T::lit(2.5), t88)
 }
 
 /// [`zhf_dot_lobes`] of three channels that share the parameters, as plain arrays.
@@ -4065,124 +4067,127 @@ pub fn product<T: Real, V: Signal<T>>(a: &[V; 16], b: &[V; 16]) -> [V; 16] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
-    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
+    let t3 = b[2].times_fma(a[6].fma(T::lit(0.252313252202016), t0), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)));
     let t4 = a[1].times(b[1]);
-    let t5 = t4 + a[3].times(b[3]);
+    let t5 = a[3].times_fma(b[3], t4);
     let t6 = a[4] * T::lit(0.2185096861184158);
     let t7 = a[6].fnma(T::lit(0.126156626101008), t0);
     let t8 = b[4] * T::lit(0.2185096861184158);
     let t9 = b[6].fnma(T::lit(0.126156626101008), t1);
-    let t10 = b[1].times(t6) + b[3].times(a[8].fma(T::lit(0.2185096861184158), t7)) + a[3].times(b[8].fma(T::lit(0.2185096861184158), t9));
-    let t11 = b[1].times(a[8].fnma(T::lit(0.2185096861184158), t7)) + b[3].times(t6) + a[3].times(t8) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t9));
-    let t12 = a[5].times(b[1]) + a[7].times(b[3]) + a[3].times(b[7]) + a[1].times(b[5]);
+    let t10 = a[3].times_fma(b[8].fma(T::lit(0.2185096861184158), t9), b[3].times_fma(a[8].fma(T::lit(0.2185096861184158), t7), b[1].times(t6)));
+    let t11 = a[3].times_fma(t8, b[3].times_fma(t6, b[1].times(a[8].fnma(T::lit(0.2185096861184158), t7))));
+    let t12 = a[1].times_fma(b[5], a[3].times_fma(b[7], a[7].times_fma(b[3], a[5].times(b[1]))));
     let t13 = a[2].fms(T::lit(0.2185096861184158), a[12] * T::lit(0.14304816810266882));
     let t14 = b[2].fms(T::lit(0.2185096861184158), b[12] * T::lit(0.14304816810266882));
-    let t15 = (a[11].times(b[1]) + a[13].times(b[3]) + a[3].times(b[13]) + a[1].times(b[11])).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t5 * T::lit(0.126156626101008)));
-    let t16 = a[6] * T::lit(0.20230065940342062);
-    let t17 = b[6] * T::lit(0.20230065940342062);
-    let t18 = t10 + a[1].times(t8) + b[7].times(t13) + a[7].times(t14) + b[13].times(t16) + a[13].times(t17);
-    let t19 = a[6].times(b[6]);
-    let t20 = a[6].times(b[12]) + a[12].times(b[6]);
-    let t21 = a[2].fma(T::lit(0.24776669508347607), a[12] * T::lit(0.084104417400672));
-    let t22 = t19.fma(T::lit(0.18022375157286857), t15) + b[6].times(t0) + a[6].times(t1) + b[12].times(t21);
-    let t23 = b[2].fma(T::lit(0.24776669508347607), b[12] * T::lit(0.084104417400672));
-    let t24 = t12.fnma(T::lit(0.14304816810266882), t20 * T::lit(0.084104417400672)) + b[6].times(t21) + a[6].times(t23);
-    let t25 = a[5].times(b[5]);
-    let t26 = t25 + a[7].times(b[7]);
-    let t27 = (a[3].times(b[3]) - t4).fma(T::lit(0.2185096861184158), (a[7].times(b[7]) - t25) * T::lit(0.15607834722743988));
-    let t28 = (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), (a[5].times(b[7]) + a[7].times(b[5])) * T::lit(0.15607834722743988));
-    let t29 = a[4] * T::lit(0.15607834722743988);
-    let t30 = a[6].fma(T::lit(0.09011187578643429), t0);
-    let t31 = a[3].times(t14) + b[3].times(t13) + b[7].times(a[8].fma(T::lit(0.15607834722743988), t30));
-    let t32 = a[1].times(t14) + b[1].times(t13) + b[7].times(t29) + b[5].times(a[8].fnma(T::lit(0.15607834722743988), t30));
-    let t33 = b[4] * T::lit(0.15607834722743988);
-    let t34 = b[6].fma(T::lit(0.09011187578643429), t1);
-    let t35 = t31 + b[5].times(t29) + a[7].times(b[8].fma(T::lit(0.15607834722743988), t34)) + a[5].times(t33);
-    let t36 = a[11].times(b[5]) + a[13].times(b[7]) + a[7].times(b[13]) + a[5].times(b[11]);
-    let t37 = t36.fma(T::lit(0.2335966803276074), t20.fma(T::lit(0.24776669508347607), t12.fma(T::lit(0.2185096861184158), t3)));
-    let t38 = a[2].fma(T::lit(0.2335966803276074), a[12] * T::lit(0.059470803871759036));
-    let t39 = t32 + a[7].times(t33) + a[5].times(b[8].fnma(T::lit(0.15607834722743988), t34)) + b[11].times(t38);
-    let t40 = b[2].fma(T::lit(0.2335966803276074), b[12] * T::lit(0.059470803871759036));
-    let t41 = a[7].times(b[14]) + a[14].times(b[7]);
-    let t42 = a[5].times(b[10]) + a[10].times(b[5]);
-    let t43 = a[5].times(b[14]) + a[14].times(b[5]);
-    let t44 = a[7].times(b[10]) + a[10].times(b[7]);
-    let t45 = t41 + t42;
-    let t46 = t44 - t43;
-    let t47 = t46.fma(T::lit(0.1846743909223718), t11 + b[5].times(t13) + a[5].times(t14) + b[11].times(t16) + a[11].times(t17));
-    let t48 = t45.fma(T::lit(0.11516471649044516), a[3].times(t17) + b[3].times(t16) + b[7].times(t38) + a[7].times(t40));
-    let t49 = t46.fma(T::lit(0.11516471649044516), a[1].times(t17) + b[1].times(t16) + b[5].times(t38) + a[5].times(t40));
+    let t15 = a[5].times_fma(t14, b[5].times_fma(t13, a[1].times_fma(b[8].fnma(T::lit(0.2185096861184158), t9), t11)));
+    let t16 = a[1].times_fma(b[11], a[3].times_fma(b[13], a[13].times_fma(b[3], a[11].times(b[1])))).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t5 * T::lit(0.126156626101008)));
+    let t17 = a[6] * T::lit(0.20230065940342062);
+    let t18 = b[6] * T::lit(0.20230065940342062);
+    let t19 = a[13].times_fma(t18, b[13].times_fma(t17, a[7].times_fma(t14, b[7].times_fma(t13, a[1].times_fma(t8, t10)))));
+    let t20 = a[6].times(b[6]);
+    let t21 = a[12].times_fma(b[6], a[6].times(b[12]));
+    let t22 = a[2].fma(T::lit(0.24776669508347607), a[12] * T::lit(0.084104417400672));
+    let t23 = b[6].times_fma(t22, t12.fnma(T::lit(0.14304816810266882), t21 * T::lit(0.084104417400672)));
+    let t24 = b[12].times_fma(t22, a[6].times_fma(t1, b[6].times_fma(t0, t20.fma(T::lit(0.18022375157286857), t16))));
+    let t25 = b[2].fma(T::lit(0.24776669508347607), b[12] * T::lit(0.084104417400672));
+    let t26 = a[5].times(b[5]);
+    let t27 = a[7].times_fma(b[7], t26);
+    let t28 = a[3].times_fms(b[3], t4).fma(T::lit(0.2185096861184158), a[7].times_fms(b[7], t26) * T::lit(0.15607834722743988));
+    let t29 = a[3].times_fma(b[1], a[1].times(b[3])).fma(T::lit(0.2185096861184158), a[7].times_fma(b[5], a[5].times(b[7])) * T::lit(0.15607834722743988));
+    let t30 = a[4] * T::lit(0.15607834722743988);
+    let t31 = a[6].fma(T::lit(0.09011187578643429), t0);
+    let t32 = b[7].times_fma(a[8].fma(T::lit(0.15607834722743988), t31), b[3].times_fma(t13, a[3].times(t14)));
+    let t33 = b[5].times_fma(a[8].fnma(T::lit(0.15607834722743988), t31), b[7].times_fma(t30, b[1].times_fma(t13, a[1].times(t14))));
+    let t34 = b[4] * T::lit(0.15607834722743988);
+    let t35 = b[6].fma(T::lit(0.09011187578643429), t1);
+    let t36 = a[5].times_fma(t34, a[7].times_fma(b[8].fma(T::lit(0.15607834722743988), t35), b[5].times_fma(t30, t32)));
+    let t37 = a[5].times_fma(b[11], a[7].times_fma(b[13], a[13].times_fma(b[7], a[11].times(b[5]))));
+    let t38 = t37.fma(T::lit(0.2335966803276074), t21.fma(T::lit(0.24776669508347607), t12.fma(T::lit(0.2185096861184158), t3)));
+    let t39 = a[2].fma(T::lit(0.2335966803276074), a[12] * T::lit(0.059470803871759036));
+    let t40 = b[11].times_fma(t39, a[5].times_fma(b[8].fnma(T::lit(0.15607834722743988), t35), a[7].times_fma(t34, t33)));
+    let t41 = b[2].fma(T::lit(0.2335966803276074), b[12] * T::lit(0.059470803871759036));
+    let t42 = a[14].times_fma(b[7], a[7].times(b[14]));
+    let t43 = a[10].times_fma(b[5], a[5].times(b[10]));
+    let t44 = a[14].times_fma(b[5], a[5].times(b[14]));
+    let t45 = a[10].times_fma(b[7], a[7].times(b[10]));
+    let t46 = t42 + t43;
+    let t47 = t45 - t44;
+    let t48 = t46.fma(T::lit(0.11516471649044516), a[7].times_fma(t41, b[7].times_fma(t39, b[3].times_fma(t17, a[3].times(t18)))));
+    let t49 = t47.fma(T::lit(0.11516471649044516), a[5].times_fma(t41, b[5].times_fma(t39, b[1].times_fma(t17, a[1].times(t18)))));
     let t50 = a[3].fma(T::lit(0.1846743909223718), a[13] * T::lit(0.11516471649044516));
     let t51 = a[1].fma(T::lit(0.1846743909223718), a[11] * T::lit(0.11516471649044516));
     let t52 = a[15].fma(T::lit(0.1486770096793976), t50);
     let t53 = a[15].fnma(T::lit(0.1486770096793976), t50);
     let t54 = a[9].fma(T::lit(0.1486770096793976), t51);
     let t55 = a[9].fms(T::lit(0.1486770096793976), t51);
-    let t56 = b[3].fma(T::lit(0.1846743909223718), b[13] * T::lit(0.11516471649044516));
-    let t57 = b[1].fma(T::lit(0.1846743909223718), b[11] * T::lit(0.11516471649044516));
-    let t58 = b[15].fma(T::lit(0.1486770096793976), t56);
-    let t59 = b[15].fnma(T::lit(0.1486770096793976), t56);
-    let t60 = b[9].fma(T::lit(0.1486770096793976), t57);
-    let t61 = b[9].fms(T::lit(0.1486770096793976), t57);
-    let t62 = t35 + b[13].times(t38) + a[13].times(t40) + b[14].times(t52) + b[10].times(t54) + a[14].times(t58);
-    let t63 = t39 + a[11].times(t40) + b[14].times(t55) + b[10].times(t53) + a[14].times(t61) + a[10].times(t59);
-    let t64 = a[4].times(b[4]) + a[8].times(b[8]);
-    let t65 = t64.fnma(T::lit(0.18022375157286857), t26.fma(T::lit(0.09011187578643429), t22 + a[12].times(t23)));
+    let t56 = b[10].times_fma(t54, b[14].times_fma(t52, a[13].times_fma(t41, b[13].times_fma(t39, t36))));
+    let t57 = b[3].fma(T::lit(0.1846743909223718), b[13] * T::lit(0.11516471649044516));
+    let t58 = b[1].fma(T::lit(0.1846743909223718), b[11] * T::lit(0.11516471649044516));
+    let t59 = b[15].fma(T::lit(0.1486770096793976), t57);
+    let t60 = b[15].fnma(T::lit(0.1486770096793976), t57);
+    let t61 = b[9].fma(T::lit(0.1486770096793976), t58);
+    let t62 = b[9].fms(T::lit(0.1486770096793976), t58);
+    let t63 = a[14].times_fma(t62, b[10].times_fma(t53, b[14].times_fma(t55, a[11].times_fma(t41, t40))));
+    let t64 = a[8].times_fma(b[8], a[4].times(b[4]));
+    let t65 = t64.fnma(T::lit(0.18022375157286857), t27.fma(T::lit(0.09011187578643429), a[12].times_fma(t25, t24)));
     let t66 = a[6].fnma(T::lit(0.18022375157286857), t0);
     let t67 = b[6].fnma(T::lit(0.18022375157286857), t1);
-    let t68 = a[10].times(b[4]) + a[14].times(b[8]) + a[8].times(b[14]) + a[4].times(b[10]);
-    let t69 = a[2].fms(T::lit(0.1846743909223718), a[12] * T::lit(0.18806319451591877));
-    let t70 = b[2].fms(T::lit(0.1846743909223718), b[12] * T::lit(0.18806319451591877));
-    let t71 = b[5].times(t55) + b[7].times(t52) + a[7].times(t58) + a[5].times(t61) + b[8].times(t69) + a[8].times(t70);
-    let t72 = b[5].times(t53) + b[7].times(t54) + a[7].times(t60) + a[5].times(t59) + b[4].times(t69) + a[4].times(t70);
-    let t73 = a[9].times(b[4]) + a[15].times(b[8]) + a[8].times(b[15]) + a[4].times(b[9]);
-    let t74 = a[9].times(b[8]) - a[15].times(b[4]) - a[4].times(b[15]) + a[8].times(b[9]);
-    let t75 = a[3].fms(T::lit(0.22617901315954028), a[13] * T::lit(0.09403159725795938));
-    let t76 = a[1].fms(T::lit(0.22617901315954028), a[11] * T::lit(0.09403159725795938));
-    let t77 = t27 + b[8].times(t66) + a[8].times(t67) + b[14].times(t69) + a[14].times(t70) + b[15].times(t75);
-    let t78 = t28 + b[4].times(t66) + a[4].times(t67) + b[10].times(t69) + a[10].times(t70) - b[15].times(t76);
-    let t79 = b[3].fms(T::lit(0.22617901315954028), b[13] * T::lit(0.09403159725795938));
-    let t80 = b[1].fms(T::lit(0.22617901315954028), b[11] * T::lit(0.09403159725795938));
-    let t81 = (t41 - t42).fma(T::lit(0.1486770096793976), b[8].times(t75)) - b[4].times(t76) + a[8].times(t79);
-    let t82 = (t43 + t44).fma(T::lit(0.1486770096793976), b[8].times(t76)) + b[4].times(t75) + a[8].times(t80);
-    let t83 = t68.fnma(T::lit(0.18806319451591877), t36.fma(T::lit(0.059470803871759036), t24)) + b[12].times(t0);
-    let t84 = a[4].times(b[11]) + a[8].times(b[13]) + a[13].times(b[8]) + a[11].times(b[4]);
-    let t85 = a[4].times(b[13]) - a[8].times(b[11]) - a[11].times(b[8]) + a[13].times(b[4]);
-    let t86 = t84.fnma(T::lit(0.05839917008190185), t73.fma(T::lit(0.22617901315954028), t45.fma(T::lit(0.1846743909223718), t18)));
-    let t87 = a[3].fnma(T::lit(0.05839917008190185), a[13] * T::lit(0.07283656203947193));
-    let t88 = a[1].fnma(T::lit(0.05839917008190185), a[11] * T::lit(0.07283656203947193));
-    let t89 = t77 + b[9].times(t76) + a[15].times(t79) + a[9].times(t80) + b[13].times(t87) - b[11].times(t88);
-    let t90 = t78 + b[9].times(t75) - a[15].times(t80) + a[9].times(t79) + b[13].times(t88) + b[11].times(t87);
-    let t91 = t84.fma(T::lit(0.07283656203947193), t73.fnma(T::lit(0.09403159725795938), t48)) + b[8].times(t87);
-    let t92 = t85.fma(T::lit(0.07283656203947193), t74.fnma(T::lit(0.09403159725795938), t49)) - b[8].times(t88);
-    let t93 = b[3].fnma(T::lit(0.05839917008190185), b[13] * T::lit(0.07283656203947193));
-    let t94 = b[1].fnma(T::lit(0.05839917008190185), b[11] * T::lit(0.07283656203947193));
-    let t95 = a[11].times(b[11]) + a[13].times(b[13]);
-    let t96 = a[6].fma(T::lit(0.126156626101008), t0);
-    let t97 = b[6].fma(T::lit(0.126156626101008), t1);
-    let t98 = t91 + b[4].times(t88) + a[8].times(t93) + a[4].times(t94) + b[13].times(t96) + a[13].times(t97);
-    let t99 = t92 + b[4].times(t87) - a[8].times(t94) + a[4].times(t93) + b[11].times(t96) + a[11].times(t97);
-    let t100 = t2 + a[0].times(b[0]) + t5 + t19 + t26 + t64 + a[12].times(b[12]) + t95 + a[14].times(b[14]);
-    let t101 = a[9].times(b[9]) + a[15].times(b[15]);
-    let t102 = a[6].fnma(T::lit(0.21026104350168), t0);
-    let t103 = b[6].fnma(T::lit(0.21026104350168), t1);
+    let t68 = a[4].times_fma(b[10], a[8].times_fma(b[14], a[14].times_fma(b[8], a[10].times(b[4]))));
+    let t69 = t68.fnma(T::lit(0.18806319451591877), t37.fma(T::lit(0.059470803871759036), a[6].times_fma(t25, t23)));
+    let t70 = a[2].fms(T::lit(0.1846743909223718), a[12] * T::lit(0.18806319451591877));
+    let t71 = b[8].times_fma(t70, a[5].times_fma(t62, a[7].times_fma(t59, b[7].times_fma(t52, b[5].times(t55)))));
+    let t72 = b[4].times_fma(t70, a[5].times_fma(t60, a[7].times_fma(t61, b[7].times_fma(t54, b[5].times(t53)))));
+    let t73 = b[2].fms(T::lit(0.1846743909223718), b[12] * T::lit(0.18806319451591877));
+    let t74 = a[14].times_fma(t73, b[14].times_fma(t70, a[8].times_fma(t67, b[8].times_fma(t66, t28))));
+    let t75 = a[10].times_fma(t73, b[10].times_fma(t70, a[4].times_fma(t67, b[4].times_fma(t66, t29))));
+    let t76 = a[4].times_fma(b[9], a[8].times_fma(b[15], a[15].times_fma(b[8], a[9].times(b[4]))));
+    let t77 = a[8].times_fma(b[9], a[4].times_fnma(b[15], a[15].times_fnma(b[4], a[9].times(b[8]))));
+    let t78 = t77.fma(T::lit(0.22617901315954028), t47.fma(T::lit(0.1846743909223718), a[11].times_fma(t18, b[11].times_fma(t17, t15))));
+    let t79 = a[3].fms(T::lit(0.22617901315954028), a[13] * T::lit(0.09403159725795938));
+    let t80 = a[1].fms(T::lit(0.22617901315954028), a[11] * T::lit(0.09403159725795938));
+    let t81 = b[3].fms(T::lit(0.22617901315954028), b[13] * T::lit(0.09403159725795938));
+    let t82 = b[1].fms(T::lit(0.22617901315954028), b[11] * T::lit(0.09403159725795938));
+    let t83 = a[8].times_fma(t81, b[4].times_fnma(t80, (t42 - t43).fma(T::lit(0.1486770096793976), b[8].times(t79))));
+    let t84 = a[8].times_fma(t82, b[4].times_fma(t79, (t44 + t45).fma(T::lit(0.1486770096793976), b[8].times(t80))));
+    let t85 = a[9].times_fma(t82, a[15].times_fma(t81, b[9].times_fma(t80, b[15].times_fma(t79, t74))));
+    let t86 = a[9].times_fma(t81, a[15].times_fnma(t82, b[9].times_fma(t79, b[15].times_fnma(t80, t75))));
+    let t87 = a[11].times_fma(b[4], a[13].times_fma(b[8], a[8].times_fma(b[13], a[4].times(b[11]))));
+    let t88 = a[13].times_fma(b[4], a[11].times_fnma(b[8], a[8].times_fnma(b[11], a[4].times(b[13]))));
+    let t89 = t87.fnma(T::lit(0.05839917008190185), t76.fma(T::lit(0.22617901315954028), t46.fma(T::lit(0.1846743909223718), t19)));
+    let t90 = a[3].fnma(T::lit(0.05839917008190185), a[13] * T::lit(0.07283656203947193));
+    let t91 = a[1].fnma(T::lit(0.05839917008190185), a[11] * T::lit(0.07283656203947193));
+    let t92 = b[8].times_fma(t90, t87.fma(T::lit(0.07283656203947193), t76.fnma(T::lit(0.09403159725795938), t48)));
+    let t93 = b[8].times_fnma(t91, t88.fma(T::lit(0.07283656203947193), t77.fnma(T::lit(0.09403159725795938), t49)));
+    let t94 = b[3].fnma(T::lit(0.05839917008190185), b[13] * T::lit(0.07283656203947193));
+    let t95 = b[1].fnma(T::lit(0.05839917008190185), b[11] * T::lit(0.07283656203947193));
+    let t96 = a[11].times_fnma(t95, a[13].times_fma(t94, b[11].times_fnma(t91, b[13].times_fma(t90, t85))));
+    let t97 = a[11].times_fma(t94, a[13].times_fma(t95, b[11].times_fma(t90, b[13].times_fma(t91, t86))));
+    let t98 = a[13].times_fma(b[13], a[11].times(b[11]));
+    let t99 = a[6].fma(T::lit(0.126156626101008), t0);
+    let t100 = b[11].times_fma(t99, a[4].times_fma(t94, a[8].times_fnma(t95, b[4].times_fma(t90, t93))));
+    let t101 = b[6].fma(T::lit(0.126156626101008), t1);
+    let t102 = a[13].times_fma(t101, b[13].times_fma(t99, a[4].times_fma(t95, a[8].times_fma(t94, b[4].times_fma(t91, t92)))));
+    let t103 = a[14].times_fma(b[14], a[12].times_fma(b[12], a[0].times_fma(b[0], t2) + t5 + t20 + t27 + t64) + t98);
+    let t104 = a[15].times_fma(b[15], a[9].times(b[9]));
+    let t105 = a[6].fnma(T::lit(0.21026104350168), t0);
+    let t106 = b[6].fnma(T::lit(0.21026104350168), t1);
     [
-        (t100 + a[10].times(b[10]) + t101) * T::lit(0.28209479177387814),
-        t85.fnma(T::lit(0.05839917008190185), t74.fma(T::lit(0.22617901315954028), t47)),
-        t68.fma(T::lit(0.1846743909223718), t37),
-        t86,
-        t90 + a[13].times(t94) + a[11].times(t93),
-        t63,
-        t101.fnma(T::lit(0.21026104350168), t95.fma(T::lit(0.126156626101008), t65)),
-        t62 + a[10].times(t60),
-        t89 + a[13].times(t93) - a[11].times(t94),
-        t82 + a[4].times(t79) + b[9].times(t102) + a[9].times(t103),
-        t72 + b[10].times(t0) + a[10].times(t1),
-        t99,
-        t83 + a[12].times(t1),
-        t98,
-        t71 + b[14].times(t0) + a[14].times(t1),
-        t81 - a[4].times(t80) + b[15].times(t102) + a[15].times(t103),
+        (a[10].times_fma(b[10], t103) + t104) * T::lit(0.28209479177387814),
+        t88.fnma(T::lit(0.05839917008190185), t78),
+        t68.fma(T::lit(0.1846743909223718), t38),
+        t89,
+        t97,
+        a[10].times_fma(t60, t63),
+        t104.fnma(T::lit(0.21026104350168), t98.fma(T::lit(0.126156626101008), t65)),
+        a[10].times_fma(t61, a[14].times_fma(t59, t56)),
+        t96,
+        a[9].times_fma(t106, b[9].times_fma(t105, a[4].times_fma(t81, t84))),
+        a[10].times_fma(t1, b[10].times_fma(t0, a[4].times_fma(t73, t72))),
+        a[11].times_fma(t101, t100),
+        a[12].times_fma(t1, b[12].times_fma(t0, t69)),
+        t102,
+        a[14].times_fma(t1, b[14].times_fma(t0, a[8].times_fma(t73, t71))),
+        a[15].times_fma(t106, b[15].times_fma(t105, a[4].times_fnma(t82, t83))),
     ]
 }
 
@@ -4208,47 +4213,51 @@ pub fn of_sh2_and_sh4_product<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 16]) ->
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
     let t3 = a[1].times(b[1]);
-    let t4 = t3 + a[3].times(b[3]);
+    let t4 = a[3].times_fma(b[3], t3);
     let t5 = b[4] * T::lit(0.2185096861184158);
     let t6 = b[6].fnma(T::lit(0.126156626101008), t1);
-    let t7 = a[1].times(b[5]) + a[3].times(b[7]);
-    let t8 = t7.fma(T::lit(0.2185096861184158), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(t0));
-    let t9 = a[2] * T::lit(0.2185096861184158);
-    let t10 = a[3].times(b[8].fma(T::lit(0.2185096861184158), t6)) + b[3].times(t0) + a[1].times(t5) + b[7].times(t9);
-    let t11 = a[3].times(t5) + b[1].times(t0) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t6)) + b[5].times(t9);
+    let t7 = a[1].times_fma(t5, b[3].times_fma(t0, a[3].times(b[8].fma(T::lit(0.2185096861184158), t6))));
+    let t8 = a[1].times_fma(b[8].fnma(T::lit(0.2185096861184158), t6), b[1].times_fma(t0, a[3].times(t5)));
+    let t9 = a[3].times_fma(b[7], a[1].times(b[5]));
+    let t10 = t9.fma(T::lit(0.2185096861184158), b[2].times_fma(t0, a[2].times(b[6].fma(T::lit(0.252313252202016), t1))));
+    let t11 = a[2] * T::lit(0.2185096861184158);
     let t12 = b[2].fms(T::lit(0.2185096861184158), b[12] * T::lit(0.14304816810266882));
-    let t13 = (a[1].times(b[11]) + a[3].times(b[13])).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t4 * T::lit(0.126156626101008)));
+    let t13 = a[3].times_fma(b[13], a[1].times(b[11])).fma(T::lit(0.20230065940342062), t2.fms(T::lit(0.252313252202016), t4 * T::lit(0.126156626101008)));
     let t14 = b[6] * T::lit(0.20230065940342062);
     let t15 = a[2] * T::lit(0.24776669508347607);
     let t16 = a[2] * T::lit(0.2335966803276074);
     let t17 = a[3] * T::lit(0.1846743909223718);
     let t18 = a[1] * T::lit(0.1846743909223718);
-    let t19 = a[3].times(t12) + b[3].times(t9) + b[7].times(t0) + b[13].times(t16) + b[14].times(t17) + b[10].times(t18);
-    let t20 = a[1].times(t12) + b[1].times(t9) + b[5].times(t0) + b[11].times(t16) - b[14].times(t18) + b[10].times(t17);
+    let t19 = b[14].times_fma(t17, b[13].times_fma(t16, b[7].times_fma(t0, b[3].times_fma(t11, a[3].times(t12)))));
+    let t20 = b[14].times_fnma(t18, b[11].times_fma(t16, b[5].times_fma(t0, b[1].times_fma(t11, a[1].times(t12)))));
     let t21 = a[2] * T::lit(0.1846743909223718);
-    let t22 = (a[3].times(b[3]) - t3).fma(T::lit(0.2185096861184158), b[8].times(t0)) + b[14].times(t21);
-    let t23 = (a[1].times(b[3]) + a[3].times(b[1])).fma(T::lit(0.2185096861184158), b[4].times(t0)) + b[10].times(t21);
+    let t22 = b[14].times_fma(t21, a[3].times_fms(b[3], t3).fma(T::lit(0.2185096861184158), b[8].times(t0)));
+    let t23 = b[10].times_fma(t21, a[3].times_fma(b[1], a[1].times(b[3])).fma(T::lit(0.2185096861184158), b[4].times(t0)));
     let t24 = a[3] * T::lit(0.22617901315954028);
     let t25 = a[1] * T::lit(0.22617901315954028);
     let t26 = a[3] * T::lit(0.05839917008190185);
     let t27 = a[1] * T::lit(0.05839917008190185);
+    let t28 = b[11].times_fma(t27, b[13].times_fnma(t26, b[9].times_fma(t25, b[15].times_fma(t24, t22))));
+    let t29 = b[11].times_fnma(t26, b[13].times_fnma(t27, b[9].times_fma(t24, b[15].times_fnma(t25, t23))));
+    let t30 = b[13].times_fma(t0, b[4].times_fnma(t27, b[8].times_fnma(t26, a[3].times_fma(t14, b[7].times(t16)))));
+    let t31 = b[11].times_fma(t0, b[4].times_fnma(t26, b[8].times_fma(t27, a[1].times_fma(t14, b[5].times(t16)))));
     [
-        (t2 + a[0].times(b[0]) + t4) * T::lit(0.28209479177387814),
-        t11,
-        t8,
+        (a[0].times_fma(b[0], t2) + t4) * T::lit(0.28209479177387814),
+        b[5].times_fma(t11, t8),
         t10,
-        t23 - b[15].times(t25) + b[9].times(t24) - b[13].times(t27) - b[11].times(t26),
-        t20,
-        t13 + b[6].times(t0) + b[12].times(t15),
-        t19,
-        t22 + b[15].times(t24) + b[9].times(t25) - b[13].times(t26) + b[11].times(t27),
-        b[4].times(t24) + b[8].times(t25) + b[9].times(t0),
-        b[5].times(t17) + b[7].times(t18) + b[4].times(t21) + b[10].times(t0),
-        b[5].times(t16) + a[1].times(t14) + b[8].times(t27) - b[4].times(t26) + b[11].times(t0),
-        t7.fnma(T::lit(0.14304816810266882), b[6].times(t15)) + b[12].times(t0),
-        b[7].times(t16) + a[3].times(t14) - b[8].times(t26) - b[4].times(t27) + b[13].times(t0),
-        b[7].times(t17) - b[5].times(t18) + b[8].times(t21) + b[14].times(t0),
-        b[8].times(t24) - b[4].times(t25) + b[15].times(t0),
+        b[7].times_fma(t11, t7),
+        t29,
+        b[10].times_fma(t17, t20),
+        b[12].times_fma(t15, b[6].times_fma(t0, t13)),
+        b[10].times_fma(t18, t19),
+        t28,
+        b[9].times_fma(t0, b[8].times_fma(t25, b[4].times(t24))),
+        b[10].times_fma(t0, b[4].times_fma(t21, b[7].times_fma(t18, b[5].times(t17)))),
+        t31,
+        b[12].times_fma(t0, t9.fnma(T::lit(0.14304816810266882), b[6].times(t15))),
+        t30,
+        b[14].times_fma(t0, b[8].times_fma(t21, b[7].times_fms(t17, b[5].times(t18)))),
+        b[15].times_fma(t0, b[8].times_fms(t24, b[4].times(t25))),
     ]
 }
 
@@ -4272,86 +4281,87 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 16]) -> [V; 16] {
     let t0 = a[0] * T::lit(0.5641895835477563);
     let t1 = a[2].times(a[2]);
     let t2 = a[1].times(a[1]);
-    let t3 = t2 + a[3].times(a[3]);
+    let t3 = a[3].times_fma(a[3], t2);
     let t4 = a[4] * T::lit(0.4370193722368316);
     let t5 = a[6].fnma(T::lit(0.252313252202016), t0);
-    let t6 = a[1].times(a[5]) + a[3].times(a[7]);
+    let t6 = a[3].times_fma(a[7], a[1].times(a[5]));
     let t7 = a[2].fms(T::lit(0.4370193722368316), a[12] * T::lit(0.28609633620533764));
-    let t8 = (a[1].times(a[11]) + a[3].times(a[13])).fma(T::lit(0.40460131880684125), t1.fms(T::lit(0.252313252202016), t3 * T::lit(0.126156626101008)));
-    let t9 = a[6] * T::lit(0.40460131880684125);
-    let t10 = a[1].times(t4) + a[3].times(a[8].fma(T::lit(0.4370193722368316), t5)) + a[7].times(t7) + a[13].times(t9);
-    let t11 = a[1].times(a[8].fnma(T::lit(0.4370193722368316), t5)) + a[3].times(t4) + a[5].times(t7) + a[11].times(t9);
+    let t8 = a[7].times_fma(t7, a[3].times_fma(a[8].fma(T::lit(0.4370193722368316), t5), a[1].times(t4)));
+    let t9 = a[5].times_fma(t7, a[3].times_fma(t4, a[1].times(a[8].fnma(T::lit(0.4370193722368316), t5))));
+    let t10 = a[3].times_fma(a[13], a[1].times(a[11])).fma(T::lit(0.40460131880684125), t1.fms(T::lit(0.252313252202016), t3 * T::lit(0.126156626101008)));
+    let t11 = a[6] * T::lit(0.40460131880684125);
     let t12 = a[6].times(a[6]);
     let t13 = a[6].times(a[12]);
-    let t14 = t13.fma(T::lit(0.49553339016695214), t6 * T::lit(0.4370193722368316) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0)));
+    let t14 = t13.fma(T::lit(0.49553339016695214), a[2].times_fma(a[6].fma(T::lit(0.504626504404032), t0), t6 * T::lit(0.4370193722368316)));
     let t15 = a[2].fma(T::lit(0.49553339016695214), a[12] * T::lit(0.168208834801344));
-    let t16 = a[5].times(a[5]);
-    let t17 = t16 + a[7].times(a[7]);
-    let t18 = (a[3].times(a[3]) - t2).fma(T::lit(0.2185096861184158), (a[7].times(a[7]) - t16) * T::lit(0.15607834722743988));
-    let t19 = a[1].times(a[3]).fma(T::lit(0.4370193722368316), a[5].times(a[7]) * T::lit(0.31215669445487976));
-    let t20 = t17.fma(T::lit(0.09011187578643429), t12.fma(T::lit(0.18022375157286857), t8) + a[6].times(t0) + a[12].times(t15));
-    let t21 = a[4] * T::lit(0.31215669445487976);
-    let t22 = a[6].fma(T::lit(0.18022375157286857), t0);
-    let t23 = a[7].times(a[8].fma(T::lit(0.31215669445487976), t22)) + a[3].times(t7) + a[5].times(t21);
-    let t24 = a[7].times(t21) + a[1].times(t7) + a[5].times(a[8].fnma(T::lit(0.31215669445487976), t22));
-    let t25 = a[5].times(a[11]) + a[7].times(a[13]);
-    let t26 = t25.fma(T::lit(0.11894160774351807), t6.fnma(T::lit(0.28609633620533764), t13 * T::lit(0.168208834801344)) + a[6].times(t15));
+    let t16 = a[6].times_fma(t15, t6.fnma(T::lit(0.28609633620533764), t13 * T::lit(0.168208834801344)));
+    let t17 = a[5].times(a[5]);
+    let t18 = a[7].times_fma(a[7], t17);
+    let t19 = a[3].times_fms(a[3], t2).fma(T::lit(0.2185096861184158), a[7].times_fms(a[7], t17) * T::lit(0.15607834722743988));
+    let t20 = a[1].times(a[3]).fma(T::lit(0.4370193722368316), a[5].times(a[7]) * T::lit(0.31215669445487976));
+    let t21 = t18.fma(T::lit(0.09011187578643429), a[12].times_fma(t15, a[6].times_fma(t0, t12.fma(T::lit(0.18022375157286857), t10))));
+    let t22 = a[4] * T::lit(0.31215669445487976);
+    let t23 = a[6].fma(T::lit(0.18022375157286857), t0);
+    let t24 = a[5].times_fma(t22, a[3].times_fma(t7, a[7].times(a[8].fma(T::lit(0.31215669445487976), t23))));
+    let t25 = a[5].times_fma(a[8].fnma(T::lit(0.31215669445487976), t23), a[1].times_fma(t7, a[7].times(t22)));
+    let t26 = a[7].times_fma(a[13], a[5].times(a[11]));
     let t27 = a[2].fma(T::lit(0.4671933606552148), a[12] * T::lit(0.11894160774351807));
     let t28 = a[5].times(a[10]);
     let t29 = a[7].times(a[10]);
-    let t30 = t28 + a[7].times(a[14]);
-    let t31 = t29 - a[5].times(a[14]);
+    let t30 = a[7].times_fma(a[14], t28);
+    let t31 = a[5].times_fnma(a[14], t29);
     let t32 = a[3].fma(T::lit(0.3693487818447436), a[13] * T::lit(0.23032943298089031));
     let t33 = a[1].fma(T::lit(0.3693487818447436), a[11] * T::lit(0.23032943298089031));
     let t34 = a[15].fma(T::lit(0.2973540193587952), t32);
     let t35 = a[15].fnma(T::lit(0.2973540193587952), t32);
     let t36 = a[9].fma(T::lit(0.2973540193587952), t33);
     let t37 = a[9].fms(T::lit(0.2973540193587952), t33);
-    let t38 = a[4].times(a[4]) + a[8].times(a[8]);
+    let t38 = a[8].times_fma(a[8], a[4].times(a[4]));
     let t39 = a[6].fnma(T::lit(0.36044750314573715), t0);
-    let t40 = a[4].times(a[10]) + a[8].times(a[14]);
+    let t40 = a[8].times_fma(a[14], a[4].times(a[10]));
     let t41 = a[2].fms(T::lit(0.3693487818447436), a[12] * T::lit(0.37612638903183754));
-    let t42 = a[4].times(a[9]) + a[8].times(a[15]);
-    let t43 = a[8].times(a[9]) - a[4].times(a[15]);
-    let t44 = t42.fnma(T::lit(0.18806319451591877), t30.fma(T::lit(0.23032943298089031), a[7].times(t27) + a[3].times(t9)));
-    let t45 = t43.fnma(T::lit(0.18806319451591877), t31.fma(T::lit(0.23032943298089031), a[5].times(t27) + a[1].times(t9)));
-    let t46 = a[3].fms(T::lit(0.45235802631908056), a[13] * T::lit(0.18806319451591877));
-    let t47 = a[1].fms(T::lit(0.45235802631908056), a[11] * T::lit(0.18806319451591877));
-    let t48 = (a[7].times(a[14]) - t28).fma(T::lit(0.2973540193587952), a[8].times(t46)) - a[4].times(t47);
-    let t49 = (t29 + a[5].times(a[14])).fma(T::lit(0.2973540193587952), a[8].times(t47)) + a[4].times(t46);
-    let t50 = a[4].times(a[11]) + a[8].times(a[13]);
-    let t51 = a[4].times(a[13]) - a[8].times(a[11]);
-    let t52 = t50.fnma(T::lit(0.1167983401638037), t42.fma(T::lit(0.45235802631908056), t30.fma(T::lit(0.3693487818447436), t10)));
-    let t53 = t51.fnma(T::lit(0.1167983401638037), t43.fma(T::lit(0.45235802631908056), t31.fma(T::lit(0.3693487818447436), t11)));
-    let t54 = a[3].fnma(T::lit(0.1167983401638037), a[13] * T::lit(0.14567312407894387));
-    let t55 = a[1].fnma(T::lit(0.1167983401638037), a[11] * T::lit(0.14567312407894387));
-    let t56 = t18 + a[8].times(t39) + a[14].times(t41) + a[15].times(t46) + a[9].times(t47) + a[13].times(t54);
-    let t57 = t19 + a[4].times(t39) + a[10].times(t41) - a[15].times(t47) + a[9].times(t46) + a[13].times(t55);
-    let t58 = a[11].times(a[11]) + a[13].times(a[13]);
-    let t59 = a[6].fma(T::lit(0.252313252202016), t0);
-    let t60 = t50.fma(T::lit(0.14567312407894387), t44) + a[8].times(t54) + a[4].times(t55) + a[13].times(t59);
-    let t61 = t51.fma(T::lit(0.14567312407894387), t45) - a[8].times(t55) + a[4].times(t54) + a[11].times(t59);
-    let t62 = t1 + a[0].times(a[0]) + t3 + t12 + t17 + t38 + a[12].times(a[12]) + t58 + a[14].times(a[14]);
-    let t63 = a[9].times(a[9]) + a[15].times(a[15]);
-    let t64 = t63.fnma(T::lit(0.21026104350168), t58.fma(T::lit(0.126156626101008), t38.fnma(T::lit(0.18022375157286857), t20)));
-    let t65 = a[6].fnma(T::lit(0.42052208700336), t0);
+    let t42 = a[8].times_fma(a[15], a[4].times(a[9]));
+    let t43 = a[4].times_fnma(a[15], a[8].times(a[9]));
+    let t44 = t42.fma(T::lit(0.45235802631908056), t30.fma(T::lit(0.3693487818447436), a[13].times_fma(t11, t8)));
+    let t45 = t43.fma(T::lit(0.45235802631908056), t31.fma(T::lit(0.3693487818447436), a[11].times_fma(t11, t9)));
+    let t46 = t42.fnma(T::lit(0.18806319451591877), t30.fma(T::lit(0.23032943298089031), a[3].times_fma(t11, a[7].times(t27))));
+    let t47 = t43.fnma(T::lit(0.18806319451591877), t31.fma(T::lit(0.23032943298089031), a[1].times_fma(t11, a[5].times(t27))));
+    let t48 = a[3].fms(T::lit(0.45235802631908056), a[13] * T::lit(0.18806319451591877));
+    let t49 = a[1].fms(T::lit(0.45235802631908056), a[11] * T::lit(0.18806319451591877));
+    let t50 = a[4].times_fnma(t49, a[7].times_fms(a[14], t28).fma(T::lit(0.2973540193587952), a[8].times(t48)));
+    let t51 = a[4].times_fma(t48, a[5].times_fma(a[14], t29).fma(T::lit(0.2973540193587952), a[8].times(t49)));
+    let t52 = a[9].times_fma(t49, a[15].times_fma(t48, a[14].times_fma(t41, a[8].times_fma(t39, t19))));
+    let t53 = a[9].times_fma(t48, a[15].times_fnma(t49, a[10].times_fma(t41, a[4].times_fma(t39, t20))));
+    let t54 = a[12].times_fma(t0, t40.fnma(T::lit(0.37612638903183754), t26.fma(T::lit(0.11894160774351807), t16)));
+    let t55 = a[8].times_fma(a[13], a[4].times(a[11]));
+    let t56 = a[8].times_fnma(a[11], a[4].times(a[13]));
+    let t57 = a[3].fnma(T::lit(0.1167983401638037), a[13] * T::lit(0.14567312407894387));
+    let t58 = a[1].fnma(T::lit(0.1167983401638037), a[11] * T::lit(0.14567312407894387));
+    let t59 = a[13].times_fma(a[13], a[11].times(a[11]));
+    let t60 = a[6].fma(T::lit(0.252313252202016), t0);
+    let t61 = a[13].times_fma(t60, a[4].times_fma(t58, a[8].times_fma(t57, t55.fma(T::lit(0.14567312407894387), t46))));
+    let t62 = a[11].times_fma(t60, a[4].times_fma(t57, a[8].times_fnma(t58, t56.fma(T::lit(0.14567312407894387), t47))));
+    let t63 = a[14].times_fma(a[14], a[12].times_fma(a[12], a[0].times_fma(a[0], t1) + t3 + t12 + t18 + t38) + t59);
+    let t64 = a[15].times_fma(a[15], a[9].times(a[9]));
+    let t65 = t64.fnma(T::lit(0.21026104350168), t59.fma(T::lit(0.126156626101008), t38.fnma(T::lit(0.18022375157286857), t21)));
+    let t66 = a[6].fnma(T::lit(0.42052208700336), t0);
     [
-        (t62 + a[10].times(a[10]) + t63) * T::lit(0.28209479177387814),
-        t53,
-        t40.fma(T::lit(0.3693487818447436), t25.fma(T::lit(0.4671933606552148), t14)),
-        t52,
-        t57 + a[11].times(t54),
-        t24 + a[11].times(t27) + a[14].times(t37) + a[10].times(t35),
-        t64,
-        t23 + a[13].times(t27) + a[14].times(t34) + a[10].times(t36),
-        t56 - a[11].times(t55),
-        t49 + a[9].times(t65),
-        a[5].times(t35) + a[7].times(t36) + a[4].times(t41) + a[10].times(t0),
+        (a[10].times_fma(a[10], t63) + t64) * T::lit(0.28209479177387814),
+        t56.fnma(T::lit(0.1167983401638037), t45),
+        t40.fma(T::lit(0.3693487818447436), t26.fma(T::lit(0.4671933606552148), t14)),
+        t55.fnma(T::lit(0.1167983401638037), t44),
+        a[11].times_fma(t57, a[13].times_fma(t58, t53)),
+        a[10].times_fma(t35, a[14].times_fma(t37, a[11].times_fma(t27, t25))),
+        t65,
+        a[10].times_fma(t36, a[14].times_fma(t34, a[13].times_fma(t27, t24))),
+        a[11].times_fnma(t58, a[13].times_fma(t57, t52)),
+        a[9].times_fma(t66, t51),
+        a[10].times_fma(t0, a[4].times_fma(t41, a[7].times_fma(t36, a[5].times(t35)))),
+        t62,
+        t54,
         t61,
-        t40.fnma(T::lit(0.37612638903183754), t26) + a[12].times(t0),
-        t60,
-        a[5].times(t37) + a[7].times(t34) + a[8].times(t41) + a[14].times(t0),
-        t48 + a[15].times(t65),
+        a[14].times_fma(t0, a[8].times_fma(t41, a[7].times_fma(t34, a[5].times(t37)))),
+        a[15].times_fma(t66, t50),
     ]
 }
 
@@ -4373,10 +4383,10 @@ pub fn square_rgb<T: Real>(a: &[[T; 3]; 16]) -> [[T; 3]; 16] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 16], b: &[V; 16]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
-    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
-    t2 + a[15].times(b[15])
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    let t2 = a[12].times_fma(b[12], a[11].times_fma(b[11], a[10].times_fma(b[10], a[9].times_fma(b[9], t1))));
+    a[15].times_fma(b[15], a[14].times_fma(b[14], a[13].times_fma(b[13], t2)))
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.
@@ -4837,38 +4847,38 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 4], b: &[V; 16]) -> [V; 16] 
     let t0 = g[0] * T::lit(0.28209479177387814);
     let t1 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t2 = g[2] * T::lit(0.24776669508347607);
-    let t3 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
-    let t4 = g[2].fnma(T::lit(0.126156626101008), t0);
-    let t5 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
-    let t6 = g[2] * T::lit(0.20230065940342062);
-    let t7 = g[2].fma(T::lit(0.09011187578643429), t0);
-    let t8 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
-    let t9 = g[2].fma(T::lit(0.126156626101008), t0);
-    let t10 = g[2].fnma(T::lit(0.18022375157286857), t0);
-    let t11 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
-    let t12 = g[2].fnma(T::lit(0.21026104350168), t0);
-    let t13 = b[0] * T::lit(0.28209479177387814);
-    let t14 = b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + b[12].times(t2) + g[1].times(t13);
-    let t15 = b[6].times(g[2].fma(T::lit(0.18022375157286857), t0)) + b[2].times(t1) + b[12].times(t3) + g[2].times(t13);
-    let t16 = b[6].times(t3) + b[2].times(t2) + b[12].times(g[2].fma(T::lit(0.168208834801344), t0)) + g[3].times(t13);
-    let t17 = (g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6]) + g[3].times(b[12])) * T::lit(0.28209479177387814);
+    let t3 = b[12].times_fma(t2, b[2].times_fma(g[2].fma(T::lit(0.252313252202016), t0), b[6].times(t1)));
+    let t4 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t5 = b[12].times_fma(t4, b[2].times_fma(t1, b[6].times(g[2].fma(T::lit(0.18022375157286857), t0))));
+    let t6 = b[12].times_fma(g[2].fma(T::lit(0.168208834801344), t0), b[2].times_fma(t2, b[6].times(t4)));
+    let t7 = g[2].fnma(T::lit(0.126156626101008), t0);
+    let t8 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t9 = g[2] * T::lit(0.20230065940342062);
+    let t10 = g[2].fma(T::lit(0.09011187578643429), t0);
+    let t11 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t12 = g[2].fma(T::lit(0.126156626101008), t0);
+    let t13 = g[2].fnma(T::lit(0.18022375157286857), t0);
+    let t14 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t15 = g[2].fnma(T::lit(0.21026104350168), t0);
+    let t16 = b[0] * T::lit(0.28209479177387814);
+    let t17 = g[3].times_fma(b[12], g[2].times_fma(b[6], g[0].times_fma(b[0], g[1].times(b[2])))) * T::lit(0.28209479177387814);
     [
         t17,
-        b[5].times(t5) + b[1].times(t4) + b[11].times(t6),
-        t14,
-        b[7].times(t5) + b[3].times(t4) + b[13].times(t6),
-        b[10].times(t11) + b[4].times(t10),
-        b[5].times(t7) + b[1].times(t5) + b[11].times(t8),
-        t15,
-        b[7].times(t7) + b[3].times(t5) + b[13].times(t8),
-        b[14].times(t11) + b[8].times(t10),
-        b[9].times(t12),
-        b[10].times(t0) + b[4].times(t11),
-        b[5].times(t8) + b[1].times(t6) + b[11].times(t9),
-        t16,
-        b[7].times(t8) + b[3].times(t6) + b[13].times(t9),
-        b[14].times(t0) + b[8].times(t11),
-        b[15].times(t12),
+        b[11].times_fma(t9, b[1].times_fma(t7, b[5].times(t8))),
+        g[1].times_fma(t16, t3),
+        b[13].times_fma(t9, b[3].times_fma(t7, b[7].times(t8))),
+        b[4].times_fma(t13, b[10].times(t14)),
+        b[11].times_fma(t11, b[1].times_fma(t8, b[5].times(t10))),
+        g[2].times_fma(t16, t5),
+        b[13].times_fma(t11, b[3].times_fma(t8, b[7].times(t10))),
+        b[8].times_fma(t13, b[14].times(t14)),
+        b[9].times(t15),
+        b[4].times_fma(t14, b[10].times(t0)),
+        b[11].times_fma(t12, b[1].times_fma(t9, b[5].times(t11))),
+        g[3].times_fma(t16, t6),
+        b[13].times_fma(t12, b[3].times_fma(t9, b[7].times(t11))),
+        b[8].times_fma(t14, b[14].times(t0)),
+        b[15].times(t15),
     ]
 }
 
@@ -4950,75 +4960,77 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 4], b: &[
     let t55 = g[0] * T::lit(0.28209479177387814);
     let t56 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t57 = g[2] * T::lit(0.24776669508347607);
-    let t58 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
-    let t59 = g[2].fnma(T::lit(0.126156626101008), t55);
-    let t60 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
-    let t61 = g[2] * T::lit(0.20230065940342062);
-    let t62 = t27.times(t60) + t21.times(t59) + t50.times(t61);
-    let t63 = t31.times(t60) + t19.times(t59) + t54.times(t61);
-    let t64 = g[2].fma(T::lit(0.09011187578643429), t55);
-    let t65 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
-    let t66 = t27.times(t64) + t21.times(t60) + t50.times(t65);
-    let t67 = t31.times(t64) + t19.times(t60) + t54.times(t65);
-    let t68 = g[2].fma(T::lit(0.126156626101008), t55);
-    let t69 = t31.times(t65) + t19.times(t61) + t54.times(t68);
-    let t70 = g[2].fnma(T::lit(0.18022375157286857), t55);
-    let t71 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
-    let t72 = t48.times(t71) + t29.times(t70);
-    let t73 = t52.times(t71) + t32.times(t70);
-    let t74 = t48.times(t55) + t29.times(t71);
-    let t75 = t52.times(t55) + t32.times(t71);
-    let t76 = g[2].fnma(T::lit(0.21026104350168), t55);
-    let t77 = t50.fnma(T::lit(0.12701665379258312), t49).times(t76);
-    let t78 = t53.fnma(T::lit(0.6123724356957945), t37).times(t76);
-    let t79 = b[0] * T::lit(0.28209479177387814);
-    let t80 = t30.times(t56) - t20.times(g[2].fma(T::lit(0.252313252202016), t55)) + t47.times(t57) + g[1].times(t79);
-    let t81 = t30.times(g[2].fma(T::lit(0.18022375157286857), t55)) - t20.times(t56) + t47.times(t58) + g[2].times(t79);
-    let t82 = t30.times(t58) - t20.times(t57) + t47.times(g[2].fma(T::lit(0.168208834801344), t55)) + g[3].times(t79);
-    let t83 = (g[0].times(b[0]) - g[1].times(t20) + g[2].times(t30) + g[3].times(t47)) * T::lit(0.28209479177387814);
-    let t84 = t62.fms(dir[2], t80 * t5);
-    let t85 = t81.fnma(T::lit(1.7320508075688772), t72);
-    let t86 = t66.fma(t9, t85 * t6);
-    let t87 = t85.fma(t8, t66 * t6);
-    let t88 = t72 - t87;
-    let t89 = t67.fma(dir[2], t73 * t5);
-    let t90 = t73.fnma(dir[2], t67 * t5);
-    let t91 = t74.fnma(T::lit(0.3419987131196464), t82);
-    let t92 = t91.fma(T::lit(0.6123724356957945), t74);
-    let t93 = t92.fnma(T::lit(0.3419987131196464), t91);
-    let t94 = t77.fms(T::lit(0.12701665379258312), t27.times(t65) + t21.times(t61) + t50.times(t68));
-    let t95 = t94.fms(T::lit(0.25), t77);
-    let t96 = t95.fnma(T::lit(0.12701665379258312), t94);
-    let t97 = t93.fms(t11, t96 * t12);
-    let t98 = t96.fma(t11, t93 * t12);
-    let t99 = t97.fnma(T::lit(0.3419987131196464), t92.fms(dir[2], t95 * t5));
-    let t100 = t99.fma(T::lit(0.6123724356957945), t97);
-    let t101 = t100.fnma(T::lit(0.3419987131196464), t99);
-    let t102 = t98.fms(T::lit(0.12701665379258312), t95.fma(dir[2], t92 * t5));
-    let t103 = t102.fms(T::lit(0.25), t98);
-    let t104 = t103.fnma(T::lit(0.12701665379258312), t102);
-    let t105 = t78.fnma(T::lit(0.6123724356957945), t69 * T::lit(0.7905694150420949));
-    let t106 = t75.fms(t9, t105 * t10);
-    let t107 = t75.fma(t10, t105.fms(t9, t105));
-    let t108 = t107.fnma(T::lit(0.6123724356957945), t78);
-    let t109 = t107.fma(T::lit(0.7905694150420949), t69);
+    let t58 = t47.times_fma(t57, t20.times_fnma(g[2].fma(T::lit(0.252313252202016), t55), t30.times(t56)));
+    let t59 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t60 = t47.times_fma(t59, t20.times_fnma(t56, t30.times(g[2].fma(T::lit(0.18022375157286857), t55))));
+    let t61 = t47.times_fma(g[2].fma(T::lit(0.168208834801344), t55), t20.times_fnma(t57, t30.times(t59)));
+    let t62 = g[2].fnma(T::lit(0.126156626101008), t55);
+    let t63 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t64 = g[2] * T::lit(0.20230065940342062);
+    let t65 = t50.times_fma(t64, t21.times_fma(t62, t27.times(t63)));
+    let t66 = t54.times_fma(t64, t19.times_fma(t62, t31.times(t63)));
+    let t67 = g[2].fma(T::lit(0.09011187578643429), t55);
+    let t68 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t69 = t50.times_fma(t68, t21.times_fma(t63, t27.times(t67)));
+    let t70 = t54.times_fma(t68, t19.times_fma(t63, t31.times(t67)));
+    let t71 = g[2].fma(T::lit(0.126156626101008), t55);
+    let t72 = t54.times_fma(t71, t19.times_fma(t64, t31.times(t68)));
+    let t73 = g[2].fnma(T::lit(0.18022375157286857), t55);
+    let t74 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t75 = t29.times_fma(t73, t48.times(t74));
+    let t76 = t32.times_fma(t73, t52.times(t74));
+    let t77 = t29.times_fma(t74, t48.times(t55));
+    let t78 = t32.times_fma(t74, t52.times(t55));
+    let t79 = g[2].fnma(T::lit(0.21026104350168), t55);
+    let t80 = t50.fnma(T::lit(0.12701665379258312), t49).times(t79);
+    let t81 = t53.fnma(T::lit(0.6123724356957945), t37).times(t79);
+    let t82 = b[0] * T::lit(0.28209479177387814);
+    let t83 = g[1].times_fma(t82, t58);
+    let t84 = g[2].times_fma(t82, t60);
+    let t85 = g[3].times_fma(t47, g[2].times_fma(t30, g[0].times_fms(b[0], g[1].times(t20)))) * T::lit(0.28209479177387814);
+    let t86 = t65.fms(dir[2], t83 * t5);
+    let t87 = t84.fnma(T::lit(1.7320508075688772), t75);
+    let t88 = t69.fma(t9, t87 * t6);
+    let t89 = t87.fma(t8, t69 * t6);
+    let t90 = t75 - t89;
+    let t91 = t70.fma(dir[2], t76 * t5);
+    let t92 = t76.fnma(dir[2], t70 * t5);
+    let t93 = t77.fnma(T::lit(0.3419987131196464), g[3].times_fma(t82, t61));
+    let t94 = t93.fma(T::lit(0.6123724356957945), t77);
+    let t95 = t94.fnma(T::lit(0.3419987131196464), t93);
+    let t96 = t80.fms(T::lit(0.12701665379258312), t50.times_fma(t71, t21.times_fma(t64, t27.times(t68))));
+    let t97 = t96.fms(T::lit(0.25), t80);
+    let t98 = t97.fnma(T::lit(0.12701665379258312), t96);
+    let t99 = t95.fms(t11, t98 * t12);
+    let t100 = t98.fma(t11, t95 * t12);
+    let t101 = t99.fnma(T::lit(0.3419987131196464), t94.fms(dir[2], t97 * t5));
+    let t102 = t101.fma(T::lit(0.6123724356957945), t99);
+    let t103 = t102.fnma(T::lit(0.3419987131196464), t101);
+    let t104 = t100.fms(T::lit(0.12701665379258312), t97.fma(dir[2], t94 * t5));
+    let t105 = t104.fms(T::lit(0.25), t100);
+    let t106 = t105.fnma(T::lit(0.12701665379258312), t104);
+    let t107 = t81.fnma(T::lit(0.6123724356957945), t72 * T::lit(0.7905694150420949));
+    let t108 = t78.fms(t9, t107 * t10);
+    let t109 = t78.fma(t10, t107.fms(t9, t107));
+    let t110 = t109.fnma(T::lit(0.6123724356957945), t81);
+    let t111 = t109.fma(T::lit(0.7905694150420949), t72);
     [
-        t83,
-        t63.fma(t3, t84 * t4),
-        t80.fma(dir[2], t62 * t5),
-        t84.fms(t3, t63 * t4),
-        t90.fnma(t14, t88 * t15),
-        t89.fma(t3, t86 * t4),
-        t87.fma(T::lit(1.7320508075688772), t81),
-        t86.fms(t3, t89 * t4),
-        t88.fma(t14, t90 * t15),
-        t108.fma(t16, t104 * t17),
-        t106.fma(t14, t101 * t15),
-        t109.fma(t3, t103 * t4),
-        t100,
-        t103.fms(t3, t109 * t4),
-        t101.fms(t14, t106 * t15),
-        t104.fms(t16, t108 * t17),
+        t85,
+        t66.fma(t3, t86 * t4),
+        t83.fma(dir[2], t65 * t5),
+        t86.fms(t3, t66 * t4),
+        t92.fnma(t14, t90 * t15),
+        t91.fma(t3, t88 * t4),
+        t89.fma(T::lit(1.7320508075688772), t84),
+        t88.fms(t3, t91 * t4),
+        t90.fma(t14, t92 * t15),
+        t110.fma(t16, t106 * t17),
+        t108.fma(t14, t103 * t15),
+        t111.fma(t3, t105 * t4),
+        t102,
+        t105.fms(t3, t111 * t4),
+        t103.fms(t14, t108 * t15),
+        t106.fms(t16, t110 * t17),
     ]
 }
 
@@ -5082,75 +5094,77 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 7], g: &[
     let t37 = g[0] * T::lit(0.28209479177387814);
     let t38 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t39 = g[2] * T::lit(0.24776669508347607);
-    let t40 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
-    let t41 = g[2].fnma(T::lit(0.126156626101008), t37);
-    let t42 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
-    let t43 = g[2] * T::lit(0.20230065940342062);
-    let t44 = t9.times(t42) + t3.times(t41) + t32.times(t43);
-    let t45 = t13.times(t42) + t1.times(t41) + t36.times(t43);
-    let t46 = g[2].fma(T::lit(0.09011187578643429), t37);
-    let t47 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
-    let t48 = t9.times(t46) + t3.times(t42) + t32.times(t47);
-    let t49 = t13.times(t46) + t1.times(t42) + t36.times(t47);
-    let t50 = g[2].fma(T::lit(0.126156626101008), t37);
-    let t51 = t13.times(t47) + t1.times(t43) + t36.times(t50);
-    let t52 = g[2].fnma(T::lit(0.18022375157286857), t37);
-    let t53 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
-    let t54 = t30.times(t53) + t11.times(t52);
-    let t55 = t34.times(t53) + t14.times(t52);
-    let t56 = t30.times(t37) + t11.times(t53);
-    let t57 = t34.times(t37) + t14.times(t53);
-    let t58 = g[2].fnma(T::lit(0.21026104350168), t37);
-    let t59 = t32.fnma(T::lit(0.12701665379258312), t31).times(t58);
-    let t60 = t35.fnma(T::lit(0.6123724356957945), t19).times(t58);
-    let t61 = b[0] * T::lit(0.28209479177387814);
-    let t62 = t12.times(t38) - t2.times(g[2].fma(T::lit(0.252313252202016), t37)) + t29.times(t39) + g[1].times(t61);
-    let t63 = t12.times(g[2].fma(T::lit(0.18022375157286857), t37)) - t2.times(t38) + t29.times(t40) + g[2].times(t61);
-    let t64 = t12.times(t40) - t2.times(t39) + t29.times(g[2].fma(T::lit(0.168208834801344), t37)) + g[3].times(t61);
-    let t65 = (g[0].times(b[0]) - g[1].times(t2) + g[2].times(t12) + g[3].times(t29)) * T::lit(0.28209479177387814);
-    let t66 = t44.fms(cs[3][0], t62 * cs[3][1]);
-    let t67 = t63.fnma(T::lit(1.7320508075688772), t54);
-    let t68 = t48.fma(cs[4][0], t67 * cs[6][1]);
-    let t69 = t67.fma(cs[6][0], t48 * cs[6][1]);
-    let t70 = t54 - t69;
-    let t71 = t49.fma(cs[3][0], t55 * cs[3][1]);
-    let t72 = t55.fnma(cs[3][0], t49 * cs[3][1]);
-    let t73 = t56.fnma(T::lit(0.3419987131196464), t64);
-    let t74 = t73.fma(T::lit(0.6123724356957945), t56);
-    let t75 = t74.fnma(T::lit(0.3419987131196464), t73);
-    let t76 = t59.fms(T::lit(0.12701665379258312), t9.times(t47) + t3.times(t43) + t32.times(t50));
-    let t77 = t76.fms(T::lit(0.25), t59);
-    let t78 = t77.fnma(T::lit(0.12701665379258312), t76);
-    let t79 = t75.fms(cs[5][0], t78 * cs[5][1]);
-    let t80 = t78.fma(cs[5][0], t75 * cs[5][1]);
-    let t81 = t79.fnma(T::lit(0.3419987131196464), t74.fms(cs[3][0], t77 * cs[3][1]));
-    let t82 = t81.fma(T::lit(0.6123724356957945), t79);
-    let t83 = t82.fnma(T::lit(0.3419987131196464), t81);
-    let t84 = t80.fms(T::lit(0.12701665379258312), t77.fma(cs[3][0], t74 * cs[3][1]));
-    let t85 = t84.fms(T::lit(0.25), t80);
-    let t86 = t85.fnma(T::lit(0.12701665379258312), t84);
-    let t87 = t60.fnma(T::lit(0.6123724356957945), t51 * T::lit(0.7905694150420949));
-    let t88 = t57.fms(cs[4][0], t87 * cs[4][1]);
-    let t89 = t57.fma(cs[4][1], t87.fms(cs[4][0], t87));
-    let t90 = t89.fnma(T::lit(0.6123724356957945), t60);
-    let t91 = t89.fma(T::lit(0.7905694150420949), t51);
+    let t40 = t29.times_fma(t39, t2.times_fnma(g[2].fma(T::lit(0.252313252202016), t37), t12.times(t38)));
+    let t41 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
+    let t42 = t29.times_fma(t41, t2.times_fnma(t38, t12.times(g[2].fma(T::lit(0.18022375157286857), t37))));
+    let t43 = t29.times_fma(g[2].fma(T::lit(0.168208834801344), t37), t2.times_fnma(t39, t12.times(t41)));
+    let t44 = g[2].fnma(T::lit(0.126156626101008), t37);
+    let t45 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t46 = g[2] * T::lit(0.20230065940342062);
+    let t47 = t32.times_fma(t46, t3.times_fma(t44, t9.times(t45)));
+    let t48 = t36.times_fma(t46, t1.times_fma(t44, t13.times(t45)));
+    let t49 = g[2].fma(T::lit(0.09011187578643429), t37);
+    let t50 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
+    let t51 = t32.times_fma(t50, t3.times_fma(t45, t9.times(t49)));
+    let t52 = t36.times_fma(t50, t1.times_fma(t45, t13.times(t49)));
+    let t53 = g[2].fma(T::lit(0.126156626101008), t37);
+    let t54 = t36.times_fma(t53, t1.times_fma(t46, t13.times(t50)));
+    let t55 = g[2].fnma(T::lit(0.18022375157286857), t37);
+    let t56 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
+    let t57 = t11.times_fma(t55, t30.times(t56));
+    let t58 = t14.times_fma(t55, t34.times(t56));
+    let t59 = t11.times_fma(t56, t30.times(t37));
+    let t60 = t14.times_fma(t56, t34.times(t37));
+    let t61 = g[2].fnma(T::lit(0.21026104350168), t37);
+    let t62 = t32.fnma(T::lit(0.12701665379258312), t31).times(t61);
+    let t63 = t35.fnma(T::lit(0.6123724356957945), t19).times(t61);
+    let t64 = b[0] * T::lit(0.28209479177387814);
+    let t65 = g[1].times_fma(t64, t40);
+    let t66 = g[2].times_fma(t64, t42);
+    let t67 = g[3].times_fma(t29, g[2].times_fma(t12, g[0].times_fms(b[0], g[1].times(t2)))) * T::lit(0.28209479177387814);
+    let t68 = t47.fms(cs[3][0], t65 * cs[3][1]);
+    let t69 = t66.fnma(T::lit(1.7320508075688772), t57);
+    let t70 = t51.fma(cs[4][0], t69 * cs[6][1]);
+    let t71 = t69.fma(cs[6][0], t51 * cs[6][1]);
+    let t72 = t57 - t71;
+    let t73 = t52.fma(cs[3][0], t58 * cs[3][1]);
+    let t74 = t58.fnma(cs[3][0], t52 * cs[3][1]);
+    let t75 = t59.fnma(T::lit(0.3419987131196464), g[3].times_fma(t64, t43));
+    let t76 = t75.fma(T::lit(0.6123724356957945), t59);
+    let t77 = t76.fnma(T::lit(0.3419987131196464), t75);
+    let t78 = t62.fms(T::lit(0.12701665379258312), t32.times_fma(t53, t3.times_fma(t46, t9.times(t50))));
+    let t79 = t78.fms(T::lit(0.25), t62);
+    let t80 = t79.fnma(T::lit(0.12701665379258312), t78);
+    let t81 = t77.fms(cs[5][0], t80 * cs[5][1]);
+    let t82 = t80.fma(cs[5][0], t77 * cs[5][1]);
+    let t83 = t81.fnma(T::lit(0.3419987131196464), t76.fms(cs[3][0], t79 * cs[3][1]));
+    let t84 = t83.fma(T::lit(0.6123724356957945), t81);
+    let t85 = t84.fnma(T::lit(0.3419987131196464), t83);
+    let t86 = t82.fms(T::lit(0.12701665379258312), t79.fma(cs[3][0], t76 * cs[3][1]));
+    let t87 = t86.fms(T::lit(0.25), t82);
+    let t88 = t87.fnma(T::lit(0.12701665379258312), t86);
+    let t89 = t63.fnma(T::lit(0.6123724356957945), t54 * T::lit(0.7905694150420949));
+    let t90 = t60.fms(cs[4][0], t89 * cs[4][1]);
+    let t91 = t60.fma(cs[4][1], t89.fms(cs[4][0], t89));
+    let t92 = t91.fnma(T::lit(0.6123724356957945), t63);
+    let t93 = t91.fma(T::lit(0.7905694150420949), t54);
     [
-        t65,
-        t45.fma(cs[0][0], t66 * cs[0][1]),
-        t62.fma(cs[3][0], t44 * cs[3][1]),
-        t66.fms(cs[0][0], t45 * cs[0][1]),
-        t72.fnma(cs[1][0], t70 * cs[1][1]),
-        t71.fma(cs[0][0], t68 * cs[0][1]),
-        t69.fma(T::lit(1.7320508075688772), t63),
-        t68.fms(cs[0][0], t71 * cs[0][1]),
-        t70.fma(cs[1][0], t72 * cs[1][1]),
-        t90.fma(cs[2][0], t86 * cs[2][1]),
-        t88.fma(cs[1][0], t83 * cs[1][1]),
-        t91.fma(cs[0][0], t85 * cs[0][1]),
-        t82,
-        t85.fms(cs[0][0], t91 * cs[0][1]),
-        t83.fms(cs[1][0], t88 * cs[1][1]),
-        t86.fms(cs[2][0], t90 * cs[2][1]),
+        t67,
+        t48.fma(cs[0][0], t68 * cs[0][1]),
+        t65.fma(cs[3][0], t47 * cs[3][1]),
+        t68.fms(cs[0][0], t48 * cs[0][1]),
+        t74.fnma(cs[1][0], t72 * cs[1][1]),
+        t73.fma(cs[0][0], t70 * cs[0][1]),
+        t71.fma(T::lit(1.7320508075688772), t66),
+        t70.fms(cs[0][0], t73 * cs[0][1]),
+        t72.fma(cs[1][0], t74 * cs[1][1]),
+        t92.fma(cs[2][0], t88 * cs[2][1]),
+        t90.fma(cs[1][0], t85 * cs[1][1]),
+        t93.fma(cs[0][0], t87 * cs[0][1]),
+        t84,
+        t87.fms(cs[0][0], t93 * cs[0][1]),
+        t85.fms(cs[1][0], t90 * cs[1][1]),
+        t88.fms(cs[2][0], t92 * cs[2][1]),
     ]
 }
 
@@ -7279,7 +7293,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t19 = T::lit(0.45994095326994305).fms(t7, T::lit(0.5645161888161033).fma(t3, T::lit(0.6854019200948285) * t6));
     let t20 = T::lit(0.45994095326994305).fms(t13, T::lit(0.5645161888161033).fma(t10, T::lit(0.6854019200948285) * t12));
     let t21 = T::lit(0.45994095326994305).fms(t17, T::lit(0.5645161888161033).fma(t15, T::lit(0.6854019200948285) * t16));
-    let t22 = lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14))) + e[0].times(lambda[0]) + lambda[2].times(e[3].fnma(t21, e[2].fms(t19, e[1] * t20)));
+    let t22 = lambda[2].times_fma(e[3].fnma(t21, e[2].fms(t19, e[1] * t20)), e[0].times_fma(lambda[0], lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14)))));
     let t23 = T::lit(0.9436456201798779).fma(t7, T::lit(0.30882119041694767).fma(t3, T::lit(0.1190059488630426) * t6));
     let t24 = T::lit(0.9436456201798779).fma(t13, T::lit(0.30882119041694767).fma(t10, T::lit(0.1190059488630426) * t12));
     let t25 = T::lit(0.9436456201798779).fma(t17, T::lit(0.30882119041694767).fma(t15, T::lit(0.1190059488630426) * t16));
@@ -7288,7 +7302,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t28 = t8 * t8;
     let t29 = e[7].fnma(t18 * t27, e[6].fma(T::lit(1.5).fms(t28, T::lit(0.5)), e[4].fms(t26, e[5] * (t14 * t27))));
     let t30 = T::lit(0.8660254037844386) * t18.fms(t18, t14 * t14);
-    let t31 = t22 + lambda[3].times(e[3].fnma(t25, e[2].fms(t23, e[1] * t24))) + lambda[4].times(e[8].fma(t30, t29));
+    let t31 = lambda[4].times_fma(e[8].fma(t30, t29), lambda[3].times_fma(e[3].fnma(t25, e[2].fms(t23, e[1] * t24)), t22));
     let t32 = t20 * (T::lit(1.7320508075688772) * t21);
     let t33 = T::lit(1.7320508075688772) * t19;
     let t34 = t19 * t19;
@@ -7307,7 +7321,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t47 = t45 * t45;
     let t48 = e[7].fnma(t43 * t46, e[6].fma(T::lit(1.5).fms(t47, T::lit(0.5)), e[4].fms(t44, e[5] * (t42 * t46))));
     let t49 = T::lit(0.8660254037844386) * t43.fms(t43, t42 * t42);
-    let t50 = t31 + lambda[5].times(e[8].fma(t36, t35)) + lambda[6].times(e[8].fma(t41, t40)) + lambda[7].times(e[8].fma(t49, t48));
+    let t50 = lambda[7].times_fma(e[8].fma(t49, t48), lambda[6].times_fma(e[8].fma(t41, t40), lambda[5].times_fma(e[8].fma(t36, t35), t31)));
     let t51 = T::lit(0.006193130157344622).fms(t13, T::lit(0.9887373364089598).fma(t10, T::lit(0.14953302220502893) * t12));
     let t52 = T::lit(0.006193130157344622).fms(t17, T::lit(0.9887373364089598).fma(t15, T::lit(0.14953302220502893) * t16));
     let t53 = t51 * (T::lit(1.7320508075688772) * t52);
@@ -7321,31 +7335,31 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t61 = T::lit(0.9128709291752769) * t14;
     let t62 = T::lit(3.0618621784789726).fms(t28, T::lit(0.6123724356957945));
     let t63 = e[12].fma(t8 * T::lit(2.5).fms(t28, T::lit(1.5)), e[11].fnma(t14 * t62, e[10].fms(t26 * t59, e[9] * t26.fma(t60, t30 * t61))));
-    let t64 = t50 + lambda[8].times(e[8].fma(t58, t57)) + lambda[9].times(e[15].fma(t26.fms(t61, t30 * t60), e[14].fma(t30 * t59, e[13].fnma(t18 * t62, t63))));
+    let t64 = lambda[9].times_fma(e[15].fma(t26.fms(t61, t30 * t60), e[14].fma(t30 * t59, e[13].fnma(t18 * t62, t63))), lambda[8].times_fma(e[8].fma(t58, t57), t50));
     let t65 = T::lit(2.23606797749979) * t19;
     let t66 = T::lit(0.9128709291752769) * t21;
     let t67 = T::lit(0.9128709291752769) * t20;
     let t68 = T::lit(3.0618621784789726).fms(t34, T::lit(0.6123724356957945));
     let t69 = e[12].fma(t19 * T::lit(2.5).fms(t34, T::lit(1.5)), e[11].fnma(t20 * t68, e[10].fms(t32 * t65, e[9] * t32.fma(t66, t36 * t67))));
-    let t70 = t64 + lambda[10].times(e[15].fma(t32.fms(t67, t36 * t66), e[14].fma(t36 * t65, e[13].fnma(t21 * t68, t69))));
+    let t70 = lambda[10].times_fma(e[15].fma(t32.fms(t67, t36 * t66), e[14].fma(t36 * t65, e[13].fnma(t21 * t68, t69))), t64);
     let t71 = T::lit(2.23606797749979) * t23;
     let t72 = T::lit(0.9128709291752769) * t25;
     let t73 = T::lit(0.9128709291752769) * t24;
     let t74 = T::lit(3.0618621784789726).fms(t39, T::lit(0.6123724356957945));
     let t75 = e[12].fma(t23 * T::lit(2.5).fms(t39, T::lit(1.5)), e[11].fnma(t24 * t74, e[10].fms(t37 * t71, e[9] * t37.fma(t72, t41 * t73))));
-    let t76 = t70 + lambda[11].times(e[15].fma(t37.fms(t73, t41 * t72), e[14].fma(t41 * t71, e[13].fnma(t25 * t74, t75))));
+    let t76 = lambda[11].times_fma(e[15].fma(t37.fms(t73, t41 * t72), e[14].fma(t41 * t71, e[13].fnma(t25 * t74, t75))), t70);
     let t77 = T::lit(2.23606797749979) * t45;
     let t78 = T::lit(0.9128709291752769) * t43;
     let t79 = T::lit(0.9128709291752769) * t42;
     let t80 = T::lit(3.0618621784789726).fms(t47, T::lit(0.6123724356957945));
     let t81 = e[12].fma(t45 * T::lit(2.5).fms(t47, T::lit(1.5)), e[11].fnma(t42 * t80, e[10].fms(t44 * t77, e[9] * t44.fma(t78, t49 * t79))));
-    let t82 = t76 + lambda[12].times(e[15].fma(t44.fms(t79, t49 * t78), e[14].fma(t49 * t77, e[13].fnma(t43 * t80, t81))));
+    let t82 = lambda[12].times_fma(e[15].fma(t44.fms(t79, t49 * t78), e[14].fma(t49 * t77, e[13].fnma(t43 * t80, t81))), t76);
     let t83 = T::lit(2.23606797749979) * t54;
     let t84 = T::lit(0.9128709291752769) * t52;
     let t85 = T::lit(0.9128709291752769) * t51;
     let t86 = T::lit(3.0618621784789726).fms(t56, T::lit(0.6123724356957945));
     let t87 = e[12].fma(t54 * T::lit(2.5).fms(t56, T::lit(1.5)), e[11].fnma(t51 * t86, e[10].fms(t53 * t83, e[9] * t53.fma(t84, t58 * t85))));
-    let t88 = t82 + lambda[13].times(e[15].fma(t53.fms(t85, t58 * t84), e[14].fma(t58 * t83, e[13].fnma(t52 * t86, t87))));
+    let t88 = lambda[13].times_fma(e[15].fma(t53.fms(t85, t58 * t84), e[14].fma(t58 * t83, e[13].fnma(t52 * t86, t87))), t82);
     let t89 = T::lit(0.5776047426685662).fma(t13, T::lit(0.7208175184191847).fma(t10, T::lit(0.3831381818440806) * t12));
     let t90 = T::lit(0.5776047426685662).fma(t17, T::lit(0.7208175184191847).fma(t15, T::lit(0.3831381818440806) * t16));
     let t91 = t89 * (T::lit(1.7320508075688772) * t90);
@@ -7357,7 +7371,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t97 = t92 * t92;
     let t98 = T::lit(3.0618621784789726).fms(t97, T::lit(0.6123724356957945));
     let t99 = e[12].fma(t92 * T::lit(2.5).fms(t97, T::lit(1.5)), e[11].fnma(t89 * t98, e[10].fms(t91 * t93, e[9] * t91.fma(t94, t95 * t96))));
-    let t100 = t88 + lambda[14].times(e[15].fma(t91.fms(t96, t95 * t94), e[14].fma(t95 * t93, e[13].fnma(t90 * t98, t99))));
+    let t100 = lambda[14].times_fma(e[15].fma(t91.fms(t96, t95 * t94), e[14].fma(t95 * t93, e[13].fnma(t90 * t98, t99))), t88);
     let t101 = T::lit(0.8231007047580654).fma(t13, T::lit(0.5576610006460375).fms(t12, T::lit(0.10732864568807442) * t10));
     let t102 = T::lit(0.8231007047580654).fma(t17, T::lit(0.5576610006460375).fms(t16, T::lit(0.10732864568807442) * t15));
     let t103 = t101 * (T::lit(1.7320508075688772) * t102);
@@ -7370,7 +7384,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], lambda: &[V; 16]
     let t110 = T::lit(3.0618621784789726).fms(t109, T::lit(0.6123724356957945));
     let t111 = e[12].fma(t104 * T::lit(2.5).fms(t109, T::lit(1.5)), e[11].fnma(t101 * t110, e[10].fms(t103 * t105, e[9] * t103.fma(t106, t107 * t108))));
     let t112 = e[15].fma(t103.fms(t108, t107 * t106), e[14].fma(t107 * t105, e[13].fnma(t102 * t110, t111)));
-    t100 + lambda[15].times(t112)
+    lambda[15].times_fma(t112, t100)
 }
 
 /// [`isd_shade`] of three channels that share the parameters, as plain arrays.
@@ -7469,7 +7483,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], c: &[V; 16]) -> V {
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[2].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[6].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[6].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[2].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -7496,28 +7510,29 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], c: &[V; 16]) -> V {
     let t48 = t37.fma(t31, t28 * t38);
     let t49 = t48.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t50 = t49.fms(T::lit(0.25), t48);
-    let t51 = e[11].fma(t10, e[13] * t12);
-    let t52 = e[10].fma(t15, e[14] * t17);
-    let t53 = e[9].fma(t32, e[15] * t33);
-    let t54 = t51.fms(T::lit(0.7905694150420949), t53 * T::lit(0.6123724356957945));
-    let t55 = t52.fma(t30, t54.fms(t29, t54));
-    let t56 = t55.fma(T::lit(0.7905694150420949), t51);
-    let t57 = c[1].times(t43) + c[3].times(t42) + c[7].times(t44) + c[5].times(t47) + c[13].times(t50) + c[11].times(t56);
+    let t51 = c[13].times_fma(t50, c[5].times_fma(t47, c[7].times_fma(t44, c[3].times_fma(t42, c[1].times(t43)))));
+    let t52 = e[11].fma(t10, e[13] * t12);
+    let t53 = e[10].fma(t15, e[14] * t17);
+    let t54 = e[9].fma(t32, e[15] * t33);
+    let t55 = t52.fms(T::lit(0.7905694150420949), t54 * T::lit(0.6123724356957945));
+    let t56 = t53.fma(t30, t55.fms(t29, t55));
+    let t57 = t56.fma(T::lit(0.7905694150420949), t52);
     let t58 = t2.fma(t7, t9);
-    let t59 = c[1].times(t42) - c[3].times(t43) - c[7].times(t47) + c[5].times(t44) - c[13].times(t56) + c[11].times(t50);
+    let t59 = c[13].times_fnma(t57, c[5].times_fma(t44, c[7].times_fnma(t47, c[1].times_fms(t42, c[3].times(t43)))));
     let t60 = t2.fms(t8, t11);
-    let t61 = t18 - t23;
-    let t62 = t45.fms(t14, t46 * t4);
-    let t63 = t41.fnma(T::lit(0.3419987131196464), t40);
-    let t64 = t52.fms(t29, t54 * t30);
-    let t65 = t58.fms(t58, t60 * t60);
-    let t66 = t58 * t60;
-    let t67 = t66 + t66;
-    let t68 = (c[8].times(t61) - c[4].times(t62) + c[14].times(t63) + c[10].times(t64)).fma(t65, (c[4].times(t61) + c[8].times(t62) - c[14].times(t64) + c[10].times(t63)) * t67);
-    let t69 = t50.fnma(T::lit(0.12701665379258312), t49);
-    let t70 = t55.fnma(T::lit(0.6123724356957945), t53);
-    let t71 = (c[9].times(t70) + c[15].times(t69)).fma(t58.fms(t65, t60 * t67), (c[9].times(t69) - c[15].times(t70)) * t58.fma(t67, t60 * t65));
-    t24 + c[12].times(t41) + t57.fma(t58, t59 * t60) + t68 + t71
+    let t61 = c[12].times_fma(t41, t24) + c[11].times_fma(t57, t51).fma(t58, c[11].times_fma(t50, t59) * t60);
+    let t62 = t18 - t23;
+    let t63 = t45.fms(t14, t46 * t4);
+    let t64 = t41.fnma(T::lit(0.3419987131196464), t40);
+    let t65 = t53.fms(t29, t55 * t30);
+    let t66 = t58.fms(t58, t60 * t60);
+    let t67 = t58 * t60;
+    let t68 = t67 + t67;
+    let t69 = c[10].times_fma(t65, c[14].times_fma(t64, c[8].times_fms(t62, c[4].times(t63)))).fma(t66, c[10].times_fma(t64, c[14].times_fnma(t65, c[8].times_fma(t63, c[4].times(t62)))) * t68);
+    let t70 = t50.fnma(T::lit(0.12701665379258312), t49);
+    let t71 = t56.fnma(T::lit(0.6123724356957945), t54);
+    let t72 = c[15].times_fma(t70, c[9].times(t71)).fma(t58.fms(t66, t60 * t68), c[9].times_fms(t70, c[15].times(t71)) * t58.fma(t68, t60 * t66));
+    t61 + t69 + t72
 }
 
 /// [`shade`] of three channels that share the parameters, as plain arrays.
@@ -7565,7 +7580,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], c: &[V; 10
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[1].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[3].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[3].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[1].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -7586,7 +7601,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], c: &[V; 10
     let t42 = t37.fma(t31, t28 * t38);
     let t43 = t42.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t44 = t43.fms(T::lit(0.25), t42);
-    let t45 = c[4].times(t21.fma(t29, t19 * t22)) + c[2].times(t13.fms(t4, e[2] * t14)) + c[7].times(t44);
+    let t45 = c[7].times_fma(t44, c[2].times_fma(t13.fms(t4, e[2] * t14), c[4].times(t21.fma(t29, t19 * t22))));
     let t46 = t2.fma(t7, t9);
     let t47 = e[5].fma(t10, e[7] * t12);
     let t48 = e[4].fma(t15, e[8] * t17);
@@ -7595,14 +7610,14 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 16], c: &[V; 10
     let t51 = e[9].fma(t32, e[15] * t33);
     let t52 = t49.fms(T::lit(0.7905694150420949), t51 * T::lit(0.6123724356957945));
     let t53 = t50.fma(t30, t52.fms(t29, t52));
-    let t54 = c[4].times(t47.fma(t4, t48 * t14)) + c[2].times(e[1].fma(t10, e[3] * t12)) + c[7].times(t53.fma(T::lit(0.7905694150420949), t49));
+    let t54 = c[7].times_fma(t53.fma(T::lit(0.7905694150420949), t49), c[2].times_fma(e[1].fma(t10, e[3] * t12), c[4].times(t47.fma(t4, t48 * t14))));
     let t55 = t2.fms(t8, t11);
     let t56 = t46.fms(t46, t55 * t55);
     let t57 = t46 * t55;
     let t58 = t57 + t57;
-    let t59 = (c[8].times(t41.fnma(T::lit(0.3419987131196464), t40)) + c[5].times(t18 - t23)).fma(t56, (c[5].times(t47.fms(t14, t48 * t4)) - c[8].times(t50.fms(t29, t52 * t30))) * t58);
+    let t59 = c[5].times_fma(t18 - t23, c[8].times(t41.fnma(T::lit(0.3419987131196464), t40))).fma(t56, c[5].times_fms(t47.fms(t14, t48 * t4), c[8].times(t50.fms(t29, t52 * t30))) * t58);
     let t60 = t44.fnma(T::lit(0.12701665379258312), t43).fms(t46.fms(t56, t55 * t58), t53.fnma(T::lit(0.6123724356957945), t51) * t46.fma(t58, t55 * t56));
-    t24 + c[6].times(t41) + t45.fms(t46, t54 * t55) + t59 + c[9].times(t60)
+    c[9].times_fma(t60, c[6].times_fma(t41, t24) + t45.fms(t46, t54 * t55) + t59)
 }
 
 /// [`shade_isotropic`] of three channels that share the parameters, as plain arrays.

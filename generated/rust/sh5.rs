@@ -5248,297 +5248,315 @@ pub fn product<T: Real, V: Signal<T>>(a: &[V; 25], b: &[V; 25]) -> [V; 25] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
-    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
-    let t4 = a[2].times(b[12]) + a[12].times(b[2]);
+    let t3 = b[2].times_fma(a[6].fma(T::lit(0.252313252202016), t0), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)));
+    let t4 = a[12].times_fma(b[2], a[2].times(b[12]));
     let t5 = a[6].fma(T::lit(0.24776669508347607), a[20] * T::lit(0.24623252122982908));
     let t6 = b[6].fma(T::lit(0.24776669508347607), b[20] * T::lit(0.24623252122982908));
     let t7 = a[6].times(b[6]);
     let t8 = t7.fma(T::lit(0.18022375157286857), t2.fma(T::lit(0.252313252202016), t4 * T::lit(0.24776669508347607)));
-    let t9 = t8 + b[6].times(a[20].fma(T::lit(0.24179553580618127), t0)) + a[6].times(b[20].fma(T::lit(0.24179553580618127), t1));
-    let t10 = a[16].times(b[4]) + a[24].times(b[8]) + a[8].times(b[24]) + a[4].times(b[16]);
-    let t11 = a[16].times(b[8]) - a[24].times(b[4]) - a[4].times(b[24]) + a[8].times(b[16]);
+    let t9 = a[6].times_fma(b[20].fma(T::lit(0.24179553580618127), t1), b[6].times_fma(a[20].fma(T::lit(0.24179553580618127), t0), t8));
+    let t10 = a[4].times_fma(b[16], a[8].times_fma(b[24], a[24].times_fma(b[8], a[16].times(b[4]))));
+    let t11 = a[8].times_fma(b[16], a[4].times_fnma(b[24], a[24].times_fnma(b[4], a[16].times(b[8]))));
     let t12 = a[8].fms(T::lit(0.11920680675222403), a[22] * T::lit(0.07508081669196244));
     let t13 = a[4].fms(T::lit(0.11920680675222403), a[18] * T::lit(0.07508081669196244));
     let t14 = b[8].fms(T::lit(0.11920680675222403), b[22] * T::lit(0.07508081669196244));
     let t15 = b[4].fms(T::lit(0.11920680675222403), b[18] * T::lit(0.07508081669196244));
-    let t16 = t10.fma(T::lit(0.11920680675222403), b[24].times(t12)) + b[16].times(t13) + a[24].times(t14);
-    let t17 = t11.fms(T::lit(0.11920680675222403), b[24].times(t13)) + b[16].times(t12) - a[24].times(t15);
+    let t16 = a[24].times_fma(t14, b[16].times_fma(t13, t10.fma(T::lit(0.11920680675222403), b[24].times(t12))));
+    let t17 = a[24].times_fnma(t15, b[16].times_fma(t12, t11.fms(T::lit(0.11920680675222403), b[24].times(t13))));
     let t18 = a[12].times(b[12]);
     let t19 = t18.fma(T::lit(0.15386988642211535), t4.fma(T::lit(0.24623252122982908), t7 * T::lit(0.24179553580618127)));
-    let t20 = a[2].times(t6) + b[2].times(t5) + b[12].times(a[20].fma(T::lit(0.15386988642211535), a[6].fma(T::lit(0.168208834801344), t0)));
-    let t21 = t20 + a[12].times(b[20].fma(T::lit(0.15386988642211535), b[6].fma(T::lit(0.168208834801344), t1)));
-    let t22 = (a[14].times(b[14]) - a[10].times(b[10])).fma(T::lit(0.15171775404828514), b[8].times(t12) - b[4].times(t13) + a[8].times(t14) - a[4].times(t15));
-    let t23 = (a[10].times(b[14]) + a[14].times(b[10])).fma(T::lit(0.15171775404828514), b[4].times(t12) + b[8].times(t13) + a[8].times(t15) + a[4].times(t14));
+    let t20 = b[12].times_fma(a[20].fma(T::lit(0.15386988642211535), a[6].fma(T::lit(0.168208834801344), t0)), b[2].times_fma(t5, a[2].times(t6)));
+    let t21 = a[12].times_fma(b[20].fma(T::lit(0.15386988642211535), b[6].fma(T::lit(0.168208834801344), t1)), t20);
+    let t22 = a[14].times_fms(b[14], a[10].times(b[10])).fma(T::lit(0.15171775404828514), a[4].times_fnma(t15, a[8].times_fma(t14, b[8].times_fms(t12, b[4].times(t13)))));
+    let t23 = a[14].times_fma(b[10], a[10].times(b[14])).fma(T::lit(0.15171775404828514), a[4].times_fma(t14, a[8].times_fma(t15, b[8].times_fma(t13, b[4].times(t12)))));
     let t24 = a[24] * T::lit(0.15171775404828514);
     let t25 = a[16] * T::lit(0.15171775404828514);
     let t26 = b[24] * T::lit(0.15171775404828514);
     let t27 = b[16] * T::lit(0.15171775404828514);
-    let t28 = a[16].times(b[9]) + a[24].times(b[15]) + a[15].times(b[24]) + a[9].times(b[16]);
-    let t29 = a[16].times(b[15]) - a[24].times(b[9]) - a[9].times(b[24]) + a[15].times(b[16]);
+    let t28 = a[9].times_fma(b[16], a[15].times_fma(b[24], a[24].times_fma(b[15], a[16].times(b[9]))));
+    let t29 = a[15].times_fma(b[16], a[9].times_fnma(b[24], a[24].times_fnma(b[9], a[16].times(b[15]))));
     let t30 = a[3].fms(T::lit(0.23032943298089031), a[13] * T::lit(0.11752006695060024));
     let t31 = a[1].fms(T::lit(0.23032943298089031), a[11] * T::lit(0.11752006695060024));
     let t32 = b[3].fms(T::lit(0.23032943298089031), b[13] * T::lit(0.11752006695060024));
     let t33 = b[1].fms(T::lit(0.23032943298089031), b[11] * T::lit(0.11752006695060024));
-    let t34 = a[20].times(b[20]);
-    let t35 = t34.fma(T::lit(0.13696110769441036), t19) + b[20].times(a[6].fma(T::lit(0.16383977415715326), t0));
-    let t36 = a[19].times(b[19]);
-    let t37 = t10.fma(T::lit(0.07508081669196244), (a[21].times(b[21]) - t36) * T::lit(0.09824657785997126));
-    let t38 = t11.fma(T::lit(0.07508081669196244), (a[19].times(b[21]) + a[21].times(b[19])) * T::lit(0.09824657785997126));
-    let t39 = (t36 + a[21].times(b[21])).fma(T::lit(0.21968602665162157), t35 + a[20].times(b[6].fma(T::lit(0.16383977415715326), t1)));
-    let t40 = a[18] * T::lit(0.09824657785997126);
-    let t41 = a[20] * T::lit(0.21968602665162157);
-    let t42 = b[18] * T::lit(0.09824657785997126);
-    let t43 = b[20] * T::lit(0.21968602665162157);
-    let t44 = b[21].times(a[22].fnma(T::lit(0.09824657785997126), t41)) - b[19].times(t40) + a[21].times(b[22].fnma(T::lit(0.09824657785997126), t43));
-    let t45 = b[19].times(a[22].fma(T::lit(0.09824657785997126), t41)) - b[21].times(t40) - a[21].times(t42);
-    let t46 = a[18].times(b[18]);
-    let t47 = (a[22].times(b[22]) - t46).fma(T::lit(0.1350454733836384), t22 + b[15].times(t30) - b[9].times(t31) + a[15].times(t32) - a[9].times(t33));
-    let t48 = (a[18].times(b[22]) + a[22].times(b[18])).fma(T::lit(0.1350454733836384), t23 + b[15].times(t31) + b[9].times(t30) + a[15].times(t33) + a[9].times(t32));
+    let t34 = a[9].times_fnma(t33, a[15].times_fma(t32, b[9].times_fnma(t31, b[15].times_fma(t30, t22))));
+    let t35 = a[9].times_fma(t32, a[15].times_fma(t33, b[9].times_fma(t30, b[15].times_fma(t31, t23))));
+    let t36 = a[20].times(b[20]);
+    let t37 = b[20].times_fma(a[6].fma(T::lit(0.16383977415715326), t0), t36.fma(T::lit(0.13696110769441036), t19));
+    let t38 = a[19].times(b[19]);
+    let t39 = t10.fma(T::lit(0.07508081669196244), a[21].times_fms(b[21], t38) * T::lit(0.09824657785997126));
+    let t40 = t11.fma(T::lit(0.07508081669196244), a[21].times_fma(b[19], a[19].times(b[21])) * T::lit(0.09824657785997126));
+    let t41 = a[21].times_fma(b[21], t38).fma(T::lit(0.21968602665162157), a[20].times_fma(b[6].fma(T::lit(0.16383977415715326), t1), t37));
+    let t42 = a[18] * T::lit(0.09824657785997126);
+    let t43 = a[20] * T::lit(0.21968602665162157);
+    let t44 = b[18] * T::lit(0.09824657785997126);
+    let t45 = b[20] * T::lit(0.21968602665162157);
+    let t46 = a[21].times_fma(b[22].fnma(T::lit(0.09824657785997126), t45), b[21].times_fms(a[22].fnma(T::lit(0.09824657785997126), t43), b[19].times(t42)));
+    let t47 = a[21].times_fnma(t44, b[21].times_fnma(t42, b[19].times(a[22].fma(T::lit(0.09824657785997126), t43))));
+    let t48 = a[18].times(b[18]);
     let t49 = a[16] * T::lit(0.1350454733836384);
     let t50 = a[20] * T::lit(0.10984301332581078);
     let t51 = b[16] * T::lit(0.1350454733836384);
     let t52 = b[20] * T::lit(0.10984301332581078);
-    let t53 = b[22].times(a[24].fms(T::lit(0.1350454733836384), t50)) - t37 + b[18].times(t49) + a[22].times(b[24].fms(T::lit(0.1350454733836384), t52));
-    let t54 = b[22].times(t49) - t38 - b[18].times(a[24].fma(T::lit(0.1350454733836384), t50)) + a[22].times(t51);
-    let t55 = (a[17].times(b[18]) + a[23].times(b[22]) + a[22].times(b[23]) + a[18].times(b[17])).fma(T::lit(0.03713371602580405), t44 - a[19].times(t42));
-    let t56 = (a[17].times(b[22]) - a[23].times(b[18]) - a[18].times(b[23]) + a[22].times(b[17])).fma(T::lit(0.03713371602580405), t45 + a[19].times(b[22].fma(T::lit(0.09824657785997126), t43)));
-    let t57 = a[21] * T::lit(0.03713371602580405);
-    let t58 = a[19] * T::lit(0.03713371602580405);
-    let t59 = t54 - a[18].times(b[24].fma(T::lit(0.1350454733836384), t52)) - b[23].times(t58) + b[17].times(t57);
-    let t60 = b[21] * T::lit(0.03713371602580405);
-    let t61 = b[19] * T::lit(0.03713371602580405);
-    let t62 = t53 + a[18].times(t51) + b[23].times(t57) + b[17].times(t58) + a[23].times(t60) + a[17].times(t61);
-    let t63 = (a[17].times(b[17]) + a[23].times(b[23])).fma(T::lit(0.0313837180930888), (t46 + a[22].times(b[22])).fnma(T::lit(0.10984301332581078), t39));
-    let t64 = a[20] * T::lit(0.0313837180930888);
-    let t65 = b[22].times(t57) - b[18].times(t58) + a[22].times(t60) - a[18].times(t61) + b[23].times(t64);
-    let t66 = b[18].times(t57) + b[22].times(t58) + a[22].times(t61) + a[18].times(t60) + b[17].times(t64);
-    let t67 = b[20] * T::lit(0.0313837180930888);
-    let t68 = a[16].times(b[17]) + a[24].times(b[23]) + a[23].times(b[24]) + a[17].times(b[16]);
-    let t69 = a[16].times(b[23]) - a[24].times(b[17]) - a[17].times(b[24]) + a[23].times(b[16]);
-    let t70 = a[7].fms(T::lit(0.14046334619025075), a[21] * T::lit(0.11909891275269986));
-    let t71 = a[5].fms(T::lit(0.14046334619025075), a[19] * T::lit(0.11909891275269986));
-    let t72 = b[7].fms(T::lit(0.14046334619025075), b[21] * T::lit(0.11909891275269986));
-    let t73 = b[5].fms(T::lit(0.14046334619025075), b[19] * T::lit(0.11909891275269986));
-    let t74 = t65 + a[23].times(t67) + b[24].times(t70) + b[16].times(t71) + a[24].times(t72) + a[16].times(t73);
-    let t75 = t66 + a[17].times(t67) - b[24].times(t71) + b[16].times(t70) - a[24].times(t73) + a[16].times(t72);
-    let t76 = a[16].times(b[16]) + a[24].times(b[24]);
-    let t77 = t76.fnma(T::lit(0.22937568382001455), t34.fma(T::lit(0.16383977415715326), t18.fma(T::lit(0.168208834801344), t9)));
-    let t78 = a[20].fma(T::lit(0.1065253059845414), a[6].fnma(T::lit(0.22937568382001455), t0));
-    let t79 = t47 + b[23].times(t70) - b[17].times(t71) + a[23].times(t72) - a[17].times(t73) + b[24].times(t78);
-    let t80 = t48 + b[23].times(t71) + b[17].times(t70) + a[23].times(t73) + a[17].times(t72) + b[16].times(t78);
-    let t81 = b[20].fma(T::lit(0.1065253059845414), b[6].fnma(T::lit(0.22937568382001455), t1));
-    let t82 = a[20].fnma(T::lit(0.8154935581452574), a[0].fma(T::lit(2.0714715659974203), a[6] * T::lit(2.473033860342304)));
-    let t83 = a[12].fma(T::lit(1.0154934510360722), a[2].fma(T::lit(2.9787553350699043), t82));
-    let t84 = t82.fms(T::lit(2.0), t83);
-    let t85 = a[13].fma(T::lit(2.288358922018181), a[3]);
-    let t86 = a[11].fma(T::lit(2.288358922018181), a[1]);
-    let t87 = a[21].fma(T::lit(2.0746049929561097), a[7].fma(T::lit(1.8564370686236102), t85));
-    let t88 = a[19].fma(T::lit(2.0746049929561097), a[5].fma(T::lit(1.8564370686236102), t86));
-    let t89 = t85.fms(T::lit(2.0), t87);
-    let t90 = t86.fms(T::lit(2.0), t88);
-    let t91 = a[8].fma(T::lit(0.6232257637165236), a[22] * T::lit(2.064411859919164));
-    let t92 = a[4].fma(T::lit(0.6232257637165236), a[18] * T::lit(2.064411859919164));
-    let t93 = a[14].fma(T::lit(1.3689564992561778), t91);
-    let t94 = a[10].fma(T::lit(1.3689564992561778), t92);
-    let t95 = t91.fms(T::lit(2.0), t93);
-    let t96 = t92.fms(T::lit(2.0), t94);
-    let t97 = a[15].fma(T::lit(0.37524005007119104), a[23] * T::lit(0.9345997692296063));
-    let t98 = a[9].fma(T::lit(0.37524005007119104), a[17] * T::lit(0.9345997692296063));
-    let t99 = a[15].fms(T::lit(0.7504801001423821), t97);
-    let t100 = a[9].fms(T::lit(0.7504801001423821), t98);
-    let t101 = b[20].fnma(T::lit(0.8154935581452574), b[0].fma(T::lit(2.0714715659974203), b[6] * T::lit(2.473033860342304)));
-    let t102 = b[12].fma(T::lit(1.0154934510360722), b[2].fma(T::lit(2.9787553350699043), t101));
-    let t103 = t101.fms(T::lit(2.0), t102);
-    let t104 = b[13].fma(T::lit(2.288358922018181), b[3]);
-    let t105 = b[11].fma(T::lit(2.288358922018181), b[1]);
-    let t106 = b[21].fma(T::lit(2.0746049929561097), b[7].fma(T::lit(1.8564370686236102), t104));
-    let t107 = b[19].fma(T::lit(2.0746049929561097), b[5].fma(T::lit(1.8564370686236102), t105));
-    let t108 = t104.fms(T::lit(2.0), t106);
-    let t109 = t105.fms(T::lit(2.0), t107);
-    let t110 = b[8].fma(T::lit(0.6232257637165236), b[22] * T::lit(2.064411859919164));
-    let t111 = b[4].fma(T::lit(0.6232257637165236), b[18] * T::lit(2.064411859919164));
-    let t112 = b[14].fma(T::lit(1.3689564992561778), t110);
-    let t113 = b[10].fma(T::lit(1.3689564992561778), t111);
-    let t114 = t110.fms(T::lit(2.0), t112);
-    let t115 = t111.fms(T::lit(2.0), t113);
-    let t116 = b[15].fma(T::lit(0.37524005007119104), b[23] * T::lit(0.9345997692296063));
-    let t117 = b[9].fma(T::lit(0.37524005007119104), b[17] * T::lit(0.9345997692296063));
-    let t118 = b[15].fms(T::lit(0.7504801001423821), t116);
-    let t119 = b[9].fms(T::lit(0.7504801001423821), t117);
-    let t120 = t88.times(t107);
-    let t121 = t83.times(t106) + t87.times(t102) + t87.times(t112) + t88.times(t113) + t93.times(t106) + t94.times(t107);
-    let t122 = t83.times(t107) + t88.times(t102) - t88.times(t112) + t87.times(t113) - t93.times(t107) + t94.times(t106);
-    let t123 = t120 + t87.times(t106) + t93.times(t112) + t94.times(t113) + t97.times(t116) + t98.times(t117);
-    let t124 = t83.times(t112) + t93.times(t102) + t87.times(t106) - t120 + t97.times(t106) + t98.times(t107);
-    let t125 = t83.times(t113) + t94.times(t102) + t87.times(t107) + t88.times(t106) - t97.times(t107) + t98.times(t106);
-    let t126 = t83.times(t116) + t97.times(t102) + t87.times(t112) - t88.times(t113) + t93.times(t106) - t94.times(t107);
-    let t127 = t83.times(t117) + t98.times(t102) + t87.times(t113) + t88.times(t112) + t94.times(t106) + t93.times(t107);
-    let t128 = t124 + t87.times(t116) + t88.times(t117);
-    let t129 = t125 - t88.times(t116) + t87.times(t117);
-    let t130 = t121 + t97.times(t112) + t98.times(t113) + t93.times(t116) + t94.times(t117);
-    let t131 = t122 - t97.times(t113) + t98.times(t112) - t94.times(t116) + t93.times(t117);
-    let t132 = t130 + t89.times(t103) + t84.times(t108) + t89.times(t114) + t90.times(t115) + t95.times(t108);
-    let t133 = t131 + t90.times(t103) + t84.times(t109) - t90.times(t114) + t89.times(t115) - t95.times(t109);
-    let t134 = t123 + t89.times(t108) + t90.times(t109) + t95.times(t114) + t96.times(t115) + t99.times(t118);
-    let t135 = t134 + t100.times(t119);
-    let t136 = t128 + t95.times(t103) + t84.times(t114) + t89.times(t108) - t90.times(t109) + t99.times(t108);
-    let t137 = t129 + t96.times(t103) + t84.times(t115) + t89.times(t109) + t90.times(t108) - t99.times(t109);
-    let t138 = t126 + t99.times(t103) + t84.times(t118) + t89.times(t114) - t90.times(t115) + t95.times(t108);
-    let t139 = t127 + t100.times(t103) + t84.times(t119) + t89.times(t115) + t90.times(t114) + t96.times(t108);
-    let t140 = t138 - t96.times(t109);
-    let t141 = t139 + t95.times(t109);
-    let t142 = t136 + t100.times(t109) + t89.times(t118) + t90.times(t119);
-    let t143 = t137 + t100.times(t108) - t90.times(t118) + t89.times(t119);
-    let t144 = t132 + t96.times(t109) + t99.times(t114) + t100.times(t115) + t95.times(t118) + t96.times(t119);
-    let t145 = t133 + t96.times(t108) - t99.times(t115) + t100.times(t114) - t96.times(t118) + t95.times(t119);
-    let t146 = t123.fms(T::lit(2.0), t135);
-    let t147 = t130.fms(T::lit(2.0), t144);
-    let t148 = t131.fms(T::lit(2.0), t145);
-    let t149 = t128.fms(T::lit(2.0), t142).fma(T::lit(0.012026928764518737), b[10].times(t25) + b[14].times(t24) + a[14].times(t26) + a[10].times(t27));
-    let t150 = t129.fms(T::lit(2.0), t143).fma(T::lit(0.012026928764518737), b[14].times(t25) - b[10].times(t24) + a[14].times(t27) - a[10].times(t26));
-    let t151 = t140.fma(T::lit(0.0032966608904320834), b[16].times(t31) + b[24].times(t30) + a[24].times(t32) + a[16].times(t33));
-    let t152 = t141.fma(T::lit(0.0032966608904320834), b[16].times(t30) - b[24].times(t31) - a[24].times(t33) + a[16].times(t32));
-    let t153 = a[20].fnma(T::lit(0.9330904080883121), a[0].fms(T::lit(1.3072893907869805), a[6] * T::lit(0.4977347579151022)));
-    let t154 = a[12].fnma(T::lit(1.5412878627563027), a[2].fma(T::lit(1.061610405842267), t153));
-    let t155 = t153.fms(T::lit(2.0), t154);
-    let t156 = a[13].fma(T::lit(0.09269577865614509), a[3]);
-    let t157 = a[11].fma(T::lit(0.09269577865614509), a[1]);
-    let t158 = a[21].fnma(T::lit(0.938129121934964), a[7].fma(T::lit(1.0483777733692765), t156));
-    let t159 = a[19].fnma(T::lit(0.938129121934964), a[5].fma(T::lit(1.0483777733692765), t157));
-    let t160 = t156.fms(T::lit(2.0), t158);
-    let t161 = t157.fms(T::lit(2.0), t159);
-    let t162 = a[8].fma(T::lit(0.9875353214322612), a[22] * T::lit(0.46074213177654355));
-    let t163 = a[4].fma(T::lit(0.9875353214322612), a[18] * T::lit(0.46074213177654355));
-    let t164 = a[14].fma(T::lit(1.2249954083698398), t162);
-    let t165 = a[10].fma(T::lit(1.2249954083698398), t163);
-    let t166 = t162.fms(T::lit(2.0), t164);
-    let t167 = t163.fms(T::lit(2.0), t165);
-    let t168 = a[15].fma(T::lit(0.9421578359460306), a[23] * T::lit(1.3251886939268267));
-    let t169 = a[9].fma(T::lit(0.9421578359460306), a[17] * T::lit(1.3251886939268267));
-    let t170 = a[15].fms(T::lit(1.8843156718920613), t168);
-    let t171 = a[9].fms(T::lit(1.8843156718920613), t169);
-    let t172 = b[20].fnma(T::lit(0.9330904080883121), b[0].fms(T::lit(1.3072893907869805), b[6] * T::lit(0.4977347579151022)));
-    let t173 = b[12].fnma(T::lit(1.5412878627563027), b[2].fma(T::lit(1.061610405842267), t172));
-    let t174 = t172.fms(T::lit(2.0), t173);
-    let t175 = b[13].fma(T::lit(0.09269577865614509), b[3]);
-    let t176 = b[11].fma(T::lit(0.09269577865614509), b[1]);
-    let t177 = b[21].fnma(T::lit(0.938129121934964), b[7].fma(T::lit(1.0483777733692765), t175));
-    let t178 = b[19].fnma(T::lit(0.938129121934964), b[5].fma(T::lit(1.0483777733692765), t176));
-    let t179 = t175.fms(T::lit(2.0), t177);
-    let t180 = t176.fms(T::lit(2.0), t178);
-    let t181 = b[8].fma(T::lit(0.9875353214322612), b[22] * T::lit(0.46074213177654355));
-    let t182 = b[4].fma(T::lit(0.9875353214322612), b[18] * T::lit(0.46074213177654355));
-    let t183 = b[14].fma(T::lit(1.2249954083698398), t181);
-    let t184 = b[10].fma(T::lit(1.2249954083698398), t182);
-    let t185 = t181.fms(T::lit(2.0), t183);
-    let t186 = t182.fms(T::lit(2.0), t184);
-    let t187 = b[15].fma(T::lit(0.9421578359460306), b[23] * T::lit(1.3251886939268267));
-    let t188 = b[9].fma(T::lit(0.9421578359460306), b[17] * T::lit(1.3251886939268267));
-    let t189 = b[15].fms(T::lit(1.8843156718920613), t187);
-    let t190 = b[9].fms(T::lit(1.8843156718920613), t188);
-    let t191 = t159.times(t178);
-    let t192 = t154.times(t177) + t158.times(t173) + t158.times(t183) + t159.times(t184) + t164.times(t177);
-    let t193 = t154.times(t178) + t159.times(t173) - t159.times(t183) + t158.times(t184) - t164.times(t178);
-    let t194 = t191 + t158.times(t177) + t164.times(t183) + t165.times(t184) + t168.times(t187) + t169.times(t188);
-    let t195 = t154.times(t184) + t165.times(t173) + t158.times(t178) + t159.times(t177) - t168.times(t178);
-    let t196 = t154.times(t183) + t164.times(t173) + t158.times(t177) - t191 + t168.times(t177) + t169.times(t178);
-    let t197 = t154.times(t187) + t168.times(t173) + t158.times(t183) - t159.times(t184) + t164.times(t177);
-    let t198 = t154.times(t188) + t169.times(t173) + t158.times(t184) + t159.times(t183) + t165.times(t177);
-    let t199 = t197 - t165.times(t178);
-    let t200 = t198 + t164.times(t178);
-    let t201 = t196 + t158.times(t187) + t159.times(t188);
-    let t202 = t195 + t169.times(t177) - t159.times(t187) + t158.times(t188);
-    let t203 = t192 + t165.times(t178) + t168.times(t183) + t169.times(t184) + t164.times(t187) + t165.times(t188);
-    let t204 = t193 + t165.times(t177) - t168.times(t184) + t169.times(t183) - t165.times(t187) + t164.times(t188);
-    let t205 = t203 + t160.times(t174) + t155.times(t179) + t160.times(t185) + t161.times(t186) + t166.times(t179);
-    let t206 = t204 + t161.times(t174) + t155.times(t180) - t161.times(t185) + t160.times(t186) - t166.times(t180);
-    let t207 = t194 + t160.times(t179) + t161.times(t180) + t166.times(t185) + t167.times(t186) + t170.times(t189);
-    let t208 = t207 + t171.times(t190);
-    let t209 = t201 + t166.times(t174) + t155.times(t185) + t160.times(t179) - t161.times(t180) + t170.times(t179);
-    let t210 = t202 + t167.times(t174) + t155.times(t186) + t160.times(t180) + t161.times(t179) - t170.times(t180);
-    let t211 = t199 + t170.times(t174) + t155.times(t189) + t160.times(t185) - t161.times(t186) + t166.times(t179);
-    let t212 = t200 + t171.times(t174) + t155.times(t190) + t160.times(t186) + t161.times(t185) + t167.times(t179);
-    let t213 = t211 - t167.times(t180);
-    let t214 = t212 + t166.times(t180);
-    let t215 = t209 + t171.times(t180) + t160.times(t189) + t161.times(t190);
-    let t216 = t210 + t171.times(t179) - t161.times(t189) + t160.times(t190);
-    let t217 = t205 + t167.times(t180) + t170.times(t185) + t171.times(t186) + t166.times(t189) + t167.times(t190);
-    let t218 = t206 + t167.times(t179) - t170.times(t186) + t171.times(t185) - t167.times(t189) + t166.times(t190);
-    let t219 = t208.fnma(T::lit(0.05086643290858334), t135.fnma(T::lit(0.00716449568490017), t76.fma(T::lit(0.1065253059845414), t63)));
-    let t220 = t194.fms(T::lit(2.0), t208);
-    let t221 = t220.fma(T::lit(0.05787256413284098), t146.fma(T::lit(0.026169771093005174), t3 + b[12].times(t5) + a[12].times(t6)));
-    let t222 = t217.fma(T::lit(0.054513938271851886), t28.fma(T::lit(0.23032943298089031), t144 * T::lit(0.008785471832781807)));
-    let t223 = t218.fma(T::lit(0.054513938271851886), t29.fma(T::lit(0.23032943298089031), t145 * T::lit(0.008785471832781807)));
-    let t224 = t217.fma(T::lit(0.005053211955722339), t28.fnma(T::lit(0.11752006695060024), t144 * T::lit(0.02010431285268567)));
-    let t225 = t218.fma(T::lit(0.005053211955722339), t29.fnma(T::lit(0.11752006695060024), t145 * T::lit(0.02010431285268567)));
-    let t226 = t203.fms(T::lit(2.0), t217);
-    let t227 = t204.fms(T::lit(2.0), t218);
-    let t228 = t226.fma(T::lit(0.05715120122303427), t68.fma(T::lit(0.14046334619025075), t147 * T::lit(0.016309675575724755)));
-    let t229 = t227.fma(T::lit(0.05715120122303427), t69.fma(T::lit(0.14046334619025075), t148 * T::lit(0.016309675575724755)));
-    let t230 = t226.fnma(T::lit(0.051141113044189244), t147.fma(T::lit(0.0182263837297644), t68.fnma(T::lit(0.11909891275269986), t55)));
-    let t231 = t227.fnma(T::lit(0.051141113044189244), t148.fma(T::lit(0.0182263837297644), t69.fnma(T::lit(0.11909891275269986), t56)));
-    let t232 = t215.fma(T::lit(0.0538344395538317), t142.fma(T::lit(0.005475332392595448), t16 + a[16].times(t15)));
-    let t233 = t216.fma(T::lit(0.0538344395538317), t143.fma(T::lit(0.005475332392595448), t17 + a[16].times(t14)));
-    let t234 = t216.fma(T::lit(0.02511686813090794), t143.fma(T::lit(0.018136832246580515), t59 - a[23].times(t61) + a[17].times(t60)));
-    let t235 = t199.fms(T::lit(2.0), t213).fma(T::lit(0.07224125465928306), t126.fms(T::lit(2.0), t140).fma(T::lit(0.008210899947491083), t74));
-    let t236 = t200.fms(T::lit(2.0), t214).fma(T::lit(0.07224125465928306), t127.fms(T::lit(2.0), t141).fma(T::lit(0.008210899947491083), t75));
-    let t237 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
-    let t238 = a[13].fnma(T::lit(0.9354143466934853), a[3]);
-    let t239 = a[11].fnma(T::lit(0.9354143466934853), a[1]);
-    let t240 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
-    let t241 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
-    let t242 = a[15] * T::lit(1.20761472884912);
-    let t243 = a[9] * T::lit(1.20761472884912);
-    let t244 = b[20].fma(T::lit(1.299038105676658), b[0].fms(T::lit(1.1547005383792515), b[6] * T::lit(1.2909944487358056)));
-    let t245 = b[13].fnma(T::lit(0.9354143466934853), b[3]);
-    let t246 = b[11].fnma(T::lit(0.9354143466934853), b[1]);
-    let t247 = b[8].fms(T::lit(1.118033988749895), b[22] * T::lit(0.9682458365518543));
-    let t248 = b[4].fms(T::lit(1.118033988749895), b[18] * T::lit(0.9682458365518543));
-    let t249 = b[15] * T::lit(1.20761472884912);
-    let t250 = b[9] * T::lit(1.20761472884912);
-    let t251 = t239.times(t246);
-    let t252 = t237.times(t245) + t238.times(t244) + t238.times(t247) + t239.times(t248) + t240.times(t245);
-    let t253 = t237.times(t246) + t239.times(t244) - t239.times(t247) + t238.times(t248) - t240.times(t246);
-    let t254 = t251 + t238.times(t245) + t240.times(t247) + t241.times(t248) + t242.times(t249) + t243.times(t250);
-    let t255 = t237.times(t248) + t241.times(t244) + t238.times(t246) + t239.times(t245) - t242.times(t246);
-    let t256 = t237.times(t247) + t240.times(t244) + t238.times(t245) - t251 + t242.times(t245) + t243.times(t246);
-    let t257 = t237.times(t249) + t242.times(t244) + t238.times(t247) - t239.times(t248) + t240.times(t245);
-    let t258 = t237.times(t250) + t243.times(t244) + t238.times(t248) + t239.times(t247) + t241.times(t245);
-    let t259 = t256 + t238.times(t249) + t239.times(t250);
-    let t260 = t255 + t243.times(t245) - t239.times(t249) + t238.times(t250);
-    let t261 = t252 + t241.times(t246) + t242.times(t247) + t243.times(t248) + t240.times(t249) + t241.times(t250);
-    let t262 = t253 + t241.times(t245) - t242.times(t248) + t243.times(t247) - t241.times(t249) + t240.times(t250);
-    let t263 = t254.fma(T::lit(0.10316609527730401), t135.fma(T::lit(0.018198855095478757), t208 * T::lit(0.0712654931528083)));
-    let t264 = t254.fnma(T::lit(0.11534320100663589), t208.fnma(T::lit(0.027133481868739026), t135.fma(T::lit(0.021726769321552968), t77)));
-    let t265 = t259.fnma(T::lit(0.08650740075497691), t215.fma(T::lit(0.02511686813090794), t142.fma(T::lit(0.018136832246580515), t62)));
-    let t266 = (t257 - t241.times(t246)).fma(T::lit(0.10789368501515767), t213.fma(T::lit(0.05136073411110347), t151));
-    let t267 = (t258 + t240.times(t246)).fma(T::lit(0.10789368501515767), t214.fma(T::lit(0.05136073411110347), t152));
+    let t53 = a[22].times_fma(b[24].fms(T::lit(0.1350454733836384), t52), b[18].times_fma(t49, b[22].times_fms(a[24].fms(T::lit(0.1350454733836384), t50), t39)));
+    let t54 = a[22].times_fma(t51, b[18].times_fnma(a[24].fma(T::lit(0.1350454733836384), t50), b[22].times_fms(t49, t40)));
+    let t55 = a[18].times_fma(b[17], a[22].times_fma(b[23], a[23].times_fma(b[22], a[17].times(b[18]))));
+    let t56 = a[22].times_fma(b[17], a[18].times_fnma(b[23], a[23].times_fnma(b[18], a[17].times(b[22]))));
+    let t57 = t56.fma(T::lit(0.03713371602580405), a[19].times_fma(b[22].fma(T::lit(0.09824657785997126), t45), t47));
+    let t58 = a[21] * T::lit(0.03713371602580405);
+    let t59 = a[19] * T::lit(0.03713371602580405);
+    let t60 = b[17].times_fma(t58, b[23].times_fnma(t59, a[18].times_fnma(b[24].fma(T::lit(0.1350454733836384), t52), t54)));
+    let t61 = b[21] * T::lit(0.03713371602580405);
+    let t62 = b[19] * T::lit(0.03713371602580405);
+    let t63 = a[23].times_fma(t61, b[17].times_fma(t59, b[23].times_fma(t58, a[18].times_fma(t51, t53))));
+    let t64 = a[23].times_fma(b[23], a[17].times(b[17])).fma(T::lit(0.0313837180930888), a[22].times_fma(b[22], t48).fnma(T::lit(0.10984301332581078), t41));
+    let t65 = a[20] * T::lit(0.0313837180930888);
+    let t66 = b[23].times_fma(t65, a[18].times_fnma(t62, a[22].times_fma(t61, b[22].times_fms(t58, b[18].times(t59)))));
+    let t67 = b[17].times_fma(t65, a[18].times_fma(t61, a[22].times_fma(t62, b[22].times_fma(t59, b[18].times(t58)))));
+    let t68 = b[20] * T::lit(0.0313837180930888);
+    let t69 = a[17].times_fma(b[16], a[23].times_fma(b[24], a[24].times_fma(b[23], a[16].times(b[17]))));
+    let t70 = a[23].times_fma(b[16], a[17].times_fnma(b[24], a[24].times_fnma(b[17], a[16].times(b[23]))));
+    let t71 = t69.fnma(T::lit(0.11909891275269986), t55.fma(T::lit(0.03713371602580405), a[19].times_fnma(t44, t46)));
+    let t72 = a[7].fms(T::lit(0.14046334619025075), a[21] * T::lit(0.11909891275269986));
+    let t73 = a[5].fms(T::lit(0.14046334619025075), a[19] * T::lit(0.11909891275269986));
+    let t74 = b[17].times_fnma(t73, b[23].times_fma(t72, a[22].times_fms(b[22], t48).fma(T::lit(0.1350454733836384), t34)));
+    let t75 = b[23].times_fma(t73, a[22].times_fma(b[18], a[18].times(b[22])).fma(T::lit(0.1350454733836384), t35));
+    let t76 = b[7].fms(T::lit(0.14046334619025075), b[21] * T::lit(0.11909891275269986));
+    let t77 = b[5].fms(T::lit(0.14046334619025075), b[19] * T::lit(0.11909891275269986));
+    let t78 = a[24].times_fma(t76, b[16].times_fma(t73, b[24].times_fma(t72, a[23].times_fma(t68, t66))));
+    let t79 = a[24].times_fnma(t77, b[16].times_fma(t72, b[24].times_fnma(t73, a[17].times_fma(t68, t67))));
+    let t80 = a[24].times_fma(b[24], a[16].times(b[16]));
+    let t81 = t80.fnma(T::lit(0.22937568382001455), t36.fma(T::lit(0.16383977415715326), t18.fma(T::lit(0.168208834801344), t9)));
+    let t82 = a[20].fma(T::lit(0.1065253059845414), a[6].fnma(T::lit(0.22937568382001455), t0));
+    let t83 = b[16].times_fma(t82, a[17].times_fma(t76, a[23].times_fma(t77, b[17].times_fma(t72, t75))));
+    let t84 = b[20].fma(T::lit(0.1065253059845414), b[6].fnma(T::lit(0.22937568382001455), t1));
+    let t85 = a[24].times_fma(t84, b[24].times_fma(t82, a[17].times_fnma(t77, a[23].times_fma(t76, t74))));
+    let t86 = a[20].fnma(T::lit(0.8154935581452574), a[0].fma(T::lit(2.0714715659974203), a[6] * T::lit(2.473033860342304)));
+    let t87 = a[12].fma(T::lit(1.0154934510360722), a[2].fma(T::lit(2.9787553350699043), t86));
+    let t88 = t86.fms(T::lit(2.0), t87);
+    let t89 = a[13].fma(T::lit(2.288358922018181), a[3]);
+    let t90 = a[11].fma(T::lit(2.288358922018181), a[1]);
+    let t91 = a[21].fma(T::lit(2.0746049929561097), a[7].fma(T::lit(1.8564370686236102), t89));
+    let t92 = a[19].fma(T::lit(2.0746049929561097), a[5].fma(T::lit(1.8564370686236102), t90));
+    let t93 = t89.fms(T::lit(2.0), t91);
+    let t94 = t90.fms(T::lit(2.0), t92);
+    let t95 = a[8].fma(T::lit(0.6232257637165236), a[22] * T::lit(2.064411859919164));
+    let t96 = a[4].fma(T::lit(0.6232257637165236), a[18] * T::lit(2.064411859919164));
+    let t97 = a[14].fma(T::lit(1.3689564992561778), t95);
+    let t98 = a[10].fma(T::lit(1.3689564992561778), t96);
+    let t99 = t95.fms(T::lit(2.0), t97);
+    let t100 = t96.fms(T::lit(2.0), t98);
+    let t101 = a[15].fma(T::lit(0.37524005007119104), a[23] * T::lit(0.9345997692296063));
+    let t102 = a[9].fma(T::lit(0.37524005007119104), a[17] * T::lit(0.9345997692296063));
+    let t103 = a[15].fms(T::lit(0.7504801001423821), t101);
+    let t104 = a[9].fms(T::lit(0.7504801001423821), t102);
+    let t105 = b[20].fnma(T::lit(0.8154935581452574), b[0].fma(T::lit(2.0714715659974203), b[6] * T::lit(2.473033860342304)));
+    let t106 = b[12].fma(T::lit(1.0154934510360722), b[2].fma(T::lit(2.9787553350699043), t105));
+    let t107 = t105.fms(T::lit(2.0), t106);
+    let t108 = b[13].fma(T::lit(2.288358922018181), b[3]);
+    let t109 = b[11].fma(T::lit(2.288358922018181), b[1]);
+    let t110 = b[21].fma(T::lit(2.0746049929561097), b[7].fma(T::lit(1.8564370686236102), t108));
+    let t111 = b[19].fma(T::lit(2.0746049929561097), b[5].fma(T::lit(1.8564370686236102), t109));
+    let t112 = t108.fms(T::lit(2.0), t110);
+    let t113 = t109.fms(T::lit(2.0), t111);
+    let t114 = b[8].fma(T::lit(0.6232257637165236), b[22] * T::lit(2.064411859919164));
+    let t115 = b[4].fma(T::lit(0.6232257637165236), b[18] * T::lit(2.064411859919164));
+    let t116 = b[14].fma(T::lit(1.3689564992561778), t114);
+    let t117 = b[10].fma(T::lit(1.3689564992561778), t115);
+    let t118 = t114.fms(T::lit(2.0), t116);
+    let t119 = t115.fms(T::lit(2.0), t117);
+    let t120 = b[15].fma(T::lit(0.37524005007119104), b[23] * T::lit(0.9345997692296063));
+    let t121 = b[9].fma(T::lit(0.37524005007119104), b[17] * T::lit(0.9345997692296063));
+    let t122 = b[15].fms(T::lit(0.7504801001423821), t120);
+    let t123 = b[9].fms(T::lit(0.7504801001423821), t121);
+    let t124 = t92.times(t111);
+    let t125 = t97.times_fma(t110, t92.times_fma(t117, t91.times_fma(t116, t91.times_fma(t106, t87.times(t110)))));
+    let t126 = t97.times_fnma(t111, t91.times_fma(t117, t92.times_fnma(t116, t92.times_fma(t106, t87.times(t111)))));
+    let t127 = t101.times_fma(t120, t98.times_fma(t117, t97.times_fma(t116, t91.times_fma(t110, t124))));
+    let t128 = t102.times_fma(t121, t127);
+    let t129 = t101.times_fnma(t111, t92.times_fma(t110, t91.times_fma(t111, t98.times_fma(t106, t87.times(t117)))));
+    let t130 = t102.times_fma(t111, t101.times_fma(t110, t91.times_fma(t110, t97.times_fma(t106, t87.times(t116))) - t124));
+    let t131 = t97.times_fma(t110, t92.times_fnma(t117, t91.times_fma(t116, t101.times_fma(t106, t87.times(t120)))));
+    let t132 = t98.times_fma(t110, t92.times_fma(t116, t91.times_fma(t117, t102.times_fma(t106, t87.times(t121)))));
+    let t133 = t98.times_fnma(t111, t131);
+    let t134 = t97.times_fma(t111, t132);
+    let t135 = t92.times_fma(t121, t91.times_fma(t120, t130));
+    let t136 = t91.times_fma(t121, t92.times_fnma(t120, t102.times_fma(t110, t129)));
+    let t137 = t97.times_fma(t120, t102.times_fma(t117, t101.times_fma(t116, t98.times_fma(t111, t125))));
+    let t138 = t98.times_fnma(t120, t102.times_fma(t116, t101.times_fnma(t117, t98.times_fma(t110, t126))));
+    let t139 = t98.times_fma(t121, t137);
+    let t140 = t97.times_fma(t121, t138);
+    let t141 = t100.times_fma(t119, t99.times_fma(t118, t94.times_fma(t113, t93.times_fma(t112, t128))));
+    let t142 = t94.times_fnma(t113, t93.times_fma(t112, t88.times_fma(t118, t99.times_fma(t107, t135))));
+    let t143 = t94.times_fma(t112, t93.times_fma(t113, t88.times_fma(t119, t100.times_fma(t107, t136))));
+    let t144 = t93.times_fma(t119, t94.times_fnma(t118, t88.times_fma(t113, t94.times_fma(t107, t140))));
+    let t145 = t99.times_fma(t112, t94.times_fma(t119, t93.times_fma(t118, t88.times_fma(t112, t93.times_fma(t107, t139)))));
+    let t146 = t104.times_fma(t123, t103.times_fma(t122, t141));
+    let t147 = t94.times_fnma(t119, t93.times_fma(t118, t88.times_fma(t122, t103.times_fma(t107, t133))));
+    let t148 = t94.times_fma(t118, t93.times_fma(t119, t88.times_fma(t123, t104.times_fma(t107, t134))));
+    let t149 = t104.times_fma(t118, t103.times_fnma(t119, t100.times_fma(t112, t99.times_fnma(t113, t144))));
+    let t150 = t100.times_fnma(t113, t99.times_fma(t112, t147));
+    let t151 = t99.times_fma(t113, t100.times_fma(t112, t148));
+    let t152 = t94.times_fma(t123, t93.times_fma(t122, t104.times_fma(t113, t103.times_fma(t112, t142))));
+    let t153 = t93.times_fma(t123, t94.times_fnma(t122, t104.times_fma(t112, t103.times_fnma(t113, t143))));
+    let t154 = t99.times_fma(t122, t104.times_fma(t119, t103.times_fma(t118, t100.times_fma(t113, t145))));
+    let t155 = t100.times_fma(t123, t154);
+    let t156 = t99.times_fma(t123, t100.times_fnma(t122, t149));
+    let t157 = t128.fms(T::lit(2.0), t146);
+    let t158 = t139.fms(T::lit(2.0), t155);
+    let t159 = t140.fms(T::lit(2.0), t156);
+    let t160 = t135.fms(T::lit(2.0), t152).fma(T::lit(0.012026928764518737), a[10].times_fma(t27, a[14].times_fma(t26, b[14].times_fma(t24, b[10].times(t25)))));
+    let t161 = t136.fms(T::lit(2.0), t153).fma(T::lit(0.012026928764518737), a[10].times_fnma(t26, a[14].times_fma(t27, b[14].times_fms(t25, b[10].times(t24)))));
+    let t162 = t150.fma(T::lit(0.0032966608904320834), a[16].times_fma(t33, a[24].times_fma(t32, b[24].times_fma(t30, b[16].times(t31)))));
+    let t163 = t151.fma(T::lit(0.0032966608904320834), a[16].times_fma(t32, a[24].times_fnma(t33, b[24].times_fnma(t31, b[16].times(t30)))));
+    let t164 = a[20].fnma(T::lit(0.9330904080883121), a[0].fms(T::lit(1.3072893907869805), a[6] * T::lit(0.4977347579151022)));
+    let t165 = a[12].fnma(T::lit(1.5412878627563027), a[2].fma(T::lit(1.061610405842267), t164));
+    let t166 = t164.fms(T::lit(2.0), t165);
+    let t167 = a[13].fma(T::lit(0.09269577865614509), a[3]);
+    let t168 = a[11].fma(T::lit(0.09269577865614509), a[1]);
+    let t169 = a[21].fnma(T::lit(0.938129121934964), a[7].fma(T::lit(1.0483777733692765), t167));
+    let t170 = a[19].fnma(T::lit(0.938129121934964), a[5].fma(T::lit(1.0483777733692765), t168));
+    let t171 = t167.fms(T::lit(2.0), t169);
+    let t172 = t168.fms(T::lit(2.0), t170);
+    let t173 = a[8].fma(T::lit(0.9875353214322612), a[22] * T::lit(0.46074213177654355));
+    let t174 = a[4].fma(T::lit(0.9875353214322612), a[18] * T::lit(0.46074213177654355));
+    let t175 = a[14].fma(T::lit(1.2249954083698398), t173);
+    let t176 = a[10].fma(T::lit(1.2249954083698398), t174);
+    let t177 = t173.fms(T::lit(2.0), t175);
+    let t178 = t174.fms(T::lit(2.0), t176);
+    let t179 = a[15].fma(T::lit(0.9421578359460306), a[23] * T::lit(1.3251886939268267));
+    let t180 = a[9].fma(T::lit(0.9421578359460306), a[17] * T::lit(1.3251886939268267));
+    let t181 = a[15].fms(T::lit(1.8843156718920613), t179);
+    let t182 = a[9].fms(T::lit(1.8843156718920613), t180);
+    let t183 = b[20].fnma(T::lit(0.9330904080883121), b[0].fms(T::lit(1.3072893907869805), b[6] * T::lit(0.4977347579151022)));
+    let t184 = b[12].fnma(T::lit(1.5412878627563027), b[2].fma(T::lit(1.061610405842267), t183));
+    let t185 = t183.fms(T::lit(2.0), t184);
+    let t186 = b[13].fma(T::lit(0.09269577865614509), b[3]);
+    let t187 = b[11].fma(T::lit(0.09269577865614509), b[1]);
+    let t188 = b[21].fnma(T::lit(0.938129121934964), b[7].fma(T::lit(1.0483777733692765), t186));
+    let t189 = b[19].fnma(T::lit(0.938129121934964), b[5].fma(T::lit(1.0483777733692765), t187));
+    let t190 = t186.fms(T::lit(2.0), t188);
+    let t191 = t187.fms(T::lit(2.0), t189);
+    let t192 = b[8].fma(T::lit(0.9875353214322612), b[22] * T::lit(0.46074213177654355));
+    let t193 = b[4].fma(T::lit(0.9875353214322612), b[18] * T::lit(0.46074213177654355));
+    let t194 = b[14].fma(T::lit(1.2249954083698398), t192);
+    let t195 = b[10].fma(T::lit(1.2249954083698398), t193);
+    let t196 = t192.fms(T::lit(2.0), t194);
+    let t197 = t193.fms(T::lit(2.0), t195);
+    let t198 = b[15].fma(T::lit(0.9421578359460306), b[23] * T::lit(1.3251886939268267));
+    let t199 = b[9].fma(T::lit(0.9421578359460306), b[17] * T::lit(1.3251886939268267));
+    let t200 = b[15].fms(T::lit(1.8843156718920613), t198);
+    let t201 = b[9].fms(T::lit(1.8843156718920613), t199);
+    let t202 = t170.times(t189);
+    let t203 = t175.times_fma(t188, t170.times_fma(t195, t169.times_fma(t194, t169.times_fma(t184, t165.times(t188)))));
+    let t204 = t175.times_fnma(t189, t169.times_fma(t195, t170.times_fnma(t194, t170.times_fma(t184, t165.times(t189)))));
+    let t205 = t179.times_fma(t198, t176.times_fma(t195, t175.times_fma(t194, t169.times_fma(t188, t202))));
+    let t206 = t180.times_fma(t199, t205);
+    let t207 = t179.times_fma(t188, t169.times_fma(t188, t175.times_fma(t184, t165.times(t194))) - t202);
+    let t208 = t179.times_fnma(t189, t170.times_fma(t188, t169.times_fma(t189, t176.times_fma(t184, t165.times(t195)))));
+    let t209 = t175.times_fma(t188, t170.times_fnma(t195, t169.times_fma(t194, t179.times_fma(t184, t165.times(t198)))));
+    let t210 = t176.times_fma(t188, t170.times_fma(t194, t169.times_fma(t195, t180.times_fma(t184, t165.times(t199)))));
+    let t211 = t176.times_fnma(t189, t209);
+    let t212 = t175.times_fma(t189, t210);
+    let t213 = t170.times_fma(t199, t169.times_fma(t198, t180.times_fma(t189, t207)));
+    let t214 = t169.times_fma(t199, t170.times_fnma(t198, t180.times_fma(t188, t208)));
+    let t215 = t175.times_fma(t198, t180.times_fma(t195, t179.times_fma(t194, t176.times_fma(t189, t203))));
+    let t216 = t176.times_fnma(t198, t180.times_fma(t194, t179.times_fnma(t195, t176.times_fma(t188, t204))));
+    let t217 = t176.times_fma(t199, t215);
+    let t218 = t175.times_fma(t199, t216);
+    let t219 = t178.times_fma(t197, t177.times_fma(t196, t172.times_fma(t191, t171.times_fma(t190, t206))));
+    let t220 = t172.times_fnma(t191, t171.times_fma(t190, t166.times_fma(t196, t177.times_fma(t185, t213))));
+    let t221 = t172.times_fma(t190, t171.times_fma(t191, t166.times_fma(t197, t178.times_fma(t185, t214))));
+    let t222 = t172.times_fma(t197, t171.times_fma(t196, t166.times_fma(t190, t171.times_fma(t185, t217))));
+    let t223 = t171.times_fma(t197, t172.times_fnma(t196, t166.times_fma(t191, t172.times_fma(t185, t218))));
+    let t224 = t182.times_fma(t201, t181.times_fma(t200, t219));
+    let t225 = t172.times_fnma(t197, t171.times_fma(t196, t166.times_fma(t200, t181.times_fma(t185, t211))));
+    let t226 = t172.times_fma(t196, t171.times_fma(t197, t166.times_fma(t201, t182.times_fma(t185, t212))));
+    let t227 = t182.times_fma(t197, t181.times_fma(t196, t178.times_fma(t191, t177.times_fma(t190, t222))));
+    let t228 = t182.times_fma(t196, t181.times_fnma(t197, t178.times_fma(t190, t177.times_fnma(t191, t223))));
+    let t229 = t178.times_fnma(t191, t177.times_fma(t190, t225));
+    let t230 = t177.times_fma(t191, t178.times_fma(t190, t226));
+    let t231 = t172.times_fma(t201, t171.times_fma(t200, t182.times_fma(t191, t181.times_fma(t190, t220))));
+    let t232 = t171.times_fma(t201, t172.times_fnma(t200, t182.times_fma(t190, t181.times_fnma(t191, t221))));
+    let t233 = t178.times_fma(t201, t177.times_fma(t200, t227));
+    let t234 = t177.times_fma(t201, t178.times_fnma(t200, t228));
+    let t235 = t224.fnma(T::lit(0.05086643290858334), t146.fnma(T::lit(0.00716449568490017), t80.fma(T::lit(0.1065253059845414), t64)));
+    let t236 = t206.fms(T::lit(2.0), t224);
+    let t237 = t236.fma(T::lit(0.05787256413284098), t157.fma(T::lit(0.026169771093005174), a[12].times_fma(t6, b[12].times_fma(t5, t3))));
+    let t238 = t233.fma(T::lit(0.054513938271851886), t28.fma(T::lit(0.23032943298089031), t155 * T::lit(0.008785471832781807)));
+    let t239 = t234.fma(T::lit(0.054513938271851886), t29.fma(T::lit(0.23032943298089031), t156 * T::lit(0.008785471832781807)));
+    let t240 = t233.fma(T::lit(0.005053211955722339), t28.fnma(T::lit(0.11752006695060024), t155 * T::lit(0.02010431285268567)));
+    let t241 = t234.fma(T::lit(0.005053211955722339), t29.fnma(T::lit(0.11752006695060024), t156 * T::lit(0.02010431285268567)));
+    let t242 = t217.fms(T::lit(2.0), t233);
+    let t243 = t218.fms(T::lit(2.0), t234);
+    let t244 = t242.fma(T::lit(0.05715120122303427), t69.fma(T::lit(0.14046334619025075), t158 * T::lit(0.016309675575724755)));
+    let t245 = t243.fma(T::lit(0.05715120122303427), t70.fma(T::lit(0.14046334619025075), t159 * T::lit(0.016309675575724755)));
+    let t246 = t243.fnma(T::lit(0.051141113044189244), t159.fma(T::lit(0.0182263837297644), t70.fnma(T::lit(0.11909891275269986), t57)));
+    let t247 = t231.fma(T::lit(0.0538344395538317), t152.fma(T::lit(0.005475332392595448), a[16].times_fma(t15, t16)));
+    let t248 = t232.fma(T::lit(0.0538344395538317), t153.fma(T::lit(0.005475332392595448), a[16].times_fma(t14, t17)));
+    let t249 = t231.fma(T::lit(0.02511686813090794), t152.fma(T::lit(0.018136832246580515), a[17].times_fma(t62, t63)));
+    let t250 = t232.fma(T::lit(0.02511686813090794), t153.fma(T::lit(0.018136832246580515), a[17].times_fma(t61, a[23].times_fnma(t62, t60))));
+    let t251 = t211.fms(T::lit(2.0), t229).fma(T::lit(0.07224125465928306), t133.fms(T::lit(2.0), t150).fma(T::lit(0.008210899947491083), a[16].times_fma(t77, t78)));
+    let t252 = t212.fms(T::lit(2.0), t230).fma(T::lit(0.07224125465928306), t134.fms(T::lit(2.0), t151).fma(T::lit(0.008210899947491083), a[16].times_fma(t76, t79)));
+    let t253 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t254 = a[13].fnma(T::lit(0.9354143466934853), a[3]);
+    let t255 = a[11].fnma(T::lit(0.9354143466934853), a[1]);
+    let t256 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t257 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t258 = a[15] * T::lit(1.20761472884912);
+    let t259 = a[9] * T::lit(1.20761472884912);
+    let t260 = b[20].fma(T::lit(1.299038105676658), b[0].fms(T::lit(1.1547005383792515), b[6] * T::lit(1.2909944487358056)));
+    let t261 = b[13].fnma(T::lit(0.9354143466934853), b[3]);
+    let t262 = b[11].fnma(T::lit(0.9354143466934853), b[1]);
+    let t263 = b[8].fms(T::lit(1.118033988749895), b[22] * T::lit(0.9682458365518543));
+    let t264 = b[4].fms(T::lit(1.118033988749895), b[18] * T::lit(0.9682458365518543));
+    let t265 = b[15] * T::lit(1.20761472884912);
+    let t266 = b[9] * T::lit(1.20761472884912);
+    let t267 = t255.times(t262);
+    let t268 = t256.times_fma(t261, t255.times_fma(t264, t254.times_fma(t263, t254.times_fma(t260, t253.times(t261)))));
+    let t269 = t256.times_fnma(t262, t254.times_fma(t264, t255.times_fnma(t263, t255.times_fma(t260, t253.times(t262)))));
+    let t270 = t258.times_fma(t265, t257.times_fma(t264, t256.times_fma(t263, t254.times_fma(t261, t267))));
+    let t271 = t259.times_fma(t266, t270);
+    let t272 = t258.times_fma(t261, t254.times_fma(t261, t256.times_fma(t260, t253.times(t263))) - t267);
+    let t273 = t258.times_fnma(t262, t255.times_fma(t261, t254.times_fma(t262, t257.times_fma(t260, t253.times(t264)))));
+    let t274 = t256.times_fma(t261, t255.times_fnma(t264, t254.times_fma(t263, t258.times_fma(t260, t253.times(t265)))));
+    let t275 = t257.times_fma(t261, t255.times_fma(t263, t254.times_fma(t264, t259.times_fma(t260, t253.times(t266)))));
+    let t276 = t255.times_fma(t266, t254.times_fma(t265, t259.times_fma(t262, t272)));
+    let t277 = t254.times_fma(t266, t255.times_fnma(t265, t259.times_fma(t261, t273)));
+    let t278 = t256.times_fma(t265, t259.times_fma(t264, t258.times_fma(t263, t257.times_fma(t262, t268))));
+    let t279 = t257.times_fnma(t265, t259.times_fma(t263, t258.times_fnma(t264, t257.times_fma(t261, t269))));
+    let t280 = t257.times_fma(t266, t278);
+    let t281 = t256.times_fma(t266, t279);
+    let t282 = t271.fma(T::lit(0.10316609527730401), t146.fma(T::lit(0.018198855095478757), t224 * T::lit(0.0712654931528083)));
+    let t283 = t271.fnma(T::lit(0.11534320100663589), t224.fnma(T::lit(0.027133481868739026), t146.fma(T::lit(0.021726769321552968), t81)));
+    let t284 = t257.times_fnma(t262, t274).fma(T::lit(0.10789368501515767), t229.fma(T::lit(0.05136073411110347), t162));
+    let t285 = t256.times_fma(t262, t275).fma(T::lit(0.10789368501515767), t230.fma(T::lit(0.05136073411110347), t163));
     [
-        (t2 + a[0].times(b[0]) + t7 + t18 + t34 + t76).fma(T::lit(0.28209479177387814), t263),
-        t262.fma(T::lit(0.08934445931939107), t223),
-        t221,
-        t261.fma(T::lit(0.08934445931939107), t222),
-        t260.fma(T::lit(0.09989014222556152), t233),
-        t229,
-        t264,
-        t228,
-        t259.fma(T::lit(0.09989014222556152), t232),
-        t267,
-        t202.fms(T::lit(2.0), t216).fma(T::lit(0.06677932407517545), t150),
-        t262.fnma(T::lit(0.08357408904493088), t225),
-        t220.fnma(T::lit(0.08402167140945162), t146.fma(T::lit(0.008921589110451803), t21)),
-        t261.fnma(T::lit(0.08357408904493088), t224),
-        t201.fms(T::lit(2.0), t215).fma(T::lit(0.06677932407517545), t149),
-        t266,
-        t80 + a[16].times(t81),
-        t236,
-        t260.fnma(T::lit(0.08650740075497691), t234),
-        t231,
-        t254.fma(T::lit(0.116061857186967), t219),
-        t230,
-        t265,
-        t235,
-        t79 + a[24].times(t81),
+        (a[0].times_fma(b[0], t2) + t7 + t18 + t36 + t80).fma(T::lit(0.28209479177387814), t282),
+        t281.fma(T::lit(0.08934445931939107), t239),
+        t237,
+        t280.fma(T::lit(0.08934445931939107), t238),
+        t277.fma(T::lit(0.09989014222556152), t248),
+        t245,
+        t283,
+        t244,
+        t276.fma(T::lit(0.09989014222556152), t247),
+        t285,
+        t214.fms(T::lit(2.0), t232).fma(T::lit(0.06677932407517545), t161),
+        t281.fnma(T::lit(0.08357408904493088), t241),
+        t236.fnma(T::lit(0.08402167140945162), t157.fma(T::lit(0.008921589110451803), t21)),
+        t280.fnma(T::lit(0.08357408904493088), t240),
+        t213.fms(T::lit(2.0), t231).fma(T::lit(0.06677932407517545), t160),
+        t284,
+        a[16].times_fma(t84, t83),
+        t252,
+        t277.fnma(T::lit(0.08650740075497691), t250),
+        t246,
+        t271.fma(T::lit(0.116061857186967), t235),
+        t242.fnma(T::lit(0.051141113044189244), t158.fma(T::lit(0.0182263837297644), t71)),
+        t276.fnma(T::lit(0.08650740075497691), t249),
+        t251,
+        t85,
     ]
 }
 
@@ -5565,83 +5583,84 @@ pub fn of_sh2_and_sh5_product<T: Real, V: Signal<T>>(a: &[V; 4], b: &[V; 25]) ->
     let t2 = a[2].times(b[2]);
     let t3 = a[2].times(b[12]);
     let t4 = a[1].times(b[1]);
-    let t5 = t4 + a[3].times(b[3]);
+    let t5 = a[3].times_fma(b[3], t4);
     let t6 = t5.fnma(T::lit(0.126156626101008), t2.fma(T::lit(0.252313252202016), t3 * T::lit(0.24776669508347607)));
     let t7 = b[4] * T::lit(0.2185096861184158);
     let t8 = b[6].fnma(T::lit(0.126156626101008), t1);
-    let t9 = a[1].times(b[5]) + a[3].times(b[7]);
-    let t10 = t9.fma(T::lit(0.2185096861184158), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(t0));
-    let t11 = a[2].times(b[6].fma(T::lit(0.24776669508347607), b[20] * T::lit(0.24623252122982908))) - t9 * T::lit(0.14304816810266882);
-    let t12 = a[2] * T::lit(0.2185096861184158);
-    let t13 = a[3].times(b[8].fma(T::lit(0.2185096861184158), t8)) + b[3].times(t0) + a[1].times(t7) + b[7].times(t12);
-    let t14 = a[3].times(t7) + b[1].times(t0) + a[1].times(b[8].fnma(T::lit(0.2185096861184158), t8)) + b[5].times(t12);
+    let t9 = a[1].times_fma(t7, b[3].times_fma(t0, a[3].times(b[8].fma(T::lit(0.2185096861184158), t8))));
+    let t10 = a[1].times_fma(b[8].fnma(T::lit(0.2185096861184158), t8), b[1].times_fma(t0, a[3].times(t7)));
+    let t11 = a[3].times_fma(b[7], a[1].times(b[5]));
+    let t12 = t11.fma(T::lit(0.2185096861184158), b[2].times_fma(t0, a[2].times(b[6].fma(T::lit(0.252313252202016), t1))));
+    let t13 = a[2].times_fms(b[6].fma(T::lit(0.24776669508347607), b[20] * T::lit(0.24623252122982908)), t11 * T::lit(0.14304816810266882));
+    let t14 = a[2] * T::lit(0.2185096861184158);
     let t15 = b[2].fms(T::lit(0.2185096861184158), b[12] * T::lit(0.14304816810266882));
     let t16 = a[1].times(b[11]);
-    let t17 = a[3].times(b[13]) - t16;
-    let t18 = a[3].times(b[11]) + a[1].times(b[13]);
-    let t19 = t16 + a[3].times(b[13]);
-    let t20 = (a[3].times(b[3]) - t4).fms(T::lit(0.2185096861184158), t17 * T::lit(0.05839917008190185));
-    let t21 = (a[1].times(b[3]) + a[3].times(b[1])).fms(T::lit(0.2185096861184158), t18 * T::lit(0.05839917008190185));
+    let t17 = a[3].times_fms(b[13], t16);
+    let t18 = a[1].times_fma(b[13], a[3].times(b[11]));
+    let t19 = a[3].times_fma(b[13], t16);
+    let t20 = a[3].times_fms(b[3], t4).fms(T::lit(0.2185096861184158), t17 * T::lit(0.05839917008190185));
+    let t21 = a[3].times_fma(b[1], a[1].times(b[3])).fms(T::lit(0.2185096861184158), t18 * T::lit(0.05839917008190185));
     let t22 = b[8].fnma(T::lit(0.05839917008190185), b[22] * T::lit(0.16858388283618386));
     let t23 = b[4].fnma(T::lit(0.05839917008190185), b[18] * T::lit(0.16858388283618386));
     let t24 = b[6].fms(T::lit(0.20230065940342062), b[20] * T::lit(0.15078600877302686));
-    let t25 = a[1].times(b[10]) + a[3].times(b[14]);
-    let t26 = a[3].times(b[10]) - a[1].times(b[14]);
+    let t25 = a[3].times_fma(b[14], a[1].times(b[10]));
+    let t26 = a[1].times_fnma(b[14], a[3].times(b[10]));
     let t27 = b[7].fms(T::lit(0.1846743909223718), b[21] * T::lit(0.07539300438651343));
     let t28 = b[5].fms(T::lit(0.1846743909223718), b[19] * T::lit(0.07539300438651343));
-    let t29 = a[1].times(b[9]) + a[3].times(b[15]);
-    let t30 = a[3].times(b[9]) - a[1].times(b[15]);
+    let t29 = a[3].times_fma(b[15], a[1].times(b[9]));
+    let t30 = a[1].times_fnma(b[15], a[3].times(b[9]));
     let t31 = b[8].fms(T::lit(0.22617901315954028), b[22] * T::lit(0.04352817137756817));
     let t32 = b[4].fms(T::lit(0.22617901315954028), b[18] * T::lit(0.04352817137756817));
-    let t33 = a[2] * T::lit(0.2335966803276074);
-    let t34 = t25.fma(T::lit(0.1846743909223718), a[3].times(t15) + b[3].times(t12)) + b[7].times(t0) + b[13].times(t33);
-    let t35 = t26.fma(T::lit(0.1846743909223718), a[1].times(t15) + b[1].times(t12)) + b[5].times(t0) + b[11].times(t33);
+    let t33 = b[7].times_fma(t0, t25.fma(T::lit(0.1846743909223718), b[3].times_fma(t14, a[3].times(t15))));
+    let t34 = b[5].times_fma(t0, t26.fma(T::lit(0.1846743909223718), b[1].times_fma(t14, a[1].times(t15))));
+    let t35 = a[2] * T::lit(0.2335966803276074);
     let t36 = a[2] * T::lit(0.1846743909223718);
     let t37 = a[3] * T::lit(0.19466390027300617);
     let t38 = a[1] * T::lit(0.19466390027300617);
     let t39 = a[2] * T::lit(0.23841361350444806);
-    let t40 = a[1].times(t23) + a[3].times(t22 + t24) + b[7].times(t33) + b[13].times(t0) + b[21].times(t39);
-    let t41 = a[1].times(t24 - t22) + a[3].times(t23) + b[5].times(t33) + b[11].times(t0) + b[19].times(t39);
+    let t40 = b[21].times_fma(t39, b[13].times_fma(t0, b[7].times_fma(t35, a[3].times_fma(t22 + t24, a[1].times(t23)))));
+    let t41 = b[19].times_fma(t39, b[11].times_fma(t0, b[5].times_fma(t35, a[3].times_fma(t23, a[1].times(t24 - t22)))));
     let t42 = a[2] * T::lit(0.21324361862292307);
-    let t43 = t17.fms(T::lit(0.16858388283618386), t29 * T::lit(0.04352817137756817)) + b[14].times(t42);
-    let t44 = t18.fms(T::lit(0.16858388283618386), t30 * T::lit(0.04352817137756817)) + b[10].times(t42);
-    let t45 = a[3] * T::lit(0.19947114020071635);
-    let t46 = a[1] * T::lit(0.19947114020071635);
-    let t47 = a[3].times(t27) - a[1].times(t28) + b[8].times(t36) + b[14].times(t0) + b[22].times(t42) + b[23].times(t45);
-    let t48 = a[1].times(t27) + a[3].times(t28) + b[4].times(t36) + b[10].times(t0) + b[18].times(t42) - b[23].times(t46);
+    let t43 = b[14].times_fma(t42, t17.fms(T::lit(0.16858388283618386), t29 * T::lit(0.04352817137756817)));
+    let t44 = b[10].times_fma(t42, t18.fms(T::lit(0.16858388283618386), t30 * T::lit(0.04352817137756817)));
+    let t45 = b[22].times_fma(t42, b[14].times_fma(t0, b[8].times_fma(t36, a[3].times_fms(t27, a[1].times(t28)))));
+    let t46 = b[18].times_fma(t42, b[10].times_fma(t0, b[4].times_fma(t36, a[3].times_fma(t28, a[1].times(t27)))));
+    let t47 = a[3] * T::lit(0.19947114020071635);
+    let t48 = a[1] * T::lit(0.19947114020071635);
     let t49 = a[2] * T::lit(0.16286750396763996);
     let t50 = a[3] * T::lit(0.23032943298089031);
     let t51 = a[1] * T::lit(0.23032943298089031);
-    let t52 = a[3].times(t31) - a[1].times(t32) + b[15].times(t0) + b[23].times(t49) + b[24].times(t50);
-    let t53 = a[1].times(t31) + a[3].times(t32) + b[9].times(t0) + b[17].times(t49) - b[24].times(t51) + b[16].times(t50);
-    let t54 = t25.fnma(T::lit(0.07539300438651343), b[12].times(t37)) + b[13].times(t39) + b[21].times(t0);
-    let t55 = t26.fnma(T::lit(0.07539300438651343), b[12].times(t38)) + b[11].times(t39) + b[19].times(t0);
+    let t52 = b[24].times_fma(t50, b[23].times_fma(t49, b[15].times_fma(t0, a[3].times_fms(t31, a[1].times(t32)))));
+    let t53 = b[24].times_fnma(t51, b[17].times_fma(t49, b[9].times_fma(t0, a[3].times_fma(t32, a[1].times(t31)))));
+    let t54 = b[20].times_fma(t0, t3.fms(T::lit(0.24623252122982908), t19 * T::lit(0.15078600877302686)));
+    let t55 = b[21].times_fma(t0, b[13].times_fma(t39, t25.fnma(T::lit(0.07539300438651343), b[12].times(t37))));
+    let t56 = b[19].times_fma(t0, b[11].times_fma(t39, t26.fnma(T::lit(0.07539300438651343), b[12].times(t38))));
     [
-        (t2 + a[0].times(b[0]) + t5) * T::lit(0.28209479177387814),
-        t14,
-        t10,
-        t13,
-        t30.fma(T::lit(0.22617901315954028), t21) + b[4].times(t0) + b[10].times(t36),
-        t35,
-        t19.fma(T::lit(0.20230065940342062), t6) + b[6].times(t0),
-        t34,
-        t29.fma(T::lit(0.22617901315954028), t20) + b[8].times(t0) + b[14].times(t36),
-        t53,
-        t48 + b[17].times(t45),
+        (a[0].times_fma(b[0], t2) + t5) * T::lit(0.28209479177387814),
+        b[5].times_fma(t14, t10),
+        t12,
+        b[7].times_fma(t14, t9),
+        b[10].times_fma(t36, b[4].times_fma(t0, t30.fma(T::lit(0.22617901315954028), t21))),
+        b[11].times_fma(t35, t34),
+        b[6].times_fma(t0, t19.fma(T::lit(0.20230065940342062), t6)),
+        b[13].times_fma(t35, t33),
+        b[14].times_fma(t36, b[8].times_fma(t0, t29.fma(T::lit(0.22617901315954028), t20))),
+        b[16].times_fma(t50, t53),
+        b[17].times_fma(t47, b[23].times_fnma(t48, t46)),
         t41,
-        t11 + b[12].times(t0) + b[21].times(t37) + b[19].times(t38),
+        b[19].times_fma(t38, b[21].times_fma(t37, b[12].times_fma(t0, t13))),
         t40,
-        t47 + b[17].times(t46),
-        t52 + b[16].times(t51),
-        b[9].times(t50) + b[15].times(t51) + b[16].times(t0),
-        b[10].times(t45) + b[14].times(t46) + b[9].times(t49) + b[17].times(t0),
-        t44 + b[18].times(t0),
-        t55,
-        t3.fms(T::lit(0.24623252122982908), t19 * T::lit(0.15078600877302686)) + b[20].times(t0),
+        b[17].times_fma(t48, b[23].times_fma(t47, t45)),
+        b[16].times_fma(t51, t52),
+        b[16].times_fma(t0, b[15].times_fma(t51, b[9].times(t50))),
+        b[17].times_fma(t0, b[9].times_fma(t49, b[14].times_fma(t48, b[10].times(t47)))),
+        b[18].times_fma(t0, t44),
+        t56,
         t54,
-        t43 + b[22].times(t0),
-        b[14].times(t45) - b[10].times(t46) + b[15].times(t49) + b[23].times(t0),
-        b[15].times(t50) - b[9].times(t51) + b[24].times(t0),
+        t55,
+        b[22].times_fma(t0, t43),
+        b[23].times_fma(t0, b[15].times_fma(t49, b[14].times_fms(t47, b[10].times(t48)))),
+        b[24].times_fma(t0, b[15].times_fms(t50, b[9].times(t51))),
     ]
 }
 
@@ -5668,50 +5687,50 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 25]) -> [V; 25] {
     let t3 = a[6].fma(T::lit(0.49553339016695214), a[20] * T::lit(0.49246504245965816));
     let t4 = a[6].times(a[6]);
     let t5 = t4.fma(T::lit(0.18022375157286857), t1.fma(T::lit(0.252313252202016), t2 * T::lit(0.49553339016695214)));
-    let t6 = a[4].times(a[16]) + a[8].times(a[24]);
-    let t7 = a[8].times(a[16]) - a[4].times(a[24]);
+    let t6 = a[8].times_fma(a[24], a[4].times(a[16]));
+    let t7 = a[4].times_fnma(a[24], a[8].times(a[16]));
     let t8 = a[8].fms(T::lit(0.23841361350444806), a[22] * T::lit(0.15016163338392488));
     let t9 = a[4].fms(T::lit(0.23841361350444806), a[18] * T::lit(0.15016163338392488));
     let t10 = a[12].times(a[12]);
-    let t11 = t10.fma(T::lit(0.168208834801344), t5 + a[6].times(a[20].fma(T::lit(0.48359107161236253), t0)));
+    let t11 = t10.fma(T::lit(0.168208834801344), a[6].times_fma(a[20].fma(T::lit(0.48359107161236253), t0), t5));
     let t12 = t10.fma(T::lit(0.15386988642211535), t2.fma(T::lit(0.49246504245965816), t4 * T::lit(0.24179553580618127)));
     let t13 = a[12].times(a[20].fma(T::lit(0.3077397728442307), a[6].fma(T::lit(0.336417669602688), t0)));
-    let t14 = (a[14].times(a[14]) - a[10].times(a[10])).fma(T::lit(0.15171775404828514), a[8].times(t8) - a[4].times(t9));
+    let t14 = a[14].times_fms(a[14], a[10].times(a[10])).fma(T::lit(0.15171775404828514), a[8].times_fms(t8, a[4].times(t9)));
     let t15 = a[24] * T::lit(0.30343550809657027);
     let t16 = a[16] * T::lit(0.30343550809657027);
-    let t17 = a[9].times(a[16]) + a[15].times(a[24]);
-    let t18 = a[15].times(a[16]) - a[9].times(a[24]);
+    let t17 = a[15].times_fma(a[24], a[9].times(a[16]));
+    let t18 = a[9].times_fnma(a[24], a[15].times(a[16]));
     let t19 = a[3].fms(T::lit(0.46065886596178063), a[13] * T::lit(0.2350401339012005));
     let t20 = a[1].fms(T::lit(0.46065886596178063), a[11] * T::lit(0.2350401339012005));
-    let t21 = a[10].times(a[14]).fma(T::lit(0.30343550809657027), a[4].times(t8) + a[8].times(t9)) + a[15].times(t20);
+    let t21 = a[15].times_fma(t20, a[10].times(a[14]).fma(T::lit(0.30343550809657027), a[8].times_fma(t9, a[4].times(t8))));
     let t22 = a[20].times(a[20]);
-    let t23 = t22.fma(T::lit(0.13696110769441036), t12) + a[20].times(a[6].fma(T::lit(0.3276795483143065), t0));
+    let t23 = a[20].times_fma(a[6].fma(T::lit(0.3276795483143065), t0), t22.fma(T::lit(0.13696110769441036), t12));
     let t24 = a[19].times(a[19]);
-    let t25 = t6.fma(T::lit(0.15016163338392488), (a[21].times(a[21]) - t24) * T::lit(0.09824657785997126));
+    let t25 = t6.fma(T::lit(0.15016163338392488), a[21].times_fms(a[21], t24) * T::lit(0.09824657785997126));
     let t26 = a[18] * T::lit(0.19649315571994252);
     let t27 = a[20] * T::lit(0.43937205330324314);
     let t28 = a[23] * T::lit(0.0742674320516081);
     let t29 = a[17] * T::lit(0.0742674320516081);
-    let t30 = a[21].times(t29) - t7.fma(T::lit(0.15016163338392488), a[19].times(a[21]) * T::lit(0.19649315571994252));
-    let t31 = a[21].times(a[22].fnma(T::lit(0.19649315571994252), t27)) - a[19].times(t26) + a[22].times(t28);
-    let t32 = a[19].times(a[22].fma(T::lit(0.19649315571994252), t27)) - a[21].times(t26) + a[22].times(t29);
+    let t30 = a[21].times_fms(t29, t7.fma(T::lit(0.15016163338392488), a[19].times(a[21]) * T::lit(0.19649315571994252)));
+    let t31 = a[22].times_fma(t28, a[21].times_fms(a[22].fnma(T::lit(0.19649315571994252), t27), a[19].times(t26)));
+    let t32 = a[22].times_fma(t29, a[21].times_fnma(t26, a[19].times(a[22].fma(T::lit(0.19649315571994252), t27))));
     let t33 = a[18].times(a[18]);
-    let t34 = (a[22].times(a[22]) - t33).fma(T::lit(0.1350454733836384), t14 + a[15].times(t19) - a[9].times(t20));
-    let t35 = (t33 + a[22].times(a[22])).fnma(T::lit(0.10984301332581078), (t24 + a[21].times(a[21])).fma(T::lit(0.21968602665162157), t23));
+    let t34 = a[22].times_fms(a[22], t33).fma(T::lit(0.1350454733836384), a[9].times_fnma(t20, a[15].times_fma(t19, t14)));
+    let t35 = a[22].times_fma(a[22], t33).fnma(T::lit(0.10984301332581078), a[21].times_fma(a[21], t24).fma(T::lit(0.21968602665162157), t23));
     let t36 = a[16] * T::lit(0.2700909467672768);
     let t37 = a[20] * T::lit(0.21968602665162157);
-    let t38 = a[21].times(t28) - t25 + a[19].times(t29) + a[22].times(a[24].fms(T::lit(0.2700909467672768), t37));
-    let t39 = t30 - a[19].times(t28) + a[22].times(t36) - a[18].times(a[24].fma(T::lit(0.2700909467672768), t37));
+    let t38 = a[22].times_fma(a[24].fms(T::lit(0.2700909467672768), t37), a[19].times_fma(t29, a[21].times_fms(t28, t25)));
+    let t39 = a[18].times_fnma(a[24].fma(T::lit(0.2700909467672768), t37), a[22].times_fma(t36, a[19].times_fnma(t28, t30)));
     let t40 = a[20] * T::lit(0.0627674361861776);
-    let t41 = (a[21].times(a[22]) - a[18].times(a[19])).fma(T::lit(0.0742674320516081), a[23].times(t40));
-    let t42 = (a[18].times(a[21]) + a[19].times(a[22])).fma(T::lit(0.0742674320516081), a[17].times(t40));
-    let t43 = a[16].times(a[17]) + a[23].times(a[24]);
-    let t44 = a[16].times(a[23]) - a[17].times(a[24]);
+    let t41 = a[21].times_fms(a[22], a[18].times(a[19])).fma(T::lit(0.0742674320516081), a[23].times(t40));
+    let t42 = a[19].times_fma(a[22], a[18].times(a[21])).fma(T::lit(0.0742674320516081), a[17].times(t40));
+    let t43 = a[23].times_fma(a[24], a[16].times(a[17]));
+    let t44 = a[17].times_fnma(a[24], a[16].times(a[23]));
     let t45 = a[7].fms(T::lit(0.2809266923805015), a[21] * T::lit(0.23819782550539972));
     let t46 = a[5].fms(T::lit(0.2809266923805015), a[19] * T::lit(0.23819782550539972));
-    let t47 = a[18].times(a[22]).fma(T::lit(0.2700909467672768), t21 + a[9].times(t19)) + a[23].times(t46);
-    let t48 = a[16].times(a[16]) + a[24].times(a[24]);
-    let t49 = t48.fma(T::lit(0.1065253059845414), (a[17].times(a[17]) + a[23].times(a[23])).fma(T::lit(0.0313837180930888), t35));
+    let t47 = a[23].times_fma(t46, a[18].times(a[22]).fma(T::lit(0.2700909467672768), a[9].times_fma(t19, t21)));
+    let t48 = a[24].times_fma(a[24], a[16].times(a[16]));
+    let t49 = t48.fma(T::lit(0.1065253059845414), a[23].times_fma(a[23], a[17].times(a[17])).fma(T::lit(0.0313837180930888), t35));
     let t50 = a[20].fma(T::lit(0.2130506119690828), a[6].fnma(T::lit(0.4587513676400291), t0));
     let t51 = a[20].fnma(T::lit(0.8154935581452574), a[0].fma(T::lit(2.0714715659974203), a[6] * T::lit(2.473033860342304)));
     let t52 = a[12].fma(T::lit(1.0154934510360722), a[2].fma(T::lit(2.9787553350699043), t51));
@@ -5735,134 +5754,138 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 25]) -> [V; 25] {
     let t70 = t56.times(t62);
     let t71 = t57.times(t62);
     let t72 = t56.times(t63);
-    let t73 = t57.times(t57) + t56.times(t56) + t62.times(t62) + t63.times(t63) + t66.times(t66) + t67.times(t67);
-    let t74 = t70 + t52.times(t66) - t57.times(t63);
-    let t75 = t72 + t52.times(t67) + t71;
-    let t76 = t56.times(t56 * T::lit(0.5)) + t52.times(t62) - t57.times(t57 * T::lit(0.5)) + t56.times(t66);
-    let t77 = t76 + t57.times(t67);
-    let t78 = t56.times(t57) + t52.times(t63) - t57.times(t66) + t56.times(t67);
-    let t79 = t70 + t52.times(t56) + t57.times(t63) + t62.times(t66) + t63.times(t67);
-    let t80 = t52.times(t57) - t71 + t72 - t63.times(t66) + t62.times(t67);
-    let t81 = t73 + t58.times(t58) + t59.times(t59) + t64.times(t64) + t65.times(t65) + t68.times(t68) + t69.times(t69);
-    let t82 = t74 + t53.times(t68) + t58.times(t64) - t59.times(t65);
-    let t83 = t75 + t53.times(t69) + t58.times(t65) + t59.times(t64);
-    let t84 = t77 + t53.times(t64) + t58.times(t58 * T::lit(0.5)) - t59.times(t59 * T::lit(0.5)) + t58.times(t68);
-    let t85 = t84 + t59.times(t69);
-    let t86 = t78 + t53.times(t65) + t58.times(t59) - t59.times(t68) + t58.times(t69);
-    let t87 = t79 + t53.times(t58) + t58.times(t64) + t59.times(t65) + t64.times(t68) + t65.times(t69);
-    let t88 = t80 + t53.times(t59) - t59.times(t64) + t58.times(t65) - t65.times(t68) + t64.times(t69);
-    let t89 = t81.fma(T::lit(0.021726769321552968), t48.fnma(T::lit(0.22937568382001455), t22.fma(T::lit(0.16383977415715326), t11)));
-    let t90 = t73.fms(T::lit(2.0), t81);
-    let t91 = t90.fma(T::lit(0.026169771093005174), a[12].times(t3) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0)));
-    let t92 = t79.fms(T::lit(2.0), t87);
-    let t93 = t80.fms(T::lit(2.0), t88);
-    let t94 = t92.fma(T::lit(0.0364527674595288), t43.fnma(T::lit(0.23819782550539972), t31 + a[18].times(t29)));
-    let t95 = t93.fma(T::lit(0.0364527674595288), t44.fnma(T::lit(0.23819782550539972), t32 - a[18].times(t28)));
-    let t96 = t85.fma(T::lit(0.010950664785190896), t6.fma(T::lit(0.23841361350444806), a[24].times(t8)) + a[16].times(t9));
-    let t97 = t86.fma(T::lit(0.010950664785190896), t7.fms(T::lit(0.23841361350444806), a[24].times(t9)) + a[16].times(t8));
-    let t98 = t77.fms(T::lit(2.0), t85).fma(T::lit(0.024053857529037475), a[10].times(t16) + a[14].times(t15));
-    let t99 = t78.fms(T::lit(2.0), t86).fma(T::lit(0.024053857529037475), a[14].times(t16) - a[10].times(t15));
-    let t100 = t74.fms(T::lit(2.0), t82).fma(T::lit(0.016421799894982166), t41 + a[24].times(t45) + a[16].times(t46));
-    let t101 = t75.fms(T::lit(2.0), t83).fma(T::lit(0.016421799894982166), t42 - a[24].times(t46) + a[16].times(t45));
-    let t102 = a[20].fnma(T::lit(0.9330904080883121), a[0].fms(T::lit(1.3072893907869805), a[6] * T::lit(0.4977347579151022)));
-    let t103 = a[12].fnma(T::lit(1.5412878627563027), a[2].fma(T::lit(1.061610405842267), t102));
-    let t104 = t102.fms(T::lit(2.0), t103);
-    let t105 = a[13].fma(T::lit(0.09269577865614509), a[3]);
-    let t106 = a[11].fma(T::lit(0.09269577865614509), a[1]);
-    let t107 = a[21].fnma(T::lit(0.938129121934964), a[7].fma(T::lit(1.0483777733692765), t105));
-    let t108 = a[19].fnma(T::lit(0.938129121934964), a[5].fma(T::lit(1.0483777733692765), t106));
-    let t109 = t105.fms(T::lit(2.0), t107);
-    let t110 = t106.fms(T::lit(2.0), t108);
-    let t111 = a[8].fma(T::lit(0.9875353214322612), a[22] * T::lit(0.46074213177654355));
-    let t112 = a[4].fma(T::lit(0.9875353214322612), a[18] * T::lit(0.46074213177654355));
-    let t113 = a[14].fma(T::lit(1.2249954083698398), t111);
-    let t114 = a[10].fma(T::lit(1.2249954083698398), t112);
-    let t115 = t111.fms(T::lit(2.0), t113);
-    let t116 = t112.fms(T::lit(2.0), t114);
-    let t117 = a[15].fma(T::lit(0.9421578359460306), a[23] * T::lit(1.3251886939268267));
-    let t118 = a[9].fma(T::lit(0.9421578359460306), a[17] * T::lit(1.3251886939268267));
-    let t119 = a[15].fms(T::lit(1.8843156718920613), t117);
-    let t120 = a[9].fms(T::lit(1.8843156718920613), t118);
-    let t121 = t107.times(t113);
-    let t122 = t108.times(t113);
-    let t123 = t107.times(t114);
-    let t124 = t108.times(t108) + t107.times(t107) + t113.times(t113) + t114.times(t114) + t117.times(t117);
-    let t125 = t124 + t118.times(t118);
-    let t126 = t121 + t103.times(t117) - t108.times(t114);
-    let t127 = t123 + t103.times(t118) + t122;
-    let t128 = t107.times(t107 * T::lit(0.5)) + t103.times(t113) - t108.times(t108 * T::lit(0.5)) + t107.times(t117);
-    let t129 = t128 + t108.times(t118);
-    let t130 = t107.times(t108) + t103.times(t114) - t108.times(t117) + t107.times(t118);
-    let t131 = t121 + t103.times(t107) + t108.times(t114) + t113.times(t117) + t114.times(t118);
-    let t132 = t103.times(t108) - t122 + t123 - t114.times(t117) + t113.times(t118);
-    let t133 = t129 + t104.times(t115) + t109.times(t109 * T::lit(0.5)) - t110.times(t110 * T::lit(0.5));
-    let t134 = t125 + t109.times(t109) + t110.times(t110) + t115.times(t115) + t116.times(t116) + t119.times(t119);
-    let t135 = t134 + t120.times(t120);
-    let t136 = t126 + t104.times(t119) + t109.times(t115) - t110.times(t116);
-    let t137 = t127 + t104.times(t120) + t109.times(t116) + t110.times(t115);
-    let t138 = t133 + t109.times(t119) + t110.times(t120);
-    let t139 = t130 + t104.times(t116) + t109.times(t110) - t110.times(t119) + t109.times(t120);
-    let t140 = t131 + t104.times(t109) + t109.times(t115) + t110.times(t116) + t115.times(t119) + t116.times(t120);
-    let t141 = t132 + t104.times(t110) - t110.times(t115) + t109.times(t116) - t116.times(t119) + t115.times(t120);
-    let t142 = t125.fms(T::lit(2.0), t135);
-    let t143 = t142.fnma(T::lit(0.08402167140945162), t90.fma(T::lit(0.008921589110451803), t13 + a[2].times(t3)));
-    let t144 = t140.fma(T::lit(0.10902787654370377), t17.fma(T::lit(0.46065886596178063), t87 * T::lit(0.017570943665563613)));
-    let t145 = t141.fma(T::lit(0.10902787654370377), t18.fma(T::lit(0.46065886596178063), t88 * T::lit(0.017570943665563613)));
-    let t146 = t140.fma(T::lit(0.010106423911444678), t17.fnma(T::lit(0.2350401339012005), t87 * T::lit(0.04020862570537134)));
-    let t147 = t141.fma(T::lit(0.010106423911444678), t18.fnma(T::lit(0.2350401339012005), t88 * T::lit(0.04020862570537134)));
-    let t148 = t131.fms(T::lit(2.0), t140);
-    let t149 = t132.fms(T::lit(2.0), t141);
-    let t150 = t148.fma(T::lit(0.11430240244606854), t43.fma(T::lit(0.2809266923805015), t92 * T::lit(0.03261935115144951)));
-    let t151 = t149.fma(T::lit(0.11430240244606854), t44.fma(T::lit(0.2809266923805015), t93 * T::lit(0.03261935115144951)));
-    let t152 = t138.fma(T::lit(0.05023373626181588), t85.fma(T::lit(0.03627366449316103), t38 + a[18].times(t36)));
-    let t153 = t136.fma(T::lit(0.10272146822220694), t82.fma(T::lit(0.006593321780864167), a[16].times(t20) + a[24].times(t19)));
-    let t154 = t137.fma(T::lit(0.10272146822220694), t83.fma(T::lit(0.006593321780864167), a[16].times(t19) - a[24].times(t20)));
-    let t155 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
-    let t156 = a[13].fnma(T::lit(0.9354143466934853), a[3]);
-    let t157 = a[11].fnma(T::lit(0.9354143466934853), a[1]);
-    let t158 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
-    let t159 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
-    let t160 = a[15] * T::lit(1.20761472884912);
-    let t161 = a[9] * T::lit(1.20761472884912);
-    let t162 = t156.times(t158);
-    let t163 = t157.times(t158);
-    let t164 = t156.times(t159);
-    let t165 = t157.times(t157) + t156.times(t156) + t158.times(t158) + t159.times(t159) + t160.times(t160);
-    let t166 = t165 + t161.times(t161);
-    let t167 = t156.times(t156 * T::lit(0.5)) + t155.times(t158) - t157.times(t157 * T::lit(0.5)) + t156.times(t160);
-    let t168 = t167 + t157.times(t161);
-    let t169 = t156.times(t157) + t155.times(t159) - t157.times(t160) + t156.times(t161);
-    let t170 = t162 + t155.times(t156) + t157.times(t159) + t158.times(t160) + t159.times(t161);
-    let t171 = t155.times(t157) - t163 + t164 - t159.times(t160) + t158.times(t161);
-    let t172 = t166.fma(T::lit(0.10316609527730401), t81.fma(T::lit(0.018198855095478757), t135 * T::lit(0.0712654931528083)));
-    let t173 = t166.fma(T::lit(0.116061857186967), t135.fnma(T::lit(0.05086643290858334), t81.fnma(T::lit(0.00716449568490017), t49)));
-    let t174 = t169.fnma(T::lit(0.17301480150995383), t139.fma(T::lit(0.05023373626181588), t86.fma(T::lit(0.03627366449316103), t39)));
+    let t73 = t66.times_fma(t66, t63.times_fma(t63, t62.times_fma(t62, t56.times_fma(t56, t57.times(t57)))));
+    let t74 = t67.times_fma(t67, t73);
+    let t75 = t57.times_fnma(t63, t52.times_fma(t66, t70));
+    let t76 = t71 + t52.times_fma(t67, t72);
+    let t77 = t56.times_fma(t66, t57.times_fnma(t57 * T::lit(0.5), t52.times_fma(t62, t56.times(t56 * T::lit(0.5)))));
+    let t78 = t57.times_fma(t67, t77);
+    let t79 = t56.times_fma(t67, t57.times_fnma(t66, t52.times_fma(t63, t56.times(t57))));
+    let t80 = t63.times_fma(t67, t62.times_fma(t66, t57.times_fma(t63, t52.times_fma(t56, t70))));
+    let t81 = t62.times_fma(t67, t63.times_fnma(t66, t52.times_fms(t57, t71) + t72));
+    let t82 = t59.times_fnma(t59 * T::lit(0.5), t58.times_fma(t58 * T::lit(0.5), t53.times_fma(t64, t78)));
+    let t83 = t68.times_fma(t68, t65.times_fma(t65, t64.times_fma(t64, t59.times_fma(t59, t58.times_fma(t58, t74)))));
+    let t84 = t69.times_fma(t69, t83);
+    let t85 = t59.times_fnma(t65, t58.times_fma(t64, t53.times_fma(t68, t75)));
+    let t86 = t59.times_fma(t64, t58.times_fma(t65, t53.times_fma(t69, t76)));
+    let t87 = t59.times_fma(t69, t58.times_fma(t68, t82));
+    let t88 = t58.times_fma(t69, t59.times_fnma(t68, t58.times_fma(t59, t53.times_fma(t65, t79))));
+    let t89 = t65.times_fma(t69, t64.times_fma(t68, t59.times_fma(t65, t58.times_fma(t64, t53.times_fma(t58, t80)))));
+    let t90 = t64.times_fma(t69, t65.times_fnma(t68, t58.times_fma(t65, t59.times_fnma(t64, t53.times_fma(t59, t81)))));
+    let t91 = t84.fma(T::lit(0.021726769321552968), t48.fnma(T::lit(0.22937568382001455), t22.fma(T::lit(0.16383977415715326), t11)));
+    let t92 = t74.fms(T::lit(2.0), t84);
+    let t93 = t92.fma(T::lit(0.026169771093005174), a[2].times_fma(a[6].fma(T::lit(0.504626504404032), t0), a[12].times(t3)));
+    let t94 = t80.fms(T::lit(2.0), t89);
+    let t95 = t81.fms(T::lit(2.0), t90);
+    let t96 = t94.fma(T::lit(0.0364527674595288), t43.fnma(T::lit(0.23819782550539972), a[18].times_fma(t29, t31)));
+    let t97 = t95.fma(T::lit(0.0364527674595288), t44.fnma(T::lit(0.23819782550539972), a[18].times_fnma(t28, t32)));
+    let t98 = t87.fma(T::lit(0.010950664785190896), a[16].times_fma(t9, t6.fma(T::lit(0.23841361350444806), a[24].times(t8))));
+    let t99 = t88.fma(T::lit(0.010950664785190896), a[16].times_fma(t8, t7.fms(T::lit(0.23841361350444806), a[24].times(t9))));
+    let t100 = t78.fms(T::lit(2.0), t87).fma(T::lit(0.024053857529037475), a[14].times_fma(t15, a[10].times(t16)));
+    let t101 = t79.fms(T::lit(2.0), t88).fma(T::lit(0.024053857529037475), a[14].times_fms(t16, a[10].times(t15)));
+    let t102 = t75.fms(T::lit(2.0), t85).fma(T::lit(0.016421799894982166), a[16].times_fma(t46, a[24].times_fma(t45, t41)));
+    let t103 = t76.fms(T::lit(2.0), t86).fma(T::lit(0.016421799894982166), a[16].times_fma(t45, a[24].times_fnma(t46, t42)));
+    let t104 = a[20].fnma(T::lit(0.9330904080883121), a[0].fms(T::lit(1.3072893907869805), a[6] * T::lit(0.4977347579151022)));
+    let t105 = a[12].fnma(T::lit(1.5412878627563027), a[2].fma(T::lit(1.061610405842267), t104));
+    let t106 = t104.fms(T::lit(2.0), t105);
+    let t107 = a[13].fma(T::lit(0.09269577865614509), a[3]);
+    let t108 = a[11].fma(T::lit(0.09269577865614509), a[1]);
+    let t109 = a[21].fnma(T::lit(0.938129121934964), a[7].fma(T::lit(1.0483777733692765), t107));
+    let t110 = a[19].fnma(T::lit(0.938129121934964), a[5].fma(T::lit(1.0483777733692765), t108));
+    let t111 = t107.fms(T::lit(2.0), t109);
+    let t112 = t108.fms(T::lit(2.0), t110);
+    let t113 = a[8].fma(T::lit(0.9875353214322612), a[22] * T::lit(0.46074213177654355));
+    let t114 = a[4].fma(T::lit(0.9875353214322612), a[18] * T::lit(0.46074213177654355));
+    let t115 = a[14].fma(T::lit(1.2249954083698398), t113);
+    let t116 = a[10].fma(T::lit(1.2249954083698398), t114);
+    let t117 = t113.fms(T::lit(2.0), t115);
+    let t118 = t114.fms(T::lit(2.0), t116);
+    let t119 = a[15].fma(T::lit(0.9421578359460306), a[23] * T::lit(1.3251886939268267));
+    let t120 = a[9].fma(T::lit(0.9421578359460306), a[17] * T::lit(1.3251886939268267));
+    let t121 = a[15].fms(T::lit(1.8843156718920613), t119);
+    let t122 = a[9].fms(T::lit(1.8843156718920613), t120);
+    let t123 = t110.times_fnma(t110 * T::lit(0.5), t105.times_fma(t115, t109.times(t109 * T::lit(0.5))));
+    let t124 = t109.times(t115);
+    let t125 = t110.times(t115);
+    let t126 = t109.times(t116);
+    let t127 = t119.times_fma(t119, t116.times_fma(t116, t115.times_fma(t115, t109.times_fma(t109, t110.times(t110)))));
+    let t128 = t120.times_fma(t120, t127);
+    let t129 = t110.times_fnma(t116, t105.times_fma(t119, t124));
+    let t130 = t125 + t105.times_fma(t120, t126);
+    let t131 = t110.times_fma(t120, t109.times_fma(t119, t123));
+    let t132 = t109.times_fma(t120, t110.times_fnma(t119, t105.times_fma(t116, t109.times(t110))));
+    let t133 = t116.times_fma(t120, t115.times_fma(t119, t110.times_fma(t116, t105.times_fma(t109, t124))));
+    let t134 = t115.times_fma(t120, t116.times_fnma(t119, t105.times_fms(t110, t125) + t126));
+    let t135 = t118.times_fma(t118, t117.times_fma(t117, t112.times_fma(t112, t111.times_fma(t111, t128))));
+    let t136 = t112.times_fnma(t112 * T::lit(0.5), t111.times_fma(t111 * T::lit(0.5), t106.times_fma(t117, t131)));
+    let t137 = t122.times_fma(t122, t121.times_fma(t121, t135));
+    let t138 = t112.times_fnma(t118, t111.times_fma(t117, t106.times_fma(t121, t129)));
+    let t139 = t112.times_fma(t117, t111.times_fma(t118, t106.times_fma(t122, t130)));
+    let t140 = t112.times_fma(t122, t111.times_fma(t121, t136));
+    let t141 = t111.times_fma(t122, t112.times_fnma(t121, t111.times_fma(t112, t106.times_fma(t118, t132))));
+    let t142 = t117.times_fma(t121, t112.times_fma(t118, t111.times_fma(t117, t106.times_fma(t111, t133))));
+    let t143 = t118.times_fnma(t121, t111.times_fma(t118, t112.times_fnma(t117, t106.times_fma(t112, t134))));
+    let t144 = t118.times_fma(t122, t142);
+    let t145 = t117.times_fma(t122, t143);
+    let t146 = t128.fms(T::lit(2.0), t137);
+    let t147 = t146.fnma(T::lit(0.08402167140945162), t92.fma(T::lit(0.008921589110451803), a[2].times_fma(t3, t13)));
+    let t148 = t144.fma(T::lit(0.10902787654370377), t17.fma(T::lit(0.46065886596178063), t89 * T::lit(0.017570943665563613)));
+    let t149 = t145.fma(T::lit(0.10902787654370377), t18.fma(T::lit(0.46065886596178063), t90 * T::lit(0.017570943665563613)));
+    let t150 = t144.fma(T::lit(0.010106423911444678), t17.fnma(T::lit(0.2350401339012005), t89 * T::lit(0.04020862570537134)));
+    let t151 = t145.fma(T::lit(0.010106423911444678), t18.fnma(T::lit(0.2350401339012005), t90 * T::lit(0.04020862570537134)));
+    let t152 = t133.fms(T::lit(2.0), t144);
+    let t153 = t134.fms(T::lit(2.0), t145);
+    let t154 = t152.fma(T::lit(0.11430240244606854), t43.fma(T::lit(0.2809266923805015), t94 * T::lit(0.03261935115144951)));
+    let t155 = t153.fma(T::lit(0.11430240244606854), t44.fma(T::lit(0.2809266923805015), t95 * T::lit(0.03261935115144951)));
+    let t156 = t140.fma(T::lit(0.05023373626181588), t87.fma(T::lit(0.03627366449316103), a[18].times_fma(t36, t38)));
+    let t157 = t138.fma(T::lit(0.10272146822220694), t85.fma(T::lit(0.006593321780864167), a[24].times_fma(t19, a[16].times(t20))));
+    let t158 = t139.fma(T::lit(0.10272146822220694), t86.fma(T::lit(0.006593321780864167), a[24].times_fnma(t20, a[16].times(t19))));
+    let t159 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t160 = a[13].fnma(T::lit(0.9354143466934853), a[3]);
+    let t161 = a[11].fnma(T::lit(0.9354143466934853), a[1]);
+    let t162 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t163 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t164 = a[15] * T::lit(1.20761472884912);
+    let t165 = a[9] * T::lit(1.20761472884912);
+    let t166 = t161.times_fnma(t161 * T::lit(0.5), t159.times_fma(t162, t160.times(t160 * T::lit(0.5))));
+    let t167 = t160.times(t162);
+    let t168 = t161.times(t162);
+    let t169 = t160.times(t163);
+    let t170 = t164.times_fma(t164, t163.times_fma(t163, t162.times_fma(t162, t160.times_fma(t160, t161.times(t161)))));
+    let t171 = t165.times_fma(t165, t170);
+    let t172 = t161.times_fma(t165, t160.times_fma(t164, t166));
+    let t173 = t160.times_fma(t165, t161.times_fnma(t164, t159.times_fma(t163, t160.times(t161))));
+    let t174 = t163.times_fma(t165, t162.times_fma(t164, t161.times_fma(t163, t159.times_fma(t160, t167))));
+    let t175 = t162.times_fma(t165, t163.times_fnma(t164, t159.times_fms(t161, t168) + t169));
+    let t176 = t171.fma(T::lit(0.10316609527730401), t84.fma(T::lit(0.018198855095478757), t137 * T::lit(0.0712654931528083)));
+    let t177 = t171.fma(T::lit(0.116061857186967), t137.fnma(T::lit(0.05086643290858334), t84.fnma(T::lit(0.00716449568490017), t49)));
+    let t178 = t173.fnma(T::lit(0.17301480150995383), t141.fma(T::lit(0.05023373626181588), t88.fma(T::lit(0.03627366449316103), t39)));
     [
-        (t1 + a[0].times(a[0]) + t4 + t10 + t22 + t48).fma(T::lit(0.28209479177387814), t172),
-        t171.fma(T::lit(0.17868891863878214), t145),
-        t142.fma(T::lit(0.05787256413284098), t91),
-        t170.fma(T::lit(0.17868891863878214), t144),
-        t169.fma(T::lit(0.19978028445112303), t139.fma(T::lit(0.1076688791076634), t97)),
-        t151,
-        t166.fnma(T::lit(0.11534320100663589), t135.fnma(T::lit(0.027133481868739026), t89)),
-        t150,
-        t168.fma(T::lit(0.19978028445112303), t138.fma(T::lit(0.1076688791076634), t96)),
-        (t164 + t155.times(t161) + t163).fma(T::lit(0.21578737003031534), t154),
-        t130.fms(T::lit(2.0), t139).fma(T::lit(0.1335586481503509), t99),
-        t171.fnma(T::lit(0.16714817808986177), t147),
-        t143,
-        t170.fnma(T::lit(0.16714817808986177), t146),
-        t129.fms(T::lit(2.0), t138).fma(T::lit(0.1335586481503509), t98),
-        (t162 + t155.times(t160) - t157.times(t159)).fma(T::lit(0.21578737003031534), t153),
-        t47 + a[17].times(t45) + a[16].times(t50),
-        t127.fms(T::lit(2.0), t137).fma(T::lit(0.14448250931856613), t101),
-        t174,
-        t149.fnma(T::lit(0.10228222608837849), t95),
-        t173,
-        t148.fnma(T::lit(0.10228222608837849), t94),
-        t168.fnma(T::lit(0.17301480150995383), t152),
-        t126.fms(T::lit(2.0), t136).fma(T::lit(0.14448250931856613), t100),
-        t34 + a[23].times(t45) - a[17].times(t46) + a[24].times(t50),
+        (a[0].times_fma(a[0], t1) + t4 + t10 + t22 + t48).fma(T::lit(0.28209479177387814), t176),
+        t175.fma(T::lit(0.17868891863878214), t149),
+        t146.fma(T::lit(0.05787256413284098), t93),
+        t174.fma(T::lit(0.17868891863878214), t148),
+        t173.fma(T::lit(0.19978028445112303), t141.fma(T::lit(0.1076688791076634), t99)),
+        t155,
+        t171.fnma(T::lit(0.11534320100663589), t137.fnma(T::lit(0.027133481868739026), t91)),
+        t154,
+        t172.fma(T::lit(0.19978028445112303), t140.fma(T::lit(0.1076688791076634), t98)),
+        (t168 + t159.times_fma(t165, t169)).fma(T::lit(0.21578737003031534), t158),
+        t132.fms(T::lit(2.0), t141).fma(T::lit(0.1335586481503509), t101),
+        t175.fnma(T::lit(0.16714817808986177), t151),
+        t147,
+        t174.fnma(T::lit(0.16714817808986177), t150),
+        t131.fms(T::lit(2.0), t140).fma(T::lit(0.1335586481503509), t100),
+        t161.times_fnma(t163, t159.times_fma(t164, t167)).fma(T::lit(0.21578737003031534), t157),
+        a[16].times_fma(t50, a[17].times_fma(t45, t47)),
+        t130.fms(T::lit(2.0), t139).fma(T::lit(0.14448250931856613), t103),
+        t178,
+        t153.fnma(T::lit(0.10228222608837849), t97),
+        t177,
+        t152.fnma(T::lit(0.10228222608837849), t96),
+        t172.fnma(T::lit(0.17301480150995383), t156),
+        t129.fms(T::lit(2.0), t138).fma(T::lit(0.14448250931856613), t102),
+        a[24].times_fma(t50, a[17].times_fnma(t46, a[23].times_fma(t45, t34))),
     ]
 }
 
@@ -5884,12 +5907,13 @@ pub fn square_rgb<T: Real>(a: &[[T; 3]; 25]) -> [[T; 3]; 25] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 25], b: &[V; 25]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
-    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
-    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
-    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
-    t4
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    let t2 = a[12].times_fma(b[12], a[11].times_fma(b[11], a[10].times_fma(b[10], a[9].times_fma(b[9], t1))));
+    let t3 = a[16].times_fma(b[16], a[15].times_fma(b[15], a[14].times_fma(b[14], a[13].times_fma(b[13], t2))));
+    let t4 = a[20].times_fma(b[20], a[19].times_fma(b[19], a[18].times_fma(b[18], a[17].times_fma(b[17], t3))));
+    let t5 = a[24].times_fma(b[24], a[23].times_fma(b[23], a[22].times_fma(b[22], a[21].times_fma(b[21], t4))));
+    t5
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.
@@ -6215,14 +6239,14 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 5], b: &[V; 25]) -> [V; 25] 
     let t0 = g[0] * T::lit(0.28209479177387814);
     let t1 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t2 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t3 = g[3] * T::lit(0.24623252122982908);
-    let t4 = b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + b[12].times(t2) + b[20].times(t3);
+    let t3 = b[12].times_fma(t2, b[2].times_fma(g[2].fma(T::lit(0.252313252202016), t0), b[6].times(t1)));
+    let t4 = g[3] * T::lit(0.24623252122982908);
     let t5 = b[6].times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t0)));
     let t6 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
     let t7 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
-    let t8 = b[6].times(t6) + b[2].times(t2) + b[12].times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t0)));
+    let t8 = b[12].times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t0)), b[2].times_fma(t2, b[6].times(t6)));
     let t9 = g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535));
-    let t10 = b[6].times(t7) + b[2].times(t3) + b[12].times(t9) + b[20].times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t0)));
+    let t10 = b[20].times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t0)), b[12].times_fma(t9, b[2].times_fma(t4, b[6].times(t7))));
     let t11 = g[2].fnma(T::lit(0.126156626101008), t0);
     let t12 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
     let t13 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
@@ -6244,32 +6268,32 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 5], b: &[V; 25]) -> [V; 25] 
     let t29 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t0));
     let t30 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t0));
     let t31 = b[0] * T::lit(0.28209479177387814);
-    let t32 = g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6]) + g[3].times(b[12]) + g[4].times(b[20]);
+    let t32 = g[4].times_fma(b[20], g[3].times_fma(b[12], g[2].times_fma(b[6], g[0].times_fma(b[0], g[1].times(b[2])))));
     [
         t32 * T::lit(0.28209479177387814),
-        b[5].times(t12) + b[1].times(t11) + b[11].times(t13) + b[19].times(t14),
-        t4 + g[1].times(t31),
-        b[7].times(t12) + b[3].times(t11) + b[13].times(t13) + b[21].times(t14),
-        b[10].times(t22) + b[4].times(t21) + b[18].times(t23),
-        b[5].times(t15) + b[1].times(t12) + b[11].times(t16) + b[19].times(t17),
-        t5 + b[2].times(t1) + b[12].times(t6) + b[20].times(t7) + g[2].times(t31),
-        b[7].times(t15) + b[3].times(t12) + b[13].times(t16) + b[21].times(t17),
-        b[14].times(t22) + b[8].times(t21) + b[22].times(t23),
-        b[17].times(t28) + b[9].times(t27),
-        b[10].times(t24) + b[4].times(t22) + b[18].times(t25),
-        b[5].times(t16) + b[1].times(t13) + b[11].times(t18) + b[19].times(t19),
-        t8 + b[20].times(t9) + g[3].times(t31),
-        b[7].times(t16) + b[3].times(t13) + b[13].times(t18) + b[21].times(t19),
-        b[14].times(t24) + b[8].times(t22) + b[22].times(t25),
-        b[23].times(t28) + b[15].times(t27),
+        b[19].times_fma(t14, b[11].times_fma(t13, b[1].times_fma(t11, b[5].times(t12)))),
+        g[1].times_fma(t31, b[20].times_fma(t4, t3)),
+        b[21].times_fma(t14, b[13].times_fma(t13, b[3].times_fma(t11, b[7].times(t12)))),
+        b[18].times_fma(t23, b[4].times_fma(t21, b[10].times(t22))),
+        b[19].times_fma(t17, b[11].times_fma(t16, b[1].times_fma(t12, b[5].times(t15)))),
+        g[2].times_fma(t31, b[20].times_fma(t7, b[12].times_fma(t6, b[2].times_fma(t1, t5)))),
+        b[21].times_fma(t17, b[13].times_fma(t16, b[3].times_fma(t12, b[7].times(t15)))),
+        b[22].times_fma(t23, b[8].times_fma(t21, b[14].times(t22))),
+        b[9].times_fma(t27, b[17].times(t28)),
+        b[18].times_fma(t25, b[4].times_fma(t22, b[10].times(t24))),
+        b[19].times_fma(t19, b[11].times_fma(t18, b[1].times_fma(t13, b[5].times(t16)))),
+        g[3].times_fma(t31, b[20].times_fma(t9, t8)),
+        b[21].times_fma(t19, b[13].times_fma(t18, b[3].times_fma(t13, b[7].times(t16)))),
+        b[22].times_fma(t25, b[8].times_fma(t22, b[14].times(t24))),
+        b[15].times_fma(t27, b[23].times(t28)),
         b[16].times(t30),
-        b[17].times(t29) + b[9].times(t28),
-        b[10].times(t25) + b[4].times(t23) + b[18].times(t26),
-        b[5].times(t17) + b[1].times(t14) + b[11].times(t19) + b[19].times(t20),
-        t10 + g[4].times(t31),
-        b[7].times(t17) + b[3].times(t14) + b[13].times(t19) + b[21].times(t20),
-        b[14].times(t25) + b[8].times(t23) + b[22].times(t26),
-        b[23].times(t29) + b[15].times(t28),
+        b[9].times_fma(t28, b[17].times(t29)),
+        b[18].times_fma(t26, b[4].times_fma(t23, b[10].times(t25))),
+        b[19].times_fma(t20, b[11].times_fma(t19, b[1].times_fma(t14, b[5].times(t17)))),
+        g[4].times_fma(t31, t10),
+        b[21].times_fma(t20, b[13].times_fma(t19, b[3].times_fma(t14, b[7].times(t17)))),
+        b[22].times_fma(t26, b[8].times_fma(t23, b[14].times(t25))),
+        b[15].times_fma(t28, b[23].times(t29)),
         b[24].times(t30),
     ]
 }
@@ -6391,55 +6415,55 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 5], b: &[
     let t94 = g[0] * T::lit(0.28209479177387814);
     let t95 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t96 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t97 = g[3] * T::lit(0.24623252122982908);
-    let t98 = t36.times(t95) - t26.times(g[2].fma(T::lit(0.252313252202016), t94)) + t53.times(t96) + t80.times(t97);
+    let t97 = t53.times_fma(t96, t26.times_fnma(g[2].fma(T::lit(0.252313252202016), t94), t36.times(t95)));
+    let t98 = g[3] * T::lit(0.24623252122982908);
     let t99 = t36.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t94)));
     let t100 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
     let t101 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
-    let t102 = t36.times(t100) - t26.times(t96) + t53.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t94)));
+    let t102 = t53.times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t94)), t26.times_fnma(t96, t36.times(t100)));
     let t103 = g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535));
-    let t104 = t36.times(t101) - t26.times(t97) + t53.times(t103) + t80.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t94)));
+    let t104 = t80.times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t94)), t53.times_fma(t103, t26.times_fnma(t98, t36.times(t101))));
     let t105 = g[2].fnma(T::lit(0.126156626101008), t94);
     let t106 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
     let t107 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
     let t108 = g[3] * T::lit(0.19466390027300617);
-    let t109 = t33.times(t106) + t27.times(t105) + t56.times(t107) + t77.times(t108);
-    let t110 = t37.times(t106) + t25.times(t105) + t62.times(t107) - t90.times(t108);
+    let t109 = t77.times_fma(t108, t56.times_fma(t107, t27.times_fma(t105, t33.times(t106))));
+    let t110 = t90.times_fnma(t108, t62.times_fma(t107, t25.times_fma(t105, t37.times(t106))));
     let t111 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t94));
     let t112 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
     let t113 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
-    let t114 = t33.times(t111) + t27.times(t106) + t56.times(t112) + t77.times(t113);
-    let t115 = t37.times(t111) + t25.times(t106) + t62.times(t112) - t90.times(t113);
+    let t114 = t77.times_fma(t113, t56.times_fma(t112, t27.times_fma(t106, t33.times(t111))));
+    let t115 = t90.times_fnma(t113, t62.times_fma(t112, t25.times_fma(t106, t37.times(t111))));
     let t116 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t94));
     let t117 = g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991));
-    let t118 = t37.times(t112) + t25.times(t107) + t62.times(t116) - t90.times(t117);
+    let t118 = t90.times_fnma(t117, t62.times_fma(t116, t25.times_fma(t107, t37.times(t112))));
     let t119 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t94));
-    let t120 = t37.times(t113) + t25.times(t108) + t62.times(t117) - t90.times(t119);
+    let t120 = t90.times_fnma(t119, t62.times_fma(t117, t25.times_fma(t108, t37.times(t113))));
     let t121 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t94));
     let t122 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
     let t123 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
-    let t124 = t54.times(t122) + t35.times(t121) + t79.times(t123);
-    let t125 = t59.times(t122) + t38.times(t121) + t93.times(t123);
+    let t124 = t79.times_fma(t123, t35.times_fma(t121, t54.times(t122)));
+    let t125 = t93.times_fma(t123, t38.times_fma(t121, t59.times(t122)));
     let t126 = g[4].fnma(T::lit(0.17951486749246792), t94);
     let t127 = g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272));
-    let t128 = t54.times(t126) + t35.times(t122) + t79.times(t127);
-    let t129 = t59.times(t126) + t38.times(t122) + t93.times(t127);
+    let t128 = t79.times_fma(t127, t35.times_fma(t122, t54.times(t126)));
+    let t129 = t93.times_fma(t127, t38.times_fma(t122, t59.times(t126)));
     let t130 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t94));
-    let t131 = t54.times(t127) + t35.times(t123) + t79.times(t130);
+    let t131 = t79.times_fma(t130, t35.times_fma(t123, t54.times(t127)));
     let t132 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t94));
     let t133 = g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566));
-    let t134 = t78.times(t133) + t57.times(t132);
-    let t135 = t91.times(t133) + t61.times(t132);
+    let t134 = t57.times_fma(t132, t78.times(t133));
+    let t135 = t61.times_fma(t132, t91.times(t133));
     let t136 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t94));
-    let t137 = t78.times(t136) + t57.times(t133);
+    let t137 = t57.times_fma(t133, t78.times(t136));
     let t138 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t94));
     let t139 = t75.fnma(T::lit(0.6614378277661477), t74.fma(T::lit(0.125), t66)).times(t138);
     let t140 = t93.fnma(T::lit(0.18267581368159952), t92).times(t138);
     let t141 = b[0] * T::lit(0.28209479177387814);
-    let t142 = t98 + g[1].times(t141);
-    let t143 = t99 - t26.times(t95) + t53.times(t100) + t80.times(t101) + g[2].times(t141);
-    let t144 = t104 + g[4].times(t141);
-    let t145 = (g[0].times(b[0]) - g[1].times(t26) + g[2].times(t36) + g[3].times(t53) + g[4].times(t80)) * T::lit(0.28209479177387814);
+    let t142 = g[1].times_fma(t141, t80.times_fma(t98, t97));
+    let t143 = g[2].times_fma(t141, t80.times_fma(t101, t53.times_fma(t100, t26.times_fnma(t95, t99))));
+    let t144 = g[4].times_fma(t141, t104);
+    let t145 = g[4].times_fma(t80, g[3].times_fma(t53, g[2].times_fma(t36, g[0].times_fms(b[0], g[1].times(t26)))));
     let t146 = t109.fms(dir[2], t142 * t5);
     let t147 = t143.fnma(T::lit(1.7320508075688772), t124);
     let t148 = t114.fma(t9, t147 * t6);
@@ -6447,10 +6471,10 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 5], b: &[
     let t150 = t124 - t149;
     let t151 = t115.fma(dir[2], t125 * t5);
     let t152 = t125.fnma(dir[2], t115 * t5);
-    let t153 = t128.fnma(T::lit(0.3419987131196464), t102 + t80.times(t103) + g[3].times(t141));
+    let t153 = t128.fnma(T::lit(0.3419987131196464), g[3].times_fma(t141, t80.times_fma(t103, t102)));
     let t154 = t153.fma(T::lit(0.6123724356957945), t128);
     let t155 = t154.fnma(T::lit(0.3419987131196464), t153);
-    let t156 = t134.fms(T::lit(0.12701665379258312), t33.times(t112) + t27.times(t107) + t56.times(t116) + t77.times(t117));
+    let t156 = t134.fms(T::lit(0.12701665379258312), t77.times_fma(t117, t56.times_fma(t116, t27.times_fma(t107, t33.times(t112)))));
     let t157 = t156.fms(T::lit(0.25), t134);
     let t158 = t157.fnma(T::lit(0.12701665379258312), t156);
     let t159 = t155.fms(t11, t158 * t12);
@@ -6466,7 +6490,7 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 5], b: &[
     let t169 = t129.fma(t10, t167.fms(t9, t167));
     let t170 = t169.fnma(T::lit(0.6123724356957945), t135);
     let t171 = t169.fma(T::lit(0.7905694150420949), t118);
-    let t172 = t137.fnma(T::lit(0.18267581368159952), t33.times(t113) + t27.times(t108) + t56.times(t117) + t77.times(t119));
+    let t172 = t137.fnma(T::lit(0.18267581368159952), t77.times_fma(t119, t56.times_fma(t117, t27.times_fma(t108, t33.times(t113)))));
     let t173 = t172.fma(T::lit(0.3535533905932738), t137);
     let t174 = t173.fnma(T::lit(0.18267581368159952), t172);
     let t175 = t144.fma(T::lit(0.739509972887452), t139.fms(T::lit(0.125), t131 * T::lit(0.6614378277661477)));
@@ -6479,10 +6503,10 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 5], b: &[
     let t182 = t181.fnma(T::lit(0.18267581368159952), t180);
     let t183 = t179.fnma(T::lit(0.6614378277661477), t178.fma(T::lit(0.125), t139));
     let t184 = t179.fma(T::lit(0.5), t178.fnma(T::lit(0.6614378277661477), t131));
-    let t185 = t120.fnma(T::lit(0.37796447300922725), t91.times(t136) + t61.times(t133));
+    let t185 = t120.fnma(T::lit(0.37796447300922725), t61.times_fma(t133, t91.times(t136)));
     let t186 = t185.fma(T::lit(0.6614378277661477), t120);
     let t187 = t186.fnma(T::lit(0.37796447300922725), t185);
-    let t188 = t140.fnma(T::lit(0.18267581368159952), t59.times(t127) + t38.times(t123) + t93.times(t130));
+    let t188 = t140.fnma(T::lit(0.18267581368159952), t93.times_fma(t130, t38.times_fma(t123, t59.times(t127))));
     let t189 = t188.fma(T::lit(0.3535533905932738), t140);
     let t190 = t189.fnma(T::lit(0.18267581368159952), t188);
     let t191 = t190.fma(t11, t187 * t12);
@@ -6494,7 +6518,7 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 5], b: &[
     let t197 = t196.fma(T::lit(0.3535533905932738), t191);
     let t198 = t197.fnma(T::lit(0.18267581368159952), t196);
     [
-        t145,
+        t145 * T::lit(0.28209479177387814),
         t110.fma(t3, t146 * t4),
         t142.fma(dir[2], t109 * t5),
         t146.fms(t3, t110 * t4),
@@ -6615,55 +6639,55 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 9], g: &[
     let t70 = g[0] * T::lit(0.28209479177387814);
     let t71 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t72 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t73 = g[3] * T::lit(0.24623252122982908);
-    let t74 = t12.times(t71) - t2.times(g[2].fma(T::lit(0.252313252202016), t70)) + t29.times(t72) + t56.times(t73);
+    let t73 = t29.times_fma(t72, t2.times_fnma(g[2].fma(T::lit(0.252313252202016), t70), t12.times(t71)));
+    let t74 = g[3] * T::lit(0.24623252122982908);
     let t75 = t12.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t70)));
     let t76 = g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344));
     let t77 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
-    let t78 = t12.times(t76) - t2.times(t72) + t29.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t70)));
+    let t78 = t29.times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t70)), t2.times_fnma(t72, t12.times(t76)));
     let t79 = g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535));
-    let t80 = t12.times(t77) - t2.times(t73) + t29.times(t79) + t56.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t70)));
+    let t80 = t56.times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t70)), t29.times_fma(t79, t2.times_fnma(t74, t12.times(t77))));
     let t81 = g[2].fnma(T::lit(0.126156626101008), t70);
     let t82 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
     let t83 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
     let t84 = g[3] * T::lit(0.19466390027300617);
-    let t85 = t9.times(t82) + t3.times(t81) + t32.times(t83) + t53.times(t84);
-    let t86 = t13.times(t82) + t1.times(t81) + t38.times(t83) - t66.times(t84);
+    let t85 = t53.times_fma(t84, t32.times_fma(t83, t3.times_fma(t81, t9.times(t82))));
+    let t86 = t66.times_fnma(t84, t38.times_fma(t83, t1.times_fma(t81, t13.times(t82))));
     let t87 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t70));
     let t88 = g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036));
     let t89 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
-    let t90 = t9.times(t87) + t3.times(t82) + t32.times(t88) + t53.times(t89);
-    let t91 = t13.times(t87) + t1.times(t82) + t38.times(t88) - t66.times(t89);
+    let t90 = t53.times_fma(t89, t32.times_fma(t88, t3.times_fma(t82, t9.times(t87))));
+    let t91 = t66.times_fnma(t89, t38.times_fma(t88, t1.times_fma(t82, t13.times(t87))));
     let t92 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t70));
     let t93 = g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991));
-    let t94 = t13.times(t88) + t1.times(t83) + t38.times(t92) - t66.times(t93);
+    let t94 = t66.times_fnma(t93, t38.times_fma(t92, t1.times_fma(t83, t13.times(t88))));
     let t95 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t70));
-    let t96 = t13.times(t89) + t1.times(t84) + t38.times(t93) - t66.times(t95);
+    let t96 = t66.times_fnma(t95, t38.times_fma(t93, t1.times_fma(t84, t13.times(t89))));
     let t97 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t70));
     let t98 = g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877));
     let t99 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
-    let t100 = t30.times(t98) + t11.times(t97) + t55.times(t99);
-    let t101 = t35.times(t98) + t14.times(t97) + t69.times(t99);
+    let t100 = t55.times_fma(t99, t11.times_fma(t97, t30.times(t98)));
+    let t101 = t69.times_fma(t99, t14.times_fma(t97, t35.times(t98)));
     let t102 = g[4].fnma(T::lit(0.17951486749246792), t70);
     let t103 = g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272));
-    let t104 = t30.times(t102) + t11.times(t98) + t55.times(t103);
-    let t105 = t35.times(t102) + t14.times(t98) + t69.times(t103);
+    let t104 = t55.times_fma(t103, t11.times_fma(t98, t30.times(t102)));
+    let t105 = t69.times_fma(t103, t14.times_fma(t98, t35.times(t102)));
     let t106 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t70));
-    let t107 = t30.times(t103) + t11.times(t99) + t55.times(t106);
+    let t107 = t55.times_fma(t106, t11.times_fma(t99, t30.times(t103)));
     let t108 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t70));
     let t109 = g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566));
-    let t110 = t54.times(t109) + t33.times(t108);
-    let t111 = t67.times(t109) + t37.times(t108);
+    let t110 = t33.times_fma(t108, t54.times(t109));
+    let t111 = t37.times_fma(t108, t67.times(t109));
     let t112 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t70));
-    let t113 = t54.times(t112) + t33.times(t109);
+    let t113 = t33.times_fma(t109, t54.times(t112));
     let t114 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t70));
     let t115 = t51.fnma(T::lit(0.6614378277661477), t50.fma(T::lit(0.125), t42)).times(t114);
     let t116 = t69.fnma(T::lit(0.18267581368159952), t68).times(t114);
     let t117 = b[0] * T::lit(0.28209479177387814);
-    let t118 = t74 + g[1].times(t117);
-    let t119 = t75 - t2.times(t71) + t29.times(t76) + t56.times(t77) + g[2].times(t117);
-    let t120 = t80 + g[4].times(t117);
-    let t121 = (g[0].times(b[0]) - g[1].times(t2) + g[2].times(t12) + g[3].times(t29) + g[4].times(t56)) * T::lit(0.28209479177387814);
+    let t118 = g[1].times_fma(t117, t56.times_fma(t74, t73));
+    let t119 = g[2].times_fma(t117, t56.times_fma(t77, t29.times_fma(t76, t2.times_fnma(t71, t75))));
+    let t120 = g[4].times_fma(t117, t80);
+    let t121 = g[4].times_fma(t56, g[3].times_fma(t29, g[2].times_fma(t12, g[0].times_fms(b[0], g[1].times(t2)))));
     let t122 = t85.fms(cs[4][0], t118 * cs[4][1]);
     let t123 = t119.fnma(T::lit(1.7320508075688772), t100);
     let t124 = t90.fma(cs[5][0], t123 * cs[8][1]);
@@ -6671,10 +6695,10 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 9], g: &[
     let t126 = t100 - t125;
     let t127 = t91.fma(cs[4][0], t101 * cs[4][1]);
     let t128 = t101.fnma(cs[4][0], t91 * cs[4][1]);
-    let t129 = t104.fnma(T::lit(0.3419987131196464), t78 + t56.times(t79) + g[3].times(t117));
+    let t129 = t104.fnma(T::lit(0.3419987131196464), g[3].times_fma(t117, t56.times_fma(t79, t78)));
     let t130 = t129.fma(T::lit(0.6123724356957945), t104);
     let t131 = t130.fnma(T::lit(0.3419987131196464), t129);
-    let t132 = t110.fms(T::lit(0.12701665379258312), t9.times(t88) + t3.times(t83) + t32.times(t92) + t53.times(t93));
+    let t132 = t110.fms(T::lit(0.12701665379258312), t53.times_fma(t93, t32.times_fma(t92, t3.times_fma(t83, t9.times(t88)))));
     let t133 = t132.fms(T::lit(0.25), t110);
     let t134 = t133.fnma(T::lit(0.12701665379258312), t132);
     let t135 = t131.fms(cs[6][0], t134 * cs[6][1]);
@@ -6690,7 +6714,7 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 9], g: &[
     let t145 = t105.fma(cs[5][1], t143.fms(cs[5][0], t143));
     let t146 = t145.fnma(T::lit(0.6123724356957945), t111);
     let t147 = t145.fma(T::lit(0.7905694150420949), t94);
-    let t148 = t113.fnma(T::lit(0.18267581368159952), t9.times(t89) + t3.times(t84) + t32.times(t93) + t53.times(t95));
+    let t148 = t113.fnma(T::lit(0.18267581368159952), t53.times_fma(t95, t32.times_fma(t93, t3.times_fma(t84, t9.times(t89)))));
     let t149 = t148.fma(T::lit(0.3535533905932738), t113);
     let t150 = t149.fnma(T::lit(0.18267581368159952), t148);
     let t151 = t120.fma(T::lit(0.739509972887452), t115.fms(T::lit(0.125), t107 * T::lit(0.6614378277661477)));
@@ -6703,10 +6727,10 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 9], g: &[
     let t158 = t157.fnma(T::lit(0.18267581368159952), t156);
     let t159 = t155.fnma(T::lit(0.6614378277661477), t154.fma(T::lit(0.125), t115));
     let t160 = t155.fma(T::lit(0.5), t154.fnma(T::lit(0.6614378277661477), t107));
-    let t161 = t96.fnma(T::lit(0.37796447300922725), t67.times(t112) + t37.times(t109));
+    let t161 = t96.fnma(T::lit(0.37796447300922725), t37.times_fma(t109, t67.times(t112)));
     let t162 = t161.fma(T::lit(0.6614378277661477), t96);
     let t163 = t162.fnma(T::lit(0.37796447300922725), t161);
-    let t164 = t116.fnma(T::lit(0.18267581368159952), t35.times(t103) + t14.times(t99) + t69.times(t106));
+    let t164 = t116.fnma(T::lit(0.18267581368159952), t69.times_fma(t106, t14.times_fma(t99, t35.times(t103))));
     let t165 = t164.fma(T::lit(0.3535533905932738), t116);
     let t166 = t165.fnma(T::lit(0.18267581368159952), t164);
     let t167 = t166.fma(cs[6][0], t163 * cs[6][1]);
@@ -6718,7 +6742,7 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 9], g: &[
     let t173 = t172.fma(T::lit(0.3535533905932738), t167);
     let t174 = t173.fnma(T::lit(0.18267581368159952), t172);
     [
-        t121,
+        t121 * T::lit(0.28209479177387814),
         t86.fma(cs[0][0], t122 * cs[0][1]),
         t118.fma(cs[4][0], t85 * cs[4][1]),
         t122.fms(cs[0][0], t86 * cs[0][1]),
@@ -9137,7 +9161,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t19 = T::lit(0.34362340254067375).fma(t13, T::lit(0.8638270995619779).fma(t12, T::lit(0.3684096894609461) * t10));
     let t20 = T::lit(0.34362340254067375).fma(t7, T::lit(0.8638270995619779).fma(t6, T::lit(0.3684096894609461) * t3));
     let t21 = T::lit(0.34362340254067375).fma(t17, T::lit(0.8638270995619779).fma(t16, T::lit(0.3684096894609461) * t15));
-    let t22 = lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14))) + e[0].times(lambda[0]) + lambda[2].times(e[3].fma(t21, e[1].fms(t19, e[2] * t20)));
+    let t22 = lambda[2].times_fma(e[3].fma(t21, e[1].fms(t19, e[2] * t20)), e[0].times_fma(lambda[0], lambda[1].times(e[3].fnma(t18, e[2].fms(t8, e[1] * t14)))));
     let t23 = T::lit(0.6711073890702367).fms(t7, T::lit(0.7306948072991953).fma(t6, T::lit(0.12529952482480458) * t3));
     let t24 = T::lit(0.6711073890702367).fms(t13, T::lit(0.7306948072991953).fma(t12, T::lit(0.12529952482480458) * t10));
     let t25 = T::lit(0.6711073890702367).fms(t17, T::lit(0.7306948072991953).fma(t16, T::lit(0.12529952482480458) * t15));
@@ -9149,7 +9173,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t31 = t18 * t27;
     let t32 = t18.fms(t18, t14 * t14);
     let t33 = T::lit(0.8660254037844386) * t32;
-    let t34 = t22 + lambda[3].times(e[3].fnma(t25, e[2].fms(t23, e[1] * t24))) + lambda[4].times(e[8].fma(t33, e[7].fnma(t31, e[6].fma(t30, e[4].fms(t26, e[5] * t28)))));
+    let t34 = lambda[4].times_fma(e[8].fma(t33, e[7].fnma(t31, e[6].fma(t30, e[4].fms(t26, e[5] * t28)))), lambda[3].times_fma(e[3].fnma(t25, e[2].fms(t23, e[1] * t24)), t22));
     let t35 = t19 * (T::lit(1.7320508075688772) * t21);
     let t36 = T::lit(1.7320508075688772) * t20;
     let t37 = t19 * t36;
@@ -9158,7 +9182,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t40 = t21 * t36;
     let t41 = t21.fms(t21, t19 * t19);
     let t42 = T::lit(0.8660254037844386) * t41;
-    let t43 = t34 + lambda[5].times(e[8].fma(t42, e[7].fnma(t40, e[6].fma(t39, e[4].fms(t35, e[5] * t37)))));
+    let t43 = lambda[5].times_fma(e[8].fma(t42, e[7].fnma(t40, e[6].fma(t39, e[4].fms(t35, e[5] * t37)))), t34);
     let t44 = t24 * (T::lit(1.7320508075688772) * t25);
     let t45 = T::lit(1.7320508075688772) * t23;
     let t46 = t24 * t45;
@@ -9167,7 +9191,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t49 = t25 * t45;
     let t50 = t25.fms(t25, t24 * t24);
     let t51 = T::lit(0.8660254037844386) * t50;
-    let t52 = t43 + lambda[6].times(e[8].fma(t51, e[7].fnma(t49, e[6].fma(t48, e[4].fms(t44, e[5] * t46)))));
+    let t52 = lambda[6].times_fma(e[8].fma(t51, e[7].fnma(t49, e[6].fma(t48, e[4].fms(t44, e[5] * t46)))), t43);
     let t53 = T::lit(0.9657116707553893).fms(t13, T::lit(0.1770254761643248).fma(t12, T::lit(0.18990247432729418) * t10));
     let t54 = T::lit(0.9657116707553893).fms(t17, T::lit(0.1770254761643248).fma(t16, T::lit(0.18990247432729418) * t15));
     let t55 = t53 * (T::lit(1.7320508075688772) * t54);
@@ -9179,7 +9203,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t61 = t54 * t57;
     let t62 = t54.fms(t54, t53 * t53);
     let t63 = T::lit(0.8660254037844386) * t62;
-    let t64 = t52 + lambda[7].times(e[8].fma(t63, e[7].fnma(t61, e[6].fma(t60, e[4].fms(t55, e[5] * t58)))));
+    let t64 = lambda[7].times_fma(e[8].fma(t63, e[7].fnma(t61, e[6].fma(t60, e[4].fms(t55, e[5] * t58)))), t52);
     let t65 = T::lit(0.22198361609555017).fnma(t13, T::lit(0.7369766348970463).fma(t12, T::lit(0.638426748970443) * t10));
     let t66 = T::lit(0.22198361609555017).fnma(t17, T::lit(0.7369766348970463).fma(t16, T::lit(0.638426748970443) * t15));
     let t67 = t65 * (T::lit(1.7320508075688772) * t66);
@@ -9191,7 +9215,7 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t73 = t66 * t69;
     let t74 = t66.fms(t66, t65 * t65);
     let t75 = T::lit(0.8660254037844386) * t74;
-    let t76 = t64 + lambda[8].times(e[8].fma(t75, e[7].fnma(t73, e[6].fma(t72, e[4].fms(t67, e[5] * t70)))));
+    let t76 = lambda[8].times_fma(e[8].fma(t75, e[7].fnma(t73, e[6].fma(t72, e[4].fms(t67, e[5] * t70)))), t64);
     let t77 = T::lit(2.23606797749979) * t8;
     let t78 = T::lit(0.9128709291752769) * t18;
     let t79 = T::lit(0.9128709291752769) * t14;
@@ -9199,155 +9223,157 @@ pub fn isd_shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], lambda: &[V; 25]
     let t81 = T::lit(3.0618621784789726).fms(t29, T::lit(0.6123724356957945));
     let t82 = e[12].fma(t8 * T::lit(2.5).fms(t29, T::lit(1.5)), e[11].fnma(t14 * t81, e[10].fms(t26 * t77, e[9] * t80)));
     let t83 = t26.fms(t79, t33 * t78);
-    let t84 = T::lit(0.9128709291752769) * t21;
-    let t85 = T::lit(0.9128709291752769) * t19;
-    let t86 = t35.fma(t84, t42 * t85);
-    let t87 = T::lit(2.23606797749979) * t20;
-    let t88 = T::lit(3.0618621784789726).fms(t38, T::lit(0.6123724356957945));
-    let t89 = e[12].fnma(t20 * T::lit(2.5).fms(t38, T::lit(1.5)), e[11].fma(t19 * t88, e[9].fms(t86, e[10] * (t35 * t87))));
-    let t90 = t42.fms(t84, t35 * t85);
-    let t91 = t76 + lambda[9].times(e[15].fma(t83, e[14].fma(t33 * t77, e[13].fnma(t18 * t81, t82)))) + lambda[10].times(e[15].fma(t90, e[14].fnma(t42 * t87, e[13].fma(t21 * t88, t89))));
-    let t92 = T::lit(2.23606797749979) * t23;
-    let t93 = T::lit(0.9128709291752769) * t25;
-    let t94 = T::lit(0.9128709291752769) * t24;
-    let t95 = t44.fma(t93, t51 * t94);
-    let t96 = T::lit(3.0618621784789726).fms(t47, T::lit(0.6123724356957945));
-    let t97 = e[12].fma(t23 * T::lit(2.5).fms(t47, T::lit(1.5)), e[11].fnma(t24 * t96, e[10].fms(t44 * t92, e[9] * t95)));
-    let t98 = t44.fms(t94, t51 * t93);
-    let t99 = T::lit(2.23606797749979) * t56;
-    let t100 = T::lit(0.9128709291752769) * t54;
-    let t101 = T::lit(0.9128709291752769) * t53;
-    let t102 = t55.fma(t100, t63 * t101);
-    let t103 = T::lit(3.0618621784789726).fms(t59, T::lit(0.6123724356957945));
-    let t104 = e[12].fma(t56 * T::lit(2.5).fms(t59, T::lit(1.5)), e[11].fnma(t53 * t103, e[10].fms(t55 * t99, e[9] * t102)));
-    let t105 = t55.fms(t101, t63 * t100);
-    let t106 = t91 + lambda[11].times(e[15].fma(t98, e[14].fma(t51 * t92, e[13].fnma(t25 * t96, t97)))) + lambda[12].times(e[15].fma(t105, e[14].fma(t63 * t99, e[13].fnma(t54 * t103, t104))));
-    let t107 = T::lit(2.23606797749979) * t68;
-    let t108 = T::lit(0.9128709291752769) * t66;
-    let t109 = T::lit(0.9128709291752769) * t65;
-    let t110 = t67.fma(t108, t75 * t109);
-    let t111 = T::lit(3.0618621784789726).fms(t71, T::lit(0.6123724356957945));
-    let t112 = e[12].fma(t68 * T::lit(2.5).fms(t71, T::lit(1.5)), e[11].fnma(t65 * t111, e[10].fms(t67 * t107, e[9] * t110)));
-    let t113 = t67.fms(t109, t75 * t108);
-    let t114 = t106 + lambda[13].times(e[15].fma(t113, e[14].fma(t75 * t107, e[13].fnma(t66 * t111, t112))));
-    let t115 = T::lit(0.5088411382341372).fma(t13, T::lit(0.511049156321826).fma(t12, T::lit(0.6927549753436184) * t10));
-    let t116 = T::lit(0.5088411382341372).fma(t17, T::lit(0.511049156321826).fma(t16, T::lit(0.6927549753436184) * t15));
-    let t117 = t115 * (T::lit(1.7320508075688772) * t116);
-    let t118 = T::lit(0.5088411382341372).fma(t7, T::lit(0.511049156321826).fma(t6, T::lit(0.6927549753436184) * t3));
-    let t119 = T::lit(2.23606797749979) * t118;
-    let t120 = T::lit(0.9128709291752769) * t116;
-    let t121 = t116.fms(t116, t115 * t115);
-    let t122 = T::lit(0.8660254037844386) * t121;
-    let t123 = T::lit(0.9128709291752769) * t115;
-    let t124 = t117.fma(t120, t122 * t123);
-    let t125 = t118 * t118;
-    let t126 = T::lit(3.0618621784789726).fms(t125, T::lit(0.6123724356957945));
-    let t127 = e[12].fma(t118 * T::lit(2.5).fms(t125, T::lit(1.5)), e[11].fnma(t115 * t126, e[10].fms(t117 * t119, e[9] * t124)));
-    let t128 = t117.fms(t123, t122 * t120);
-    let t129 = t114 + lambda[14].times(e[15].fma(t128, e[14].fma(t122 * t119, e[13].fnma(t116 * t126, t127))));
-    let t130 = T::lit(0.877518379033911).fma(t13, T::lit(0.3765240669246465).fms(t10, T::lit(0.29696989996331574) * t12));
-    let t131 = T::lit(0.877518379033911).fma(t17, T::lit(0.3765240669246465).fms(t15, T::lit(0.29696989996331574) * t16));
-    let t132 = t130 * (T::lit(1.7320508075688772) * t131);
-    let t133 = T::lit(0.877518379033911).fma(t7, T::lit(0.3765240669246465).fms(t3, T::lit(0.29696989996331574) * t6));
-    let t134 = T::lit(2.23606797749979) * t133;
-    let t135 = T::lit(0.9128709291752769) * t131;
-    let t136 = t131.fms(t131, t130 * t130);
-    let t137 = T::lit(0.8660254037844386) * t136;
-    let t138 = T::lit(0.9128709291752769) * t130;
-    let t139 = t132.fma(t135, t137 * t138);
-    let t140 = t133 * t133;
-    let t141 = T::lit(3.0618621784789726).fms(t140, T::lit(0.6123724356957945));
-    let t142 = e[12].fma(t133 * T::lit(2.5).fms(t140, T::lit(1.5)), e[11].fnma(t130 * t141, e[10].fms(t132 * t134, e[9] * t139)));
-    let t143 = t132.fms(t138, t137 * t135);
-    let t144 = t129 + lambda[15].times(e[15].fma(t143, e[14].fma(t137 * t134, e[13].fnma(t131 * t141, t142))));
-    let t145 = T::lit(2.6457513110645907) * t8;
-    let t146 = T::lit(4.51848057057532).fms(t29, T::lit(0.6454972243679028));
-    let t147 = e[18].fma(t26 * t146, e[16].fms(t26 * (T::lit(1.707825127659933) * t32), e[17] * (t80 * t145)));
-    let t148 = T::lit(3.195048252113469).fms(t29, T::lit(1.3693063937629153));
-    let t149 = t30.fms(T::lit(2.9166666666666665).fms(t29, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t150 = e[22].fma(t33 * t146, e[21].fnma(t148 * t31, e[20].fma(t149, e[19].fnma(t148 * t28, t147))));
-    let t151 = e[24].fma(T::lit(0.9860132971832694) * t33.fms(t33, t26 * t26), e[23].fma(t83 * t145, t150));
-    let t152 = T::lit(2.6457513110645907) * t20;
-    let t153 = T::lit(4.51848057057532).fms(t38, T::lit(0.6454972243679028));
-    let t154 = e[18].fma(t35 * t153, e[16].fms(t35 * (T::lit(1.707825127659933) * t41), e[17] * (t86 * t152)));
-    let t155 = T::lit(3.195048252113469).fms(t38, T::lit(1.3693063937629153));
-    let t156 = t39.fms(T::lit(2.9166666666666665).fms(t38, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t157 = e[22].fma(t42 * t153, e[21].fnma(t155 * t40, e[20].fma(t156, e[19].fnma(t155 * t37, t154))));
-    let t158 = e[24].fma(T::lit(0.9860132971832694) * t42.fms(t42, t35 * t35), e[23].fnma(t90 * t152, t157));
-    let t159 = T::lit(2.6457513110645907) * t23;
-    let t160 = T::lit(4.51848057057532).fms(t47, T::lit(0.6454972243679028));
-    let t161 = e[18].fma(t44 * t160, e[16].fms(t44 * (T::lit(1.707825127659933) * t50), e[17] * (t95 * t159)));
-    let t162 = T::lit(3.195048252113469).fms(t47, T::lit(1.3693063937629153));
-    let t163 = t48.fms(T::lit(2.9166666666666665).fms(t47, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t164 = e[22].fma(t51 * t160, e[21].fnma(t162 * t49, e[20].fma(t163, e[19].fnma(t162 * t46, t161))));
-    let t165 = e[24].fma(T::lit(0.9860132971832694) * t51.fms(t51, t44 * t44), e[23].fma(t98 * t159, t164));
-    let t166 = T::lit(2.6457513110645907) * t56;
-    let t167 = T::lit(4.51848057057532).fms(t59, T::lit(0.6454972243679028));
-    let t168 = e[18].fma(t55 * t167, e[16].fms(t55 * (T::lit(1.707825127659933) * t62), e[17] * (t102 * t166)));
-    let t169 = T::lit(3.195048252113469).fms(t59, T::lit(1.3693063937629153));
-    let t170 = t60.fms(T::lit(2.9166666666666665).fms(t59, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t171 = e[22].fma(t63 * t167, e[21].fnma(t169 * t61, e[20].fma(t170, e[19].fnma(t169 * t58, t168))));
-    let t172 = e[24].fma(T::lit(0.9860132971832694) * t63.fms(t63, t55 * t55), e[23].fma(t105 * t166, t171));
-    let t173 = t144 + lambda[16].times(t151) + lambda[17].times(t158) + lambda[18].times(t165) + lambda[19].times(t172);
-    let t174 = T::lit(2.6457513110645907) * t68;
-    let t175 = T::lit(4.51848057057532).fms(t71, T::lit(0.6454972243679028));
-    let t176 = e[18].fma(t67 * t175, e[16].fms(t67 * (T::lit(1.707825127659933) * t74), e[17] * (t110 * t174)));
-    let t177 = T::lit(3.195048252113469).fms(t71, T::lit(1.3693063937629153));
-    let t178 = t72.fms(T::lit(2.9166666666666665).fms(t71, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t179 = e[22].fma(t75 * t175, e[21].fnma(t177 * t73, e[20].fma(t178, e[19].fnma(t177 * t70, t176))));
-    let t180 = e[24].fma(T::lit(0.9860132971832694) * t75.fms(t75, t67 * t67), e[23].fma(t113 * t174, t179));
-    let t181 = T::lit(2.6457513110645907) * t118;
-    let t182 = T::lit(4.51848057057532).fms(t125, T::lit(0.6454972243679028));
-    let t183 = e[18].fma(t117 * t182, e[16].fms(t117 * (T::lit(1.707825127659933) * t121), e[17] * (t124 * t181)));
-    let t184 = T::lit(3.195048252113469).fms(t125, T::lit(1.3693063937629153));
-    let t185 = T::lit(1.7320508075688772) * t118;
-    let t186 = T::lit(1.5).fms(t125, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t125, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t187 = e[21].fnma(t184 * (t116 * t185), e[20].fma(t186, e[19].fnma(t184 * (t115 * t185), t183)));
-    let t188 = e[24].fma(T::lit(0.9860132971832694) * t122.fms(t122, t117 * t117), e[23].fma(t128 * t181, e[22].fma(t122 * t182, t187)));
-    let t189 = T::lit(2.6457513110645907) * t133;
-    let t190 = T::lit(4.51848057057532).fms(t140, T::lit(0.6454972243679028));
-    let t191 = e[18].fma(t132 * t190, e[16].fms(t132 * (T::lit(1.707825127659933) * t136), e[17] * (t139 * t189)));
-    let t192 = T::lit(3.195048252113469).fms(t140, T::lit(1.3693063937629153));
-    let t193 = T::lit(1.7320508075688772) * t133;
-    let t194 = T::lit(1.5).fms(t140, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t140, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t195 = e[21].fnma(t192 * (t131 * t193), e[20].fma(t194, e[19].fnma(t192 * (t130 * t193), t191)));
-    let t196 = e[24].fma(T::lit(0.9860132971832694) * t137.fms(t137, t132 * t132), e[23].fma(t143 * t189, e[22].fma(t137 * t190, t195)));
-    let t197 = T::lit(0.8343447332557322).fnma(t13, T::lit(0.3351301507375716).fms(t10, T::lit(0.4376718498544698) * t12));
-    let t198 = T::lit(0.8343447332557322).fnma(t17, T::lit(0.3351301507375716).fms(t15, T::lit(0.4376718498544698) * t16));
-    let t199 = t197 * (T::lit(1.7320508075688772) * t198);
-    let t200 = t198.fms(t198, t197 * t197);
-    let t201 = T::lit(0.9128709291752769) * t198;
-    let t202 = T::lit(0.8660254037844386) * t200;
-    let t203 = T::lit(0.9128709291752769) * t197;
-    let t204 = T::lit(0.8343447332557322).fnma(t7, T::lit(0.3351301507375716).fms(t3, T::lit(0.4376718498544698) * t6));
-    let t205 = T::lit(2.6457513110645907) * t204;
-    let t206 = e[16].fms(t199 * (T::lit(1.707825127659933) * t200), e[17] * (t199.fma(t201, t202 * t203) * t205));
-    let t207 = t204 * t204;
-    let t208 = T::lit(4.51848057057532).fms(t207, T::lit(0.6454972243679028));
-    let t209 = T::lit(3.195048252113469).fms(t207, T::lit(1.3693063937629153));
-    let t210 = T::lit(1.7320508075688772) * t204;
-    let t211 = T::lit(1.5).fms(t207, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t207, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t212 = e[21].fnma(t209 * (t198 * t210), e[20].fma(t211, e[19].fnma(t209 * (t197 * t210), e[18].fma(t199 * t208, t206))));
-    let t213 = e[24].fma(T::lit(0.9860132971832694) * t202.fms(t202, t199 * t199), e[23].fma(t199.fms(t203, t202 * t201) * t205, e[22].fma(t202 * t208, t212)));
-    let t214 = t173 + lambda[20].times(t180) + lambda[21].times(t188) + lambda[22].times(t196) + lambda[23].times(t213);
-    let t215 = T::lit(0.10264609561388875).fms(t13, T::lit(0.9734217346735701).fma(t12, T::lit(0.20472885854300596) * t10));
-    let t216 = T::lit(0.10264609561388875).fms(t17, T::lit(0.9734217346735701).fma(t16, T::lit(0.20472885854300596) * t15));
-    let t217 = t215 * (T::lit(1.7320508075688772) * t216);
-    let t218 = t216.fms(t216, t215 * t215);
-    let t219 = T::lit(0.9128709291752769) * t216;
-    let t220 = T::lit(0.8660254037844386) * t218;
-    let t221 = T::lit(0.9128709291752769) * t215;
-    let t222 = T::lit(0.10264609561388875).fms(t7, T::lit(0.9734217346735701).fma(t6, T::lit(0.20472885854300596) * t3));
-    let t223 = T::lit(2.6457513110645907) * t222;
-    let t224 = e[16].fms(t217 * (T::lit(1.707825127659933) * t218), e[17] * (t217.fma(t219, t220 * t221) * t223));
-    let t225 = t222 * t222;
-    let t226 = T::lit(4.51848057057532).fms(t225, T::lit(0.6454972243679028));
-    let t227 = T::lit(3.195048252113469).fms(t225, T::lit(1.3693063937629153));
-    let t228 = T::lit(1.7320508075688772) * t222;
-    let t229 = T::lit(1.5).fms(t225, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t225, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
-    let t230 = e[21].fnma(t227 * (t216 * t228), e[20].fma(t229, e[19].fnma(t227 * (t215 * t228), e[18].fma(t217 * t226, t224))));
-    let t231 = e[24].fma(T::lit(0.9860132971832694) * t220.fms(t220, t217 * t217), e[23].fma(t217.fms(t221, t220 * t219) * t223, e[22].fma(t220 * t226, t230)));
-    t214 + lambda[24].times(t231)
+    let t84 = lambda[9].times_fma(e[15].fma(t83, e[14].fma(t33 * t77, e[13].fnma(t18 * t81, t82))), t76);
+    let t85 = T::lit(0.9128709291752769) * t21;
+    let t86 = T::lit(0.9128709291752769) * t19;
+    let t87 = t35.fma(t85, t42 * t86);
+    let t88 = T::lit(2.23606797749979) * t20;
+    let t89 = T::lit(3.0618621784789726).fms(t38, T::lit(0.6123724356957945));
+    let t90 = e[12].fnma(t20 * T::lit(2.5).fms(t38, T::lit(1.5)), e[11].fma(t19 * t89, e[9].fms(t87, e[10] * (t35 * t88))));
+    let t91 = t42.fms(t85, t35 * t86);
+    let t92 = lambda[10].times_fma(e[15].fma(t91, e[14].fnma(t42 * t88, e[13].fma(t21 * t89, t90))), t84);
+    let t93 = T::lit(2.23606797749979) * t23;
+    let t94 = T::lit(0.9128709291752769) * t25;
+    let t95 = T::lit(0.9128709291752769) * t24;
+    let t96 = t44.fma(t94, t51 * t95);
+    let t97 = T::lit(3.0618621784789726).fms(t47, T::lit(0.6123724356957945));
+    let t98 = e[12].fma(t23 * T::lit(2.5).fms(t47, T::lit(1.5)), e[11].fnma(t24 * t97, e[10].fms(t44 * t93, e[9] * t96)));
+    let t99 = t44.fms(t95, t51 * t94);
+    let t100 = lambda[11].times_fma(e[15].fma(t99, e[14].fma(t51 * t93, e[13].fnma(t25 * t97, t98))), t92);
+    let t101 = T::lit(2.23606797749979) * t56;
+    let t102 = T::lit(0.9128709291752769) * t54;
+    let t103 = T::lit(0.9128709291752769) * t53;
+    let t104 = t55.fma(t102, t63 * t103);
+    let t105 = T::lit(3.0618621784789726).fms(t59, T::lit(0.6123724356957945));
+    let t106 = e[12].fma(t56 * T::lit(2.5).fms(t59, T::lit(1.5)), e[11].fnma(t53 * t105, e[10].fms(t55 * t101, e[9] * t104)));
+    let t107 = t55.fms(t103, t63 * t102);
+    let t108 = lambda[12].times_fma(e[15].fma(t107, e[14].fma(t63 * t101, e[13].fnma(t54 * t105, t106))), t100);
+    let t109 = T::lit(2.23606797749979) * t68;
+    let t110 = T::lit(0.9128709291752769) * t66;
+    let t111 = T::lit(0.9128709291752769) * t65;
+    let t112 = t67.fma(t110, t75 * t111);
+    let t113 = T::lit(3.0618621784789726).fms(t71, T::lit(0.6123724356957945));
+    let t114 = e[12].fma(t68 * T::lit(2.5).fms(t71, T::lit(1.5)), e[11].fnma(t65 * t113, e[10].fms(t67 * t109, e[9] * t112)));
+    let t115 = t67.fms(t111, t75 * t110);
+    let t116 = lambda[13].times_fma(e[15].fma(t115, e[14].fma(t75 * t109, e[13].fnma(t66 * t113, t114))), t108);
+    let t117 = T::lit(0.5088411382341372).fma(t13, T::lit(0.511049156321826).fma(t12, T::lit(0.6927549753436184) * t10));
+    let t118 = T::lit(0.5088411382341372).fma(t17, T::lit(0.511049156321826).fma(t16, T::lit(0.6927549753436184) * t15));
+    let t119 = t117 * (T::lit(1.7320508075688772) * t118);
+    let t120 = T::lit(0.5088411382341372).fma(t7, T::lit(0.511049156321826).fma(t6, T::lit(0.6927549753436184) * t3));
+    let t121 = T::lit(2.23606797749979) * t120;
+    let t122 = T::lit(0.9128709291752769) * t118;
+    let t123 = t118.fms(t118, t117 * t117);
+    let t124 = T::lit(0.8660254037844386) * t123;
+    let t125 = T::lit(0.9128709291752769) * t117;
+    let t126 = t119.fma(t122, t124 * t125);
+    let t127 = t120 * t120;
+    let t128 = T::lit(3.0618621784789726).fms(t127, T::lit(0.6123724356957945));
+    let t129 = e[12].fma(t120 * T::lit(2.5).fms(t127, T::lit(1.5)), e[11].fnma(t117 * t128, e[10].fms(t119 * t121, e[9] * t126)));
+    let t130 = t119.fms(t125, t124 * t122);
+    let t131 = lambda[14].times_fma(e[15].fma(t130, e[14].fma(t124 * t121, e[13].fnma(t118 * t128, t129))), t116);
+    let t132 = T::lit(0.877518379033911).fma(t13, T::lit(0.3765240669246465).fms(t10, T::lit(0.29696989996331574) * t12));
+    let t133 = T::lit(0.877518379033911).fma(t17, T::lit(0.3765240669246465).fms(t15, T::lit(0.29696989996331574) * t16));
+    let t134 = t132 * (T::lit(1.7320508075688772) * t133);
+    let t135 = T::lit(0.877518379033911).fma(t7, T::lit(0.3765240669246465).fms(t3, T::lit(0.29696989996331574) * t6));
+    let t136 = T::lit(2.23606797749979) * t135;
+    let t137 = T::lit(0.9128709291752769) * t133;
+    let t138 = t133.fms(t133, t132 * t132);
+    let t139 = T::lit(0.8660254037844386) * t138;
+    let t140 = T::lit(0.9128709291752769) * t132;
+    let t141 = t134.fma(t137, t139 * t140);
+    let t142 = t135 * t135;
+    let t143 = T::lit(3.0618621784789726).fms(t142, T::lit(0.6123724356957945));
+    let t144 = e[12].fma(t135 * T::lit(2.5).fms(t142, T::lit(1.5)), e[11].fnma(t132 * t143, e[10].fms(t134 * t136, e[9] * t141)));
+    let t145 = t134.fms(t140, t139 * t137);
+    let t146 = lambda[15].times_fma(e[15].fma(t145, e[14].fma(t139 * t136, e[13].fnma(t133 * t143, t144))), t131);
+    let t147 = T::lit(2.6457513110645907) * t8;
+    let t148 = T::lit(4.51848057057532).fms(t29, T::lit(0.6454972243679028));
+    let t149 = e[18].fma(t26 * t148, e[16].fms(t26 * (T::lit(1.707825127659933) * t32), e[17] * (t80 * t147)));
+    let t150 = T::lit(3.195048252113469).fms(t29, T::lit(1.3693063937629153));
+    let t151 = t30.fms(T::lit(2.9166666666666665).fms(t29, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t152 = e[22].fma(t33 * t148, e[21].fnma(t150 * t31, e[20].fma(t151, e[19].fnma(t150 * t28, t149))));
+    let t153 = e[24].fma(T::lit(0.9860132971832694) * t33.fms(t33, t26 * t26), e[23].fma(t83 * t147, t152));
+    let t154 = T::lit(2.6457513110645907) * t20;
+    let t155 = T::lit(4.51848057057532).fms(t38, T::lit(0.6454972243679028));
+    let t156 = e[18].fma(t35 * t155, e[16].fms(t35 * (T::lit(1.707825127659933) * t41), e[17] * (t87 * t154)));
+    let t157 = T::lit(3.195048252113469).fms(t38, T::lit(1.3693063937629153));
+    let t158 = t39.fms(T::lit(2.9166666666666665).fms(t38, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t159 = e[22].fma(t42 * t155, e[21].fnma(t157 * t40, e[20].fma(t158, e[19].fnma(t157 * t37, t156))));
+    let t160 = e[24].fma(T::lit(0.9860132971832694) * t42.fms(t42, t35 * t35), e[23].fnma(t91 * t154, t159));
+    let t161 = T::lit(2.6457513110645907) * t23;
+    let t162 = T::lit(4.51848057057532).fms(t47, T::lit(0.6454972243679028));
+    let t163 = e[18].fma(t44 * t162, e[16].fms(t44 * (T::lit(1.707825127659933) * t50), e[17] * (t96 * t161)));
+    let t164 = T::lit(3.195048252113469).fms(t47, T::lit(1.3693063937629153));
+    let t165 = t48.fms(T::lit(2.9166666666666665).fms(t47, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t166 = e[22].fma(t51 * t162, e[21].fnma(t164 * t49, e[20].fma(t165, e[19].fnma(t164 * t46, t163))));
+    let t167 = e[24].fma(T::lit(0.9860132971832694) * t51.fms(t51, t44 * t44), e[23].fma(t99 * t161, t166));
+    let t168 = T::lit(2.6457513110645907) * t56;
+    let t169 = T::lit(4.51848057057532).fms(t59, T::lit(0.6454972243679028));
+    let t170 = e[18].fma(t55 * t169, e[16].fms(t55 * (T::lit(1.707825127659933) * t62), e[17] * (t104 * t168)));
+    let t171 = T::lit(3.195048252113469).fms(t59, T::lit(1.3693063937629153));
+    let t172 = t60.fms(T::lit(2.9166666666666665).fms(t59, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t173 = e[22].fma(t63 * t169, e[21].fnma(t171 * t61, e[20].fma(t172, e[19].fnma(t171 * t58, t170))));
+    let t174 = e[24].fma(T::lit(0.9860132971832694) * t63.fms(t63, t55 * t55), e[23].fma(t107 * t168, t173));
+    let t175 = lambda[19].times_fma(t174, lambda[18].times_fma(t167, lambda[17].times_fma(t160, lambda[16].times_fma(t153, t146))));
+    let t176 = T::lit(2.6457513110645907) * t68;
+    let t177 = T::lit(4.51848057057532).fms(t71, T::lit(0.6454972243679028));
+    let t178 = e[18].fma(t67 * t177, e[16].fms(t67 * (T::lit(1.707825127659933) * t74), e[17] * (t112 * t176)));
+    let t179 = T::lit(3.195048252113469).fms(t71, T::lit(1.3693063937629153));
+    let t180 = t72.fms(T::lit(2.9166666666666665).fms(t71, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t181 = e[22].fma(t75 * t177, e[21].fnma(t179 * t73, e[20].fma(t180, e[19].fnma(t179 * t70, t178))));
+    let t182 = e[24].fma(T::lit(0.9860132971832694) * t75.fms(t75, t67 * t67), e[23].fma(t115 * t176, t181));
+    let t183 = T::lit(2.6457513110645907) * t120;
+    let t184 = T::lit(4.51848057057532).fms(t127, T::lit(0.6454972243679028));
+    let t185 = e[18].fma(t119 * t184, e[16].fms(t119 * (T::lit(1.707825127659933) * t123), e[17] * (t126 * t183)));
+    let t186 = T::lit(3.195048252113469).fms(t127, T::lit(1.3693063937629153));
+    let t187 = T::lit(1.7320508075688772) * t120;
+    let t188 = T::lit(1.5).fms(t127, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t127, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t189 = e[21].fnma(t186 * (t118 * t187), e[20].fma(t188, e[19].fnma(t186 * (t117 * t187), t185)));
+    let t190 = e[24].fma(T::lit(0.9860132971832694) * t124.fms(t124, t119 * t119), e[23].fma(t130 * t183, e[22].fma(t124 * t184, t189)));
+    let t191 = T::lit(2.6457513110645907) * t135;
+    let t192 = T::lit(4.51848057057532).fms(t142, T::lit(0.6454972243679028));
+    let t193 = e[18].fma(t134 * t192, e[16].fms(t134 * (T::lit(1.707825127659933) * t138), e[17] * (t141 * t191)));
+    let t194 = T::lit(3.195048252113469).fms(t142, T::lit(1.3693063937629153));
+    let t195 = T::lit(1.7320508075688772) * t135;
+    let t196 = T::lit(1.5).fms(t142, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t142, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t197 = e[21].fnma(t194 * (t133 * t195), e[20].fma(t196, e[19].fnma(t194 * (t132 * t195), t193)));
+    let t198 = e[24].fma(T::lit(0.9860132971832694) * t139.fms(t139, t134 * t134), e[23].fma(t145 * t191, e[22].fma(t139 * t192, t197)));
+    let t199 = T::lit(0.8343447332557322).fnma(t13, T::lit(0.3351301507375716).fms(t10, T::lit(0.4376718498544698) * t12));
+    let t200 = T::lit(0.8343447332557322).fnma(t17, T::lit(0.3351301507375716).fms(t15, T::lit(0.4376718498544698) * t16));
+    let t201 = t199 * (T::lit(1.7320508075688772) * t200);
+    let t202 = t200.fms(t200, t199 * t199);
+    let t203 = T::lit(0.9128709291752769) * t200;
+    let t204 = T::lit(0.8660254037844386) * t202;
+    let t205 = T::lit(0.9128709291752769) * t199;
+    let t206 = T::lit(0.8343447332557322).fnma(t7, T::lit(0.3351301507375716).fms(t3, T::lit(0.4376718498544698) * t6));
+    let t207 = T::lit(2.6457513110645907) * t206;
+    let t208 = e[16].fms(t201 * (T::lit(1.707825127659933) * t202), e[17] * (t201.fma(t203, t204 * t205) * t207));
+    let t209 = t206 * t206;
+    let t210 = T::lit(4.51848057057532).fms(t209, T::lit(0.6454972243679028));
+    let t211 = T::lit(3.195048252113469).fms(t209, T::lit(1.3693063937629153));
+    let t212 = T::lit(1.7320508075688772) * t206;
+    let t213 = T::lit(1.5).fms(t209, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t209, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t214 = e[21].fnma(t211 * (t200 * t212), e[20].fma(t213, e[19].fnma(t211 * (t199 * t212), e[18].fma(t201 * t210, t208))));
+    let t215 = e[24].fma(T::lit(0.9860132971832694) * t204.fms(t204, t201 * t201), e[23].fma(t201.fms(t205, t204 * t203) * t207, e[22].fma(t204 * t210, t214)));
+    let t216 = lambda[23].times_fma(t215, lambda[22].times_fma(t198, lambda[21].times_fma(t190, lambda[20].times_fma(t182, t175))));
+    let t217 = T::lit(0.10264609561388875).fms(t13, T::lit(0.9734217346735701).fma(t12, T::lit(0.20472885854300596) * t10));
+    let t218 = T::lit(0.10264609561388875).fms(t17, T::lit(0.9734217346735701).fma(t16, T::lit(0.20472885854300596) * t15));
+    let t219 = t217 * (T::lit(1.7320508075688772) * t218);
+    let t220 = t218.fms(t218, t217 * t217);
+    let t221 = T::lit(0.9128709291752769) * t218;
+    let t222 = T::lit(0.8660254037844386) * t220;
+    let t223 = T::lit(0.9128709291752769) * t217;
+    let t224 = T::lit(0.10264609561388875).fms(t7, T::lit(0.9734217346735701).fma(t6, T::lit(0.20472885854300596) * t3));
+    let t225 = T::lit(2.6457513110645907) * t224;
+    let t226 = e[16].fms(t219 * (T::lit(1.707825127659933) * t220), e[17] * (t219.fma(t221, t222 * t223) * t225));
+    let t227 = t224 * t224;
+    let t228 = T::lit(4.51848057057532).fms(t227, T::lit(0.6454972243679028));
+    let t229 = T::lit(3.195048252113469).fms(t227, T::lit(1.3693063937629153));
+    let t230 = T::lit(1.7320508075688772) * t224;
+    let t231 = T::lit(1.5).fms(t227, T::lit(0.5)).fms(T::lit(2.9166666666666665).fms(t227, T::lit(1.5277777777777777)), T::lit(0.3888888888888889));
+    let t232 = e[21].fnma(t229 * (t218 * t230), e[20].fma(t231, e[19].fnma(t229 * (t217 * t230), e[18].fma(t219 * t228, t226))));
+    let t233 = e[24].fma(T::lit(0.9860132971832694) * t222.fms(t222, t219 * t219), e[23].fma(t219.fms(t223, t222 * t221) * t225, e[22].fma(t222 * t228, t232)));
+    lambda[24].times_fma(t233, t216)
 }
 
 /// [`isd_shade`] of three channels that share the parameters, as plain arrays.
@@ -9463,7 +9489,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 25]) -> V {
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[2].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[6].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[6].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[2].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -9495,7 +9521,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 25]) -> V {
     let t53 = t45.fma(t46, t51.fms(t52, t51));
     let t54 = e[20].fma(T::lit(0.5590169943749475), t50.fms(T::lit(0.5), t49 * T::lit(0.6614378277661477)));
     let t55 = t44.fma(t30, t54.fms(t29, t54));
-    let t56 = t24 + c[12].times(t41) + c[20].times(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])));
+    let t56 = c[20].times_fma(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])), c[12].times_fma(t41, t24));
     let t57 = t13.fms(t4, e[2] * t14);
     let t58 = e[1].fma(t10, e[3] * t12);
     let t59 = t21.fma(t29, t19 * t22);
@@ -9505,13 +9531,13 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 25]) -> V {
     let t63 = t37.fma(t31, t28 * t38);
     let t64 = t63.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t65 = t64.fms(T::lit(0.25), t63);
-    let t66 = e[11].fma(t10, e[13] * t12);
-    let t67 = e[10].fma(t15, e[14] * t17);
-    let t68 = e[9].fma(t32, e[15] * t33);
-    let t69 = t66.fms(T::lit(0.7905694150420949), t68 * T::lit(0.6123724356957945));
-    let t70 = t67.fma(t30, t69.fms(t29, t69));
-    let t71 = t70.fma(T::lit(0.7905694150420949), t66);
-    let t72 = c[1].times(t58) + c[3].times(t57) + c[7].times(t59) + c[5].times(t62) + c[13].times(t65) + c[11].times(t71);
+    let t66 = c[13].times_fma(t65, c[5].times_fma(t62, c[7].times_fma(t59, c[3].times_fma(t57, c[1].times(t58)))));
+    let t67 = e[11].fma(t10, e[13] * t12);
+    let t68 = e[10].fma(t15, e[14] * t17);
+    let t69 = e[9].fma(t32, e[15] * t33);
+    let t70 = t67.fms(T::lit(0.7905694150420949), t69 * T::lit(0.6123724356957945));
+    let t71 = t68.fma(t30, t70.fms(t29, t70));
+    let t72 = t71.fma(T::lit(0.7905694150420949), t67);
     let t73 = t45.fms(t52, t51 * t46);
     let t74 = t73.fnma(T::lit(0.18267581368159952), t44.fms(t29, t54 * t30));
     let t75 = t74.fma(T::lit(0.3535533905932738), t73);
@@ -9527,34 +9553,35 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 25]) -> V {
     let t85 = t82.fma(T::lit(0.37796447300922725), t83.fms(t31, t84 * t38));
     let t86 = t85.fnma(T::lit(0.6614378277661477), t82);
     let t87 = t2.fma(t7, t9);
-    let t88 = c[1].times(t57) - c[3].times(t58) - c[7].times(t62) + c[5].times(t59) - c[13].times(t71) + c[11].times(t65);
+    let t88 = c[13].times_fnma(t72, c[5].times_fma(t59, c[7].times_fnma(t62, c[1].times_fms(t57, c[3].times(t58)))));
     let t89 = t2.fms(t8, t11);
-    let t90 = (t72 + c[21].times(t75) + c[19].times(t86)).fma(t87, (t88 - c[21].times(t86) + c[19].times(t75)) * t89);
+    let t90 = c[19].times_fma(t86, c[21].times_fma(t75, c[11].times_fma(t72, t66))).fma(t87, c[19].times_fma(t75, c[21].times_fnma(t86, c[11].times_fma(t65, t88))) * t89);
     let t91 = t18 - t23;
     let t92 = t60.fms(t14, t61 * t4);
     let t93 = t41.fnma(T::lit(0.3419987131196464), t40);
-    let t94 = t67.fms(t29, t69 * t30);
+    let t94 = t68.fms(t29, t70 * t30);
     let t95 = t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50));
-    let t96 = c[8].times(t91) - c[4].times(t92) + c[14].times(t93) + c[10].times(t94) + c[22].times(t95);
+    let t96 = c[22].times_fma(t95, c[10].times_fma(t94, c[14].times_fma(t93, c[8].times_fms(t91, c[4].times(t92)))));
     let t97 = t84.fma(t31, t83 * t38);
     let t98 = t97.fnma(T::lit(0.18267581368159952), t81.fms(t4, t78 * t14));
     let t99 = t98.fma(T::lit(0.3535533905932738), t97);
     let t100 = t87.fms(t87, t89 * t89);
-    let t101 = c[4].times(t91) + c[8].times(t92) - c[14].times(t94) + c[10].times(t93) - c[22].times(t99);
+    let t101 = c[22].times_fnma(t99, c[10].times_fma(t93, c[14].times_fnma(t94, c[8].times_fma(t92, c[4].times(t91)))));
     let t102 = t87 * t89;
     let t103 = t102 + t102;
     let t104 = t65.fnma(T::lit(0.12701665379258312), t64);
-    let t105 = t70.fnma(T::lit(0.6123724356957945), t68);
+    let t105 = t71.fnma(T::lit(0.6123724356957945), t69);
     let t106 = t75.fnma(T::lit(0.18267581368159952), t74);
     let t107 = t86.fma(T::lit(0.37796447300922725), t85);
     let t108 = t87.fms(t100, t89 * t103);
     let t109 = t87.fma(t103, t89 * t100);
-    let t110 = (c[9].times(t105) + c[15].times(t104) + c[23].times(t106) + c[17].times(t107)).fma(t108, (c[9].times(t104) - c[15].times(t105) - c[23].times(t107) + c[17].times(t106)) * t109);
-    let t111 = t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49));
-    let t112 = t99.fnma(T::lit(0.18267581368159952), t98);
-    let t113 = (c[16].times(t112) + c[24].times(t111)).fma(t87.fms(t108, t89 * t109), (c[16].times(t111) - c[24].times(t112)) * t87.fma(t109, t89 * t108));
-    let t114 = t56 + t90 + (t96 + c[18].times(t99)).fma(t100, (t101 + c[18].times(t95)) * t103) + t110 + t113;
-    t114
+    let t110 = c[17].times_fma(t106, c[23].times_fnma(t107, c[9].times_fms(t104, c[15].times(t105)))) * t109;
+    let t111 = c[17].times_fma(t107, c[23].times_fma(t106, c[15].times_fma(t104, c[9].times(t105)))).fma(t108, t110);
+    let t112 = t56 + t90 + c[18].times_fma(t99, t96).fma(t100, c[18].times_fma(t95, t101) * t103) + t111;
+    let t113 = t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49));
+    let t114 = t99.fnma(T::lit(0.18267581368159952), t98);
+    let t115 = c[24].times_fma(t113, c[16].times(t114)).fma(t87.fms(t108, t89 * t109), c[16].times_fms(t113, c[24].times(t114)) * t87.fma(t109, t89 * t108));
+    t112 + t115
 }
 
 /// [`shade`] of three channels that share the parameters, as plain arrays.
@@ -9602,7 +9629,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 15
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[1].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[3].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[3].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[1].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -9634,11 +9661,11 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 15
     let t53 = t45.fma(t46, t51.fms(t52, t51));
     let t54 = e[20].fma(T::lit(0.5590169943749475), t50.fms(T::lit(0.5), t49 * T::lit(0.6614378277661477)));
     let t55 = t44.fma(t30, t54.fms(t29, t54));
-    let t56 = t24 + c[6].times(t41) + c[10].times(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])));
+    let t56 = c[10].times_fma(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])), c[6].times_fma(t41, t24));
     let t57 = t37.fma(t31, t28 * t38);
     let t58 = t57.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t59 = t58.fms(T::lit(0.25), t57);
-    let t60 = c[4].times(t21.fma(t29, t19 * t22)) + c[2].times(t13.fms(t4, e[2] * t14)) + c[7].times(t59);
+    let t60 = c[7].times_fma(t59, c[2].times_fma(t13.fms(t4, e[2] * t14), c[4].times(t21.fma(t29, t19 * t22))));
     let t61 = t45.fms(t52, t51 * t46);
     let t62 = t61.fnma(T::lit(0.18267581368159952), t44.fms(t29, t54 * t30));
     let t63 = t62.fma(T::lit(0.3535533905932738), t61);
@@ -9650,7 +9677,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 15
     let t69 = e[9].fma(t32, e[15] * t33);
     let t70 = t67.fms(T::lit(0.7905694150420949), t69 * T::lit(0.6123724356957945));
     let t71 = t68.fma(t30, t70.fms(t29, t70));
-    let t72 = c[4].times(t65.fma(t4, t66 * t14)) + c[2].times(e[1].fma(t10, e[3] * t12)) + c[7].times(t71.fma(T::lit(0.7905694150420949), t67));
+    let t72 = c[7].times_fma(t71.fma(T::lit(0.7905694150420949), t67), c[2].times_fma(e[1].fma(t10, e[3] * t12), c[4].times(t65.fma(t4, t66 * t14))));
     let t73 = e[19].fma(t10, e[21] * t12);
     let t74 = t73.fnma(T::lit(0.37796447300922725), e[17].fma(t32, e[23] * t33));
     let t75 = t74.fma(T::lit(0.6614378277661477), t73);
@@ -9663,21 +9690,21 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 25], c: &[V; 15
     let t82 = t79.fma(T::lit(0.37796447300922725), t80.fms(t31, t81 * t38));
     let t83 = t82.fnma(T::lit(0.6614378277661477), t79);
     let t84 = t2.fms(t8, t11);
-    let t85 = c[8].times(t41.fnma(T::lit(0.3419987131196464), t40)) + c[5].times(t18 - t23) + c[12].times(t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50)));
+    let t85 = c[12].times_fma(t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50)), c[5].times_fma(t18 - t23, c[8].times(t41.fnma(T::lit(0.3419987131196464), t40))));
     let t86 = t64.fms(t64, t84 * t84);
     let t87 = t81.fma(t31, t80 * t38);
     let t88 = t87.fnma(T::lit(0.18267581368159952), t78.fms(t4, t75 * t14));
     let t89 = t88.fma(T::lit(0.3535533905932738), t87);
-    let t90 = c[5].times(t65.fms(t14, t66 * t4)) - c[8].times(t68.fms(t29, t70 * t30)) - c[12].times(t89);
+    let t90 = c[12].times_fnma(t89, c[5].times_fms(t65.fms(t14, t66 * t4), c[8].times(t68.fms(t29, t70 * t30))));
     let t91 = t64 * t84;
     let t92 = t91 + t91;
-    let t93 = t56 + (t60 + c[11].times(t63)).fms(t64, (t72 + c[11].times(t83)) * t84) + t85.fma(t86, t90 * t92);
-    let t94 = c[13].times(t63.fnma(T::lit(0.18267581368159952), t62)) + c[9].times(t59.fnma(T::lit(0.12701665379258312), t58));
+    let t93 = t56 + c[11].times_fma(t63, t60).fms(t64, c[11].times_fma(t83, t72) * t84) + t85.fma(t86, t90 * t92);
+    let t94 = c[9].times_fma(t59.fnma(T::lit(0.12701665379258312), t58), c[13].times(t63.fnma(T::lit(0.18267581368159952), t62)));
     let t95 = t64.fms(t86, t84 * t92);
-    let t96 = c[13].times(t83.fma(T::lit(0.37796447300922725), t82)) + c[9].times(t71.fnma(T::lit(0.6123724356957945), t69));
+    let t96 = c[9].times_fma(t71.fnma(T::lit(0.6123724356957945), t69), c[13].times(t83.fma(T::lit(0.37796447300922725), t82)));
     let t97 = t64.fma(t92, t84 * t86);
     let t98 = t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49)).fms(t64.fms(t95, t84 * t97), t89.fnma(T::lit(0.18267581368159952), t88) * t64.fma(t97, t84 * t95));
-    t93 + t94.fms(t95, t96 * t97) + c[14].times(t98)
+    c[14].times_fma(t98, t93 + t94.fms(t95, t96 * t97))
 }
 
 /// [`shade_isotropic`] of three channels that share the parameters, as plain arrays.

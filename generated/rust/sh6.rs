@@ -6948,518 +6948,532 @@ pub fn light_fit_along_rgb<T: Real>(dir: [T; 3], c: &[[T; 3]; 36]) -> [[T; 3]; 2
 
 #[allow(clippy::all, unused_variables)]
 #[inline(always)]
-fn product_part_0<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> [V; 87] {
+fn product_part_0<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> [V; 80] {
     let t0 = a[0] * T::lit(0.28209479177387814);
     let t1 = b[0] * T::lit(0.28209479177387814);
     let t2 = a[2].times(b[2]);
-    let t3 = a[2].times(b[6].fma(T::lit(0.252313252202016), t1)) + b[2].times(a[6].fma(T::lit(0.252313252202016), t0));
-    let t4 = a[2].times(b[12]) + a[12].times(b[2]);
+    let t3 = b[2].times_fma(a[6].fma(T::lit(0.252313252202016), t0), a[2].times(b[6].fma(T::lit(0.252313252202016), t1)));
+    let t4 = a[12].times_fma(b[2], a[2].times(b[12]));
     let t5 = a[6].fma(T::lit(0.24776669508347607), a[20] * T::lit(0.24623252122982908));
     let t6 = b[6].fma(T::lit(0.24776669508347607), b[20] * T::lit(0.24623252122982908));
     let t7 = a[6].times(b[6]);
     let t8 = t7.fma(T::lit(0.18022375157286857), t2.fma(T::lit(0.252313252202016), t4 * T::lit(0.24776669508347607)));
-    let t9 = t8 + b[6].times(a[20].fma(T::lit(0.24179553580618127), t0)) + a[6].times(b[20].fma(T::lit(0.24179553580618127), t1));
-    let t10 = a[6].times(b[30]) + a[30].times(b[6]);
+    let t9 = a[6].times_fma(b[20].fma(T::lit(0.24179553580618127), t1), b[6].times_fma(a[20].fma(T::lit(0.24179553580618127), t0), t8));
+    let t10 = a[30].times_fma(b[6], a[6].times(b[30]));
     let t11 = a[12].fma(T::lit(0.23961469724456466), a[30] * T::lit(0.08086963211603077));
     let t12 = b[12].fma(T::lit(0.23961469724456466), b[30] * T::lit(0.08086963211603077));
-    let t13 = a[25].times(b[4]) + a[35].times(b[8]) + a[8].times(b[35]) + a[4].times(b[25]);
-    let t14 = a[25].times(b[8]) - a[35].times(b[4]) - a[4].times(b[35]) + a[8].times(b[25]);
+    let t13 = a[4].times_fma(b[25], a[8].times_fma(b[35], a[35].times_fma(b[8], a[25].times(b[4]))));
+    let t14 = a[8].times_fma(b[25], a[4].times_fnma(b[35], a[35].times_fnma(b[4], a[25].times(b[8]))));
     let t15 = a[15].fms(T::lit(0.2455320005465369), a[33] * T::lit(0.06264134767986153));
     let t16 = a[9].fms(T::lit(0.2455320005465369), a[27] * T::lit(0.06264134767986153));
     let t17 = b[15].fms(T::lit(0.2455320005465369), b[33] * T::lit(0.06264134767986153));
     let t18 = b[9].fms(T::lit(0.2455320005465369), b[27] * T::lit(0.06264134767986153));
     let t19 = a[12].times(b[12]);
     let t20 = t19.fma(T::lit(0.15386988642211535), t4.fma(T::lit(0.24623252122982908), t7 * T::lit(0.24179553580618127)));
-    let t21 = t10.fma(T::lit(0.23961469724456466), a[2].times(t6) + b[2].times(t5)) + b[12].times(a[20].fma(T::lit(0.15386988642211535), a[6].fma(T::lit(0.168208834801344), t0)));
-    let t22 = t21 + a[12].times(b[20].fma(T::lit(0.15386988642211535), b[6].fma(T::lit(0.168208834801344), t1)));
+    let t21 = b[12].times_fma(a[20].fma(T::lit(0.15386988642211535), a[6].fma(T::lit(0.168208834801344), t0)), t10.fma(T::lit(0.23961469724456466), b[2].times_fma(t5, a[2].times(t6))));
+    let t22 = a[12].times_fma(b[20].fma(T::lit(0.15386988642211535), b[6].fma(T::lit(0.168208834801344), t1)), t21);
     let t23 = a[20].times(b[20]);
-    let t24 = t23.fma(T::lit(0.16383977415715326), t19.fma(T::lit(0.168208834801344), t9 + b[30].times(t11) + a[30].times(t12)));
-    let t25 = t23.fma(T::lit(0.13696110769441036), t20) + b[20].times(a[6].fma(T::lit(0.16383977415715326), t0));
-    let t26 = a[20].times(b[30]) + a[30].times(b[20]);
-    let t27 = t26.fma(T::lit(0.06509879810166419), t10.fma(T::lit(0.08086963211603077), b[6].times(t11)) + a[6].times(t12));
+    let t24 = t23.fma(T::lit(0.16383977415715326), t19.fma(T::lit(0.168208834801344), a[30].times_fma(t12, b[30].times_fma(t11, t9))));
+    let t25 = b[20].times_fma(a[6].fma(T::lit(0.16383977415715326), t0), t23.fma(T::lit(0.13696110769441036), t20));
+    let t26 = a[30].times_fma(b[20], a[20].times(b[30]));
+    let t27 = t26.fma(T::lit(0.06509879810166419), a[6].times_fma(t12, t10.fma(T::lit(0.08086963211603077), b[6].times(t11))));
     let t28 = a[30].fma(T::lit(0.06509879810166419), a[2].fma(T::lit(0.2455320005465369), a[12] * T::lit(0.14837393116990472)));
     let t29 = b[30].fma(T::lit(0.06509879810166419), b[2].fma(T::lit(0.2455320005465369), b[12] * T::lit(0.14837393116990472)));
-    let t30 = t25 + a[20].times(b[6].fma(T::lit(0.16383977415715326), t1)) + b[30].times(t28) + a[30].times(t29);
-    let t31 = a[25].times(b[18]) + a[35].times(b[22]) + a[22].times(b[35]) + a[18].times(b[25]);
-    let t32 = a[25].times(b[22]) - a[35].times(b[18]) - a[18].times(b[35]) + a[22].times(b[25]);
+    let t30 = a[30].times_fma(t29, b[30].times_fma(t28, a[20].times_fma(b[6].fma(T::lit(0.16383977415715326), t1), t25)));
+    let t31 = a[18].times_fma(b[25], a[22].times_fma(b[35], a[35].times_fma(b[22], a[25].times(b[18]))));
+    let t32 = a[22].times_fma(b[25], a[18].times_fnma(b[35], a[35].times_fnma(b[18], a[25].times(b[22]))));
     let t33 = a[15].fnma(T::lit(0.09814013073014567), a[33] * T::lit(0.13019759620332838));
     let t34 = a[9].fnma(T::lit(0.09814013073014567), a[27] * T::lit(0.13019759620332838));
-    let t35 = b[8].times(t15) - b[4].times(t16) + a[8].times(t17) - a[4].times(t18) + b[22].times(t33) - b[18].times(t34);
-    let t36 = b[4].times(t15) + b[8].times(t16) + a[8].times(t18) + a[4].times(t17) + b[22].times(t34) + b[18].times(t33);
+    let t35 = b[22].times_fma(t33, a[4].times_fnma(t18, a[8].times_fma(t17, b[8].times_fms(t15, b[4].times(t16)))));
+    let t36 = b[22].times_fma(t34, a[4].times_fma(t17, a[8].times_fma(t18, b[8].times_fma(t16, b[4].times(t15)))));
     let t37 = b[15].fnma(T::lit(0.09814013073014567), b[33] * T::lit(0.13019759620332838));
     let t38 = b[9].fnma(T::lit(0.09814013073014567), b[27] * T::lit(0.13019759620332838));
-    let t39 = a[25].times(b[17]) + a[35].times(b[23]) + a[23].times(b[35]) + a[17].times(b[25]);
-    let t40 = a[25].times(b[23]) - a[35].times(b[17]) - a[17].times(b[35]) + a[23].times(b[25]);
+    let t39 = a[17].times_fma(b[25], a[23].times_fma(b[35], a[35].times_fma(b[23], a[25].times(b[17]))));
+    let t40 = a[23].times_fma(b[25], a[17].times_fnma(b[35], a[35].times_fnma(b[17], a[25].times(b[23]))));
     let t41 = a[14].fms(T::lit(0.1499115259279181), a[32] * T::lit(0.0994400566505079));
     let t42 = a[10].fms(T::lit(0.1499115259279181), a[28] * T::lit(0.0994400566505079));
-    let t43 = b[14].fms(T::lit(0.1499115259279181), b[32] * T::lit(0.0994400566505079));
-    let t44 = b[10].fms(T::lit(0.1499115259279181), b[28] * T::lit(0.0994400566505079));
-    let t45 = t35 + a[22].times(t37) - a[18].times(t38) + b[23].times(t41) - b[17].times(t42) + a[23].times(t43);
-    let t46 = t36 + a[22].times(t38) + a[18].times(t37) + b[23].times(t42) + b[17].times(t41) + a[23].times(t44);
-    let t47 = a[25].times(b[16]) + a[35].times(b[24]) + a[24].times(b[35]) + a[16].times(b[25]);
-    let t48 = a[25].times(b[24]) - a[35].times(b[16]) - a[16].times(b[35]) + a[24].times(b[25]);
+    let t43 = b[23].times_fma(t41, a[18].times_fnma(t38, a[22].times_fma(t37, b[18].times_fnma(t34, t35))));
+    let t44 = b[23].times_fma(t42, a[18].times_fma(t37, a[22].times_fma(t38, b[18].times_fma(t33, t36))));
+    let t45 = b[14].fms(T::lit(0.1499115259279181), b[32] * T::lit(0.0994400566505079));
+    let t46 = b[10].fms(T::lit(0.1499115259279181), b[28] * T::lit(0.0994400566505079));
+    let t47 = a[16].times_fma(b[25], a[24].times_fma(b[35], a[35].times_fma(b[24], a[25].times(b[16]))));
+    let t48 = a[24].times_fma(b[25], a[16].times_fnma(b[35], a[35].times_fnma(b[16], a[25].times(b[24]))));
     let t49 = a[31].fma(T::lit(0.05315294607251315), a[3].fms(T::lit(0.2329321080554292), a[13] * T::lit(0.13408494503421883)));
     let t50 = a[29].fma(T::lit(0.05315294607251315), a[1].fms(T::lit(0.2329321080554292), a[11] * T::lit(0.13408494503421883)));
-    let t51 = b[31].fma(T::lit(0.05315294607251315), b[3].fms(T::lit(0.2329321080554292), b[13] * T::lit(0.13408494503421883)));
-    let t52 = b[29].fma(T::lit(0.05315294607251315), b[1].fms(T::lit(0.2329321080554292), b[11] * T::lit(0.13408494503421883)));
-    let t53 = t45 - a[17].times(t44) + b[24].times(t49) - b[16].times(t50) + a[24].times(t51) - a[16].times(t52);
-    let t54 = t46 + a[17].times(t43) + b[24].times(t50) + b[16].times(t49) + a[24].times(t52) + a[16].times(t51);
-    let t55 = a[25].times(b[26]) + a[35].times(b[34]) + a[34].times(b[35]) + a[26].times(b[25]);
-    let t56 = a[25].times(b[34]) - a[35].times(b[26]) - a[26].times(b[35]) + a[34].times(b[25]);
-    let t57 = a[7].fms(T::lit(0.13288236518128288), a[21] * T::lit(0.13019759620332838));
-    let t58 = a[5].fms(T::lit(0.13288236518128288), a[19] * T::lit(0.13019759620332838));
-    let t59 = b[7].fms(T::lit(0.13288236518128288), b[21] * T::lit(0.13019759620332838));
-    let t60 = b[5].fms(T::lit(0.13288236518128288), b[19] * T::lit(0.13019759620332838));
-    let t61 = a[25].times(b[25]) + a[35].times(b[35]);
-    let t62 = a[20].fma(T::lit(0.13019759620332838), a[6].fnma(T::lit(0.24260889634809232), t0));
-    let t63 = t53 + b[34].times(t57) - b[26].times(t58) + a[34].times(t59) - a[26].times(t60) + b[35].times(t62);
-    let t64 = t54 + b[34].times(t58) + b[26].times(t57) + a[34].times(t60) + a[26].times(t59) + b[25].times(t62);
-    let t65 = b[20].fma(T::lit(0.13019759620332838), b[6].fnma(T::lit(0.24260889634809232), t1));
-    let t66 = a[20].fma(T::lit(1.639096232595449), a[0].fma(T::lit(2.646033610427959), a[6] * T::lit(4.226582849415041)));
-    let t67 = a[30].fnma(T::lit(0.3747251633606226), a[12].fma(T::lit(3.300104650786707), a[2].fma(T::lit(4.123649063941215), t66)));
-    let t68 = t66.fms(T::lit(2.0), t67);
-    let t69 = a[31].fma(T::lit(3.1791243126220716), a[13].fma(T::lit(2.850976660256774), a[3]));
-    let t70 = a[29].fma(T::lit(3.1791243126220716), a[11].fma(T::lit(2.850976660256774), a[1]));
-    let t71 = a[21].fma(T::lit(3.2858021679538254), a[7].fma(T::lit(2.0119200410389686), t69));
-    let t72 = a[19].fma(T::lit(3.2858021679538254), a[5].fma(T::lit(2.0119200410389686), t70));
-    let t73 = t69.fms(T::lit(2.0), t71);
-    let t74 = t70.fms(T::lit(2.0), t72);
-    let t75 = a[8].fma(T::lit(0.4878979781844136), a[22] * T::lit(1.9719364075246857));
-    let t76 = a[4].fma(T::lit(0.4878979781844136), a[18] * T::lit(1.9719364075246857));
-    let t77 = a[32].fma(T::lit(2.7517509397242503), a[14].fma(T::lit(1.1614586506541722), t75));
-    let t78 = a[28].fma(T::lit(2.7517509397242503), a[10].fma(T::lit(1.1614586506541722), t76));
-    let t79 = t75.fms(T::lit(2.0), t77);
-    let t80 = t76.fms(T::lit(2.0), t78);
-    let t81 = b[20].fma(T::lit(1.639096232595449), b[0].fma(T::lit(2.646033610427959), b[6] * T::lit(4.226582849415041)));
-    let t82 = b[30].fnma(T::lit(0.3747251633606226), b[12].fma(T::lit(3.300104650786707), b[2].fma(T::lit(4.123649063941215), t81)));
-    let t83 = t81.fms(T::lit(2.0), t82);
-    let t84 = b[31].fma(T::lit(3.1791243126220716), b[13].fma(T::lit(2.850976660256774), b[3]));
-    let t85 = b[29].fma(T::lit(3.1791243126220716), b[11].fma(T::lit(2.850976660256774), b[1]));
-    let t86 = b[21].fma(T::lit(3.2858021679538254), b[7].fma(T::lit(2.0119200410389686), t84));
-    let t87 = b[19].fma(T::lit(3.2858021679538254), b[5].fma(T::lit(2.0119200410389686), t85));
-    let t88 = t84.fms(T::lit(2.0), t86);
-    let t89 = t85.fms(T::lit(2.0), t87);
-    let t90 = b[8].fma(T::lit(0.4878979781844136), b[22] * T::lit(1.9719364075246857));
-    let t91 = b[4].fma(T::lit(0.4878979781844136), b[18] * T::lit(1.9719364075246857));
-    let t92 = b[32].fma(T::lit(2.7517509397242503), b[14].fma(T::lit(1.1614586506541722), t90));
-    let t93 = b[28].fma(T::lit(2.7517509397242503), b[10].fma(T::lit(1.1614586506541722), t91));
-    let t94 = t90.fms(T::lit(2.0), t92);
-    let t95 = t91.fms(T::lit(2.0), t93);
-    let t96 = t72.times(t87);
-    let t97 = t96 + t71.times(t86) + t77.times(t92) + t78.times(t93);
-    let t98 = t67.times(t92) + t77.times(t82) + t71.times(t86) - t96;
-    let t99 = t67.times(t93) + t78.times(t82) + t71.times(t87) + t72.times(t86);
-    let t100 = t67.times(t86) + t71.times(t82) + t71.times(t92) + t72.times(t93) + t77.times(t86) + t78.times(t87);
-    let t101 = t67.times(t87) + t72.times(t82) - t72.times(t92) + t71.times(t93) - t77.times(t87) + t78.times(t86);
-    let t102 = t97 + t73.times(t88) + t74.times(t89) + t79.times(t94) + t80.times(t95);
-    let t103 = t98 + t79.times(t83) + t68.times(t94) + t73.times(t88) - t74.times(t89);
-    let t104 = t99 + t80.times(t83) + t68.times(t95) + t73.times(t89) + t74.times(t88);
-    let t105 = t100 + t73.times(t83) + t68.times(t88) + t73.times(t94) + t74.times(t95) + t79.times(t88);
-    let t106 = t101 + t74.times(t83) + t68.times(t89) - t74.times(t94) + t73.times(t95) - t79.times(t89);
-    let t107 = t105 + t80.times(t89);
-    let t108 = t106 + t80.times(t88);
-    let t109 = t97.fms(T::lit(2.0), t102);
-    let t110 = t109.fma(T::lit(0.010391458875082667), t26.fma(T::lit(0.2455320005465369), t3 + b[12].times(t5) + a[12].times(t6)));
-    let t111 = t109.fnma(T::lit(0.0009442949834336472), t27 + b[20].times(t28) + a[20].times(t29) + b[30].times(t0) + a[30].times(t1));
-    let t112 = t100.fms(T::lit(2.0), t107);
-    let t113 = t101.fms(T::lit(2.0), t108);
-    let t114 = t103.fma(T::lit(0.0012294867232697155), b[25].times(t16) + b[35].times(t15) + a[35].times(t17) + a[25].times(t18));
-    let t115 = t104.fma(T::lit(0.0012294867232697155), b[25].times(t15) - b[35].times(t16) - a[35].times(t18) + a[25].times(t17));
-    let t116 = t103.fma(T::lit(0.004969214345191218), b[25].times(t34) + b[35].times(t33) + a[35].times(t37) + a[25].times(t38));
-    let t117 = t104.fma(T::lit(0.004969214345191218), b[25].times(t33) - b[35].times(t34) - a[35].times(t38) + a[25].times(t37));
-    let t118 = t98.fms(T::lit(2.0), t103);
-    let t119 = t99.fms(T::lit(2.0), t104);
-    let t120 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
-    let t121 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t120)));
-    let t122 = t120.fms(T::lit(2.0), t121);
-    let t123 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
-    let t124 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
-    let t125 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t123));
-    let t126 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t124));
-    let t127 = t123.fms(T::lit(2.0), t125);
-    let t128 = t124.fms(T::lit(2.0), t126);
-    let t129 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
-    let t130 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
-    let t131 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t129));
-    let t132 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t130));
-    let t133 = t129.fms(T::lit(2.0), t131);
-    let t134 = t130.fms(T::lit(2.0), t132);
-    let t135 = b[20].fnma(T::lit(1.9991069660714271), b[0].fma(T::lit(1.5692882581599668), b[6] * T::lit(0.6592490641857499)));
-    let t136 = b[30].fnma(T::lit(1.697080933979498), b[12].fnma(T::lit(0.9940469026237083), b[2].fma(T::lit(1.8406512194319236), t135)));
-    let t137 = t135.fms(T::lit(2.0), t136);
-    let t138 = b[31].fnma(T::lit(0.9306452529497676), b[13].fma(T::lit(1.2094030886562595), b[3]));
-    let t139 = b[29].fnma(T::lit(0.9306452529497676), b[11].fma(T::lit(1.2094030886562595), b[1]));
-    let t140 = b[21].fma(T::lit(0.19479165213376157), b[7].fma(T::lit(1.5142345544161826), t138));
-    let t141 = b[19].fma(T::lit(0.19479165213376157), b[5].fma(T::lit(1.5142345544161826), t139));
-    let t142 = t138.fms(T::lit(2.0), t140);
-    let t143 = t139.fms(T::lit(2.0), t141);
-    let t144 = b[8].fma(T::lit(0.8226624025400736), b[22] * T::lit(1.5745558683324827));
-    let t145 = b[4].fma(T::lit(0.8226624025400736), b[18] * T::lit(1.5745558683324827));
-    let t146 = b[32].fma(T::lit(0.9184107467781507), b[14].fma(T::lit(1.4739366566229546), t144));
-    let t147 = b[28].fma(T::lit(0.9184107467781507), b[10].fma(T::lit(1.4739366566229546), t145));
-    let t148 = t144.fms(T::lit(2.0), t146);
-    let t149 = t145.fms(T::lit(2.0), t147);
-    let t150 = t126.times(t141);
-    let t151 = t150 + t125.times(t140) + t131.times(t146) + t132.times(t147);
-    let t152 = t121.times(t146) + t131.times(t136) + t125.times(t140) - t150;
-    let t153 = t121.times(t147) + t132.times(t136) + t125.times(t141) + t126.times(t140);
-    let t154 = t121.times(t140) + t125.times(t136) + t125.times(t146) + t126.times(t147) + t131.times(t140);
-    let t155 = t121.times(t141) + t126.times(t136) - t126.times(t146) + t125.times(t147) - t131.times(t141);
-    let t156 = t154 + t132.times(t141);
-    let t157 = t155 + t132.times(t140);
-    let t158 = t151 + t127.times(t142) + t128.times(t143) + t133.times(t148) + t134.times(t149);
-    let t159 = t152 + t133.times(t137) + t122.times(t148) + t127.times(t142) - t128.times(t143);
-    let t160 = t153 + t134.times(t137) + t122.times(t149) + t127.times(t143) + t128.times(t142);
-    let t161 = t156 + t127.times(t137) + t122.times(t142) + t127.times(t148) + t128.times(t149) + t133.times(t142);
-    let t162 = t157 + t128.times(t137) + t122.times(t143) - t128.times(t148) + t127.times(t149) - t133.times(t143);
-    let t163 = t161 + t134.times(t143);
-    let t164 = t162 + t134.times(t142);
-    let t165 = t158.fma(T::lit(0.013211131239356699), t102.fma(T::lit(0.010650848600547212), t61.fnma(T::lit(0.24260889634809232), t24)));
-    let t166 = t158.fnma(T::lit(0.040061436451035166), t102.fma(T::lit(0.00413046814343592), t61.fma(T::lit(0.13019759620332838), t30)));
-    let t167 = t151.fms(T::lit(2.0), t158);
-    let t168 = t167.fnma(T::lit(0.019920368191736457), t109.fma(T::lit(0.008316154267827863), t26.fma(T::lit(0.14837393116990472), t22)));
-    let t169 = t163.fma(T::lit(0.020039666276468665), t47.fma(T::lit(0.2329321080554292), t107 * T::lit(0.0025199668337321933)));
-    let t170 = t164.fma(T::lit(0.020039666276468665), t48.fma(T::lit(0.2329321080554292), t108 * T::lit(0.0025199668337321933)));
-    let t171 = t163.fma(T::lit(0.024236034290401887), t47.fnma(T::lit(0.13408494503421883), t107 * T::lit(0.007184366627591646)));
-    let t172 = t164.fma(T::lit(0.024236034290401887), t48.fnma(T::lit(0.13408494503421883), t108 * T::lit(0.007184366627591646)));
-    let t173 = t163.fnma(T::lit(0.01864982029089311), t47.fma(T::lit(0.05315294607251315), t107 * T::lit(0.008011287828119277)));
-    let t174 = t164.fnma(T::lit(0.01864982029089311), t48.fma(T::lit(0.05315294607251315), t108 * T::lit(0.008011287828119277)));
-    let t175 = t156.fms(T::lit(2.0), t163);
-    let t176 = t157.fms(T::lit(2.0), t164);
-    let t177 = t175.fma(T::lit(0.030344755134797532), t55.fma(T::lit(0.13288236518128288), t112 * T::lit(0.0050699717755393146)));
-    let t178 = t176.fma(T::lit(0.030344755134797532), t56.fma(T::lit(0.13288236518128288), t113 * T::lit(0.0050699717755393146)));
-    let t179 = t175.fma(T::lit(0.003903559702202557), t55.fnma(T::lit(0.13019759620332838), t112 * T::lit(0.008280112485448979)));
-    let t180 = t176.fma(T::lit(0.003903559702202557), t56.fnma(T::lit(0.13019759620332838), t113 * T::lit(0.008280112485448979)));
-    let t181 = t152.fms(T::lit(2.0), t159);
-    let t182 = t153.fms(T::lit(2.0), t160);
-    let t183 = t181.fma(T::lit(0.029537198711378), t39.fma(T::lit(0.1499115259279181), t118 * T::lit(0.00292683727839986)));
-    let t184 = t182.fma(T::lit(0.029537198711378), t40.fma(T::lit(0.1499115259279181), t119 * T::lit(0.00292683727839986)));
-    let t185 = t181.fma(T::lit(0.01840464487015651), t39.fnma(T::lit(0.0994400566505079), t118 * T::lit(0.006934321102796507)));
-    let t186 = t182.fma(T::lit(0.01840464487015651), t40.fnma(T::lit(0.0994400566505079), t119 * T::lit(0.006934321102796507)));
-    let t187 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
-    let t188 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t187)));
-    let t189 = t187.fms(T::lit(2.0), t188);
-    let t190 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
-    let t191 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
-    let t192 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t190));
-    let t193 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t191));
-    let t194 = t190.fms(T::lit(2.0), t192);
-    let t195 = t191.fms(T::lit(2.0), t193);
-    let t196 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
-    let t197 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
-    let t198 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t196));
-    let t199 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t197));
-    let t200 = t196.fms(T::lit(2.0), t198);
-    let t201 = t197.fms(T::lit(2.0), t199);
-    let t202 = b[20].fnma(T::lit(0.16132509906089973), b[0].fms(T::lit(1.2392903192096825), b[6] * T::lit(0.837489157184048)));
-    let t203 = b[30].fma(T::lit(1.2808493539441659), b[12].fnma(T::lit(1.393446400028713), b[2].fma(T::lit(0.779436646470071), t202)));
-    let t204 = t202.fms(T::lit(2.0), t203);
-    let t205 = b[31].fnma(T::lit(0.44577235050135805), b[13].fnma(T::lit(0.31872236213909216), b[3]));
-    let t206 = b[29].fnma(T::lit(0.44577235050135805), b[11].fnma(T::lit(0.31872236213909216), b[1]));
-    let t207 = b[21].fnma(T::lit(1.0327339184455793), b[7].fma(T::lit(0.8119553329326552), t205));
-    let t208 = b[19].fnma(T::lit(1.0327339184455793), b[5].fma(T::lit(0.8119553329326552), t206));
-    let t209 = t205.fms(T::lit(2.0), t207);
-    let t210 = t206.fms(T::lit(2.0), t208);
-    let t211 = b[8].fms(T::lit(1.0417207564076638), b[22] * T::lit(0.0694840612355858));
-    let t212 = b[4].fms(T::lit(1.0417207564076638), b[18] * T::lit(0.0694840612355858));
-    let t213 = b[32].fnma(T::lit(1.0031478583401439), b[14].fma(T::lit(1.0008004087532434), t211));
-    let t214 = b[28].fnma(T::lit(1.0031478583401439), b[10].fma(T::lit(1.0008004087532434), t212));
-    let t215 = t211.fms(T::lit(2.0), t213);
-    let t216 = t212.fms(T::lit(2.0), t214);
-    let t217 = t193.times(t208);
-    let t218 = t217 + t192.times(t207) + t198.times(t213) + t199.times(t214);
-    let t219 = t188.times(t213) + t198.times(t203) + t192.times(t207) - t217;
-    let t220 = t188.times(t214) + t199.times(t203) + t192.times(t208) + t193.times(t207);
-    let t221 = t188.times(t207) + t192.times(t203) + t192.times(t213) + t193.times(t214) + t198.times(t207);
-    let t222 = t188.times(t208) + t193.times(t203) - t193.times(t213) + t192.times(t214) - t198.times(t208);
-    let t223 = t221 + t199.times(t208);
-    let t224 = t222 + t199.times(t207);
-    let t225 = t218 + t194.times(t209) + t195.times(t210) + t200.times(t215) + t201.times(t216);
-    let t226 = t219 + t200.times(t204) + t189.times(t215) + t194.times(t209) - t195.times(t210);
-    let t227 = t220 + t201.times(t204) + t189.times(t216) + t194.times(t210) + t195.times(t209);
-    let t228 = t223 + t194.times(t204) + t189.times(t209) + t194.times(t215) + t195.times(t216) + t200.times(t209);
-    let t229 = t224 + t195.times(t204) + t189.times(t210) - t195.times(t215) + t194.times(t216) - t200.times(t210);
-    let t230 = t228 + t201.times(t210);
-    let t231 = t229 + t201.times(t209);
-    let t232 = t225.fma(T::lit(0.06363009633316428), t102.fma(T::lit(0.006667916939219108), t158 * T::lit(0.031448012985106535)));
-    let t233 = t218.fms(T::lit(2.0), t225);
-    let t234 = t223.fms(T::lit(2.0), t230);
-    let t235 = t224.fms(T::lit(2.0), t231);
-    let t236 = t219.fms(T::lit(2.0), t226);
-    let t237 = t220.fms(T::lit(2.0), t227);
-    let t238 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
-    let t239 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
-    let t240 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
-    let t241 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
-    let t242 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
-    let t243 = b[20].fma(T::lit(1.299038105676658), b[0].fms(T::lit(1.1547005383792515), b[6] * T::lit(1.2909944487358056)));
-    let t244 = b[31].fma(T::lit(0.9270248108869579), b[13].fnma(T::lit(0.9354143466934853), b[3]));
-    let t245 = b[29].fma(T::lit(0.9270248108869579), b[11].fnma(T::lit(0.9354143466934853), b[1]));
-    let t246 = b[8].fms(T::lit(1.118033988749895), b[22] * T::lit(0.9682458365518543));
-    let t247 = b[4].fms(T::lit(1.118033988749895), b[18] * T::lit(0.9682458365518543));
-    let t248 = t240.times(t245);
-    let t249 = t248 + t239.times(t244) + t241.times(t246) + t242.times(t247);
-    let t250 = t238.times(t246) + t241.times(t243) + t239.times(t244) - t248;
-    let t251 = t238.times(t247) + t242.times(t243) + t239.times(t245) + t240.times(t244);
-    let t252 = t238.times(t244) + t239.times(t243) + t239.times(t246) + t240.times(t247) + t241.times(t244);
-    let t253 = t238.times(t245) + t240.times(t243) - t240.times(t246) + t239.times(t247) - t241.times(t245);
-    let t254 = t252 + t242.times(t245);
-    let t255 = t253 + t242.times(t244);
-    let t256 = t250.fma(T::lit(0.07610677502899925), t226.fma(T::lit(0.05348608881633756), t159.fma(T::lit(0.016485880005101004), t114)));
-    let t257 = t251.fma(T::lit(0.07610677502899925), t227.fma(T::lit(0.05348608881633756), t160.fma(T::lit(0.016485880005101004), t115)));
-    let t258 = t250.fnma(T::lit(0.0659104005752205), t226.fnma(T::lit(0.0035675881926192548), t159.fma(T::lit(0.03155357413503829), t116)));
-    let t259 = t251.fnma(T::lit(0.0659104005752205), t227.fnma(T::lit(0.0035675881926192548), t160.fma(T::lit(0.03155357413503829), t117)));
-    let t260 = a[20].fnma(T::lit(1.963388407777743), a[0].fma(T::lit(1.66360809064034), a[6] * T::lit(1.0317259399151721)));
-    let t261 = a[30].fnma(T::lit(2.163100207451403), a[12].fnma(T::lit(0.6477071599333407), a[2].fma(T::lit(2.074313293051943), t260)));
-    let t262 = t260.fms(T::lit(2.0), t261);
-    let t263 = a[31].fnma(T::lit(0.5704768066996664), a[13].fma(T::lit(1.488400433900275), a[3]));
-    let t264 = a[29].fnma(T::lit(0.5704768066996664), a[11].fma(T::lit(1.488400433900275), a[1]));
-    let t265 = a[21].fma(T::lit(0.6186850943160107), a[7].fma(T::lit(1.6097102204150644), t263));
-    let t266 = a[19].fma(T::lit(0.6186850943160107), a[5].fma(T::lit(1.6097102204150644), t264));
-    let t267 = t263.fms(T::lit(2.0), t265);
-    let t268 = t264.fms(T::lit(2.0), t266);
-    let t269 = a[8].fma(T::lit(0.7760207803743538), a[22] * T::lit(1.7659110370218514));
-    let t270 = a[4].fma(T::lit(0.7760207803743538), a[18] * T::lit(1.7659110370218514));
-    let t271 = a[32].fma(T::lit(1.3595955572308356), a[14].fma(T::lit(1.4780361980480519), t269));
-    let t272 = a[28].fma(T::lit(1.3595955572308356), a[10].fma(T::lit(1.4780361980480519), t270));
+    let t51 = b[24].times_fma(t49, a[17].times_fnma(t46, a[23].times_fma(t45, b[17].times_fnma(t42, t43))));
+    let t52 = b[24].times_fma(t50, a[17].times_fma(t45, a[23].times_fma(t46, b[17].times_fma(t41, t44))));
+    let t53 = b[31].fma(T::lit(0.05315294607251315), b[3].fms(T::lit(0.2329321080554292), b[13] * T::lit(0.13408494503421883)));
+    let t54 = b[29].fma(T::lit(0.05315294607251315), b[1].fms(T::lit(0.2329321080554292), b[11] * T::lit(0.13408494503421883)));
+    let t55 = a[30].times_fma(t1, b[30].times_fma(t0, a[20].times_fma(t29, b[20].times_fma(t28, t27))));
+    let t56 = a[26].times_fma(b[25], a[34].times_fma(b[35], a[35].times_fma(b[34], a[25].times(b[26]))));
+    let t57 = a[34].times_fma(b[25], a[26].times_fnma(b[35], a[35].times_fnma(b[26], a[25].times(b[34]))));
+    let t58 = a[7].fms(T::lit(0.13288236518128288), a[21] * T::lit(0.13019759620332838));
+    let t59 = a[5].fms(T::lit(0.13288236518128288), a[19] * T::lit(0.13019759620332838));
+    let t60 = b[34].times_fma(t58, a[16].times_fnma(t54, a[24].times_fma(t53, b[16].times_fnma(t50, t51))));
+    let t61 = b[34].times_fma(t59, a[16].times_fma(t53, a[24].times_fma(t54, b[16].times_fma(t49, t52))));
+    let t62 = b[7].fms(T::lit(0.13288236518128288), b[21] * T::lit(0.13019759620332838));
+    let t63 = b[5].fms(T::lit(0.13288236518128288), b[19] * T::lit(0.13019759620332838));
+    let t64 = a[35].times_fma(b[35], a[25].times(b[25]));
+    let t65 = a[20].fma(T::lit(0.13019759620332838), a[6].fnma(T::lit(0.24260889634809232), t0));
+    let t66 = b[35].times_fma(t65, a[26].times_fnma(t63, a[34].times_fma(t62, b[26].times_fnma(t59, t60))));
+    let t67 = b[25].times_fma(t65, a[26].times_fma(t62, a[34].times_fma(t63, b[26].times_fma(t58, t61))));
+    let t68 = b[20].fma(T::lit(0.13019759620332838), b[6].fnma(T::lit(0.24260889634809232), t1));
+    let t69 = a[20].fma(T::lit(1.639096232595449), a[0].fma(T::lit(2.646033610427959), a[6] * T::lit(4.226582849415041)));
+    let t70 = a[30].fnma(T::lit(0.3747251633606226), a[12].fma(T::lit(3.300104650786707), a[2].fma(T::lit(4.123649063941215), t69)));
+    let t71 = t69.fms(T::lit(2.0), t70);
+    let t72 = a[31].fma(T::lit(3.1791243126220716), a[13].fma(T::lit(2.850976660256774), a[3]));
+    let t73 = a[29].fma(T::lit(3.1791243126220716), a[11].fma(T::lit(2.850976660256774), a[1]));
+    let t74 = a[21].fma(T::lit(3.2858021679538254), a[7].fma(T::lit(2.0119200410389686), t72));
+    let t75 = a[19].fma(T::lit(3.2858021679538254), a[5].fma(T::lit(2.0119200410389686), t73));
+    let t76 = t72.fms(T::lit(2.0), t74);
+    let t77 = t73.fms(T::lit(2.0), t75);
+    let t78 = a[8].fma(T::lit(0.4878979781844136), a[22] * T::lit(1.9719364075246857));
+    let t79 = a[4].fma(T::lit(0.4878979781844136), a[18] * T::lit(1.9719364075246857));
+    let t80 = a[32].fma(T::lit(2.7517509397242503), a[14].fma(T::lit(1.1614586506541722), t78));
+    let t81 = a[28].fma(T::lit(2.7517509397242503), a[10].fma(T::lit(1.1614586506541722), t79));
+    let t82 = t78.fms(T::lit(2.0), t80);
+    let t83 = t79.fms(T::lit(2.0), t81);
+    let t84 = b[20].fma(T::lit(1.639096232595449), b[0].fma(T::lit(2.646033610427959), b[6] * T::lit(4.226582849415041)));
+    let t85 = b[30].fnma(T::lit(0.3747251633606226), b[12].fma(T::lit(3.300104650786707), b[2].fma(T::lit(4.123649063941215), t84)));
+    let t86 = t84.fms(T::lit(2.0), t85);
+    let t87 = b[31].fma(T::lit(3.1791243126220716), b[13].fma(T::lit(2.850976660256774), b[3]));
+    let t88 = b[29].fma(T::lit(3.1791243126220716), b[11].fma(T::lit(2.850976660256774), b[1]));
+    let t89 = b[21].fma(T::lit(3.2858021679538254), b[7].fma(T::lit(2.0119200410389686), t87));
+    let t90 = b[19].fma(T::lit(3.2858021679538254), b[5].fma(T::lit(2.0119200410389686), t88));
+    let t91 = t87.fms(T::lit(2.0), t89);
+    let t92 = t88.fms(T::lit(2.0), t90);
+    let t93 = b[8].fma(T::lit(0.4878979781844136), b[22] * T::lit(1.9719364075246857));
+    let t94 = b[4].fma(T::lit(0.4878979781844136), b[18] * T::lit(1.9719364075246857));
+    let t95 = b[32].fma(T::lit(2.7517509397242503), b[14].fma(T::lit(1.1614586506541722), t93));
+    let t96 = b[28].fma(T::lit(2.7517509397242503), b[10].fma(T::lit(1.1614586506541722), t94));
+    let t97 = t93.fms(T::lit(2.0), t95);
+    let t98 = t94.fms(T::lit(2.0), t96);
+    let t99 = t75.times(t90);
+    let t100 = t81.times_fma(t96, t80.times_fma(t95, t74.times_fma(t89, t99)));
+    let t101 = t74.times_fma(t89, t80.times_fma(t85, t70.times(t95))) - t99;
+    let t102 = t75.times_fma(t89, t74.times_fma(t90, t81.times_fma(t85, t70.times(t96))));
+    let t103 = t80.times_fma(t89, t75.times_fma(t96, t74.times_fma(t95, t74.times_fma(t85, t70.times(t89)))));
+    let t104 = t80.times_fnma(t90, t74.times_fma(t96, t75.times_fnma(t95, t75.times_fma(t85, t70.times(t90)))));
+    let t105 = t81.times_fma(t90, t103);
+    let t106 = t81.times_fma(t89, t104);
+    let t107 = t83.times_fma(t98, t82.times_fma(t97, t77.times_fma(t92, t76.times_fma(t91, t100))));
+    let t108 = t77.times_fnma(t92, t76.times_fma(t91, t71.times_fma(t97, t82.times_fma(t86, t101))));
+    let t109 = t77.times_fma(t91, t76.times_fma(t92, t71.times_fma(t98, t83.times_fma(t86, t102))));
+    let t110 = t82.times_fma(t91, t77.times_fma(t98, t76.times_fma(t97, t71.times_fma(t91, t76.times_fma(t86, t105)))));
+    let t111 = t82.times_fnma(t92, t76.times_fma(t98, t77.times_fnma(t97, t71.times_fma(t92, t77.times_fma(t86, t106)))));
+    let t112 = t83.times_fma(t92, t110);
+    let t113 = t83.times_fma(t91, t111);
+    let t114 = t100.fms(T::lit(2.0), t107);
+    let t115 = t114.fma(T::lit(0.010391458875082667), t26.fma(T::lit(0.2455320005465369), a[12].times_fma(t6, b[12].times_fma(t5, t3))));
+    let t116 = t105.fms(T::lit(2.0), t112);
+    let t117 = t106.fms(T::lit(2.0), t113);
+    let t118 = t108.fma(T::lit(0.0012294867232697155), a[25].times_fma(t18, a[35].times_fma(t17, b[35].times_fma(t15, b[25].times(t16)))));
+    let t119 = t109.fma(T::lit(0.0012294867232697155), a[25].times_fma(t17, a[35].times_fnma(t18, b[35].times_fnma(t16, b[25].times(t15)))));
+    let t120 = t108.fma(T::lit(0.004969214345191218), a[25].times_fma(t38, a[35].times_fma(t37, b[35].times_fma(t33, b[25].times(t34)))));
+    let t121 = t109.fma(T::lit(0.004969214345191218), a[25].times_fma(t37, a[35].times_fnma(t38, b[35].times_fnma(t34, b[25].times(t33)))));
+    let t122 = t101.fms(T::lit(2.0), t108);
+    let t123 = t102.fms(T::lit(2.0), t109);
+    let t124 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
+    let t125 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t124)));
+    let t126 = t124.fms(T::lit(2.0), t125);
+    let t127 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
+    let t128 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
+    let t129 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t127));
+    let t130 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t128));
+    let t131 = t127.fms(T::lit(2.0), t129);
+    let t132 = t128.fms(T::lit(2.0), t130);
+    let t133 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
+    let t134 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
+    let t135 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t133));
+    let t136 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t134));
+    let t137 = t133.fms(T::lit(2.0), t135);
+    let t138 = t134.fms(T::lit(2.0), t136);
+    let t139 = b[20].fnma(T::lit(1.9991069660714271), b[0].fma(T::lit(1.5692882581599668), b[6] * T::lit(0.6592490641857499)));
+    let t140 = b[30].fnma(T::lit(1.697080933979498), b[12].fnma(T::lit(0.9940469026237083), b[2].fma(T::lit(1.8406512194319236), t139)));
+    let t141 = t139.fms(T::lit(2.0), t140);
+    let t142 = b[31].fnma(T::lit(0.9306452529497676), b[13].fma(T::lit(1.2094030886562595), b[3]));
+    let t143 = b[29].fnma(T::lit(0.9306452529497676), b[11].fma(T::lit(1.2094030886562595), b[1]));
+    let t144 = b[21].fma(T::lit(0.19479165213376157), b[7].fma(T::lit(1.5142345544161826), t142));
+    let t145 = b[19].fma(T::lit(0.19479165213376157), b[5].fma(T::lit(1.5142345544161826), t143));
+    let t146 = t142.fms(T::lit(2.0), t144);
+    let t147 = t143.fms(T::lit(2.0), t145);
+    let t148 = b[8].fma(T::lit(0.8226624025400736), b[22] * T::lit(1.5745558683324827));
+    let t149 = b[4].fma(T::lit(0.8226624025400736), b[18] * T::lit(1.5745558683324827));
+    let t150 = b[32].fma(T::lit(0.9184107467781507), b[14].fma(T::lit(1.4739366566229546), t148));
+    let t151 = b[28].fma(T::lit(0.9184107467781507), b[10].fma(T::lit(1.4739366566229546), t149));
+    let t152 = t148.fms(T::lit(2.0), t150);
+    let t153 = t149.fms(T::lit(2.0), t151);
+    let t154 = t130.times(t145);
+    let t155 = t136.times_fma(t151, t135.times_fma(t150, t129.times_fma(t144, t154)));
+    let t156 = t129.times_fma(t144, t135.times_fma(t140, t125.times(t150))) - t154;
+    let t157 = t130.times_fma(t144, t129.times_fma(t145, t136.times_fma(t140, t125.times(t151))));
+    let t158 = t135.times_fma(t144, t130.times_fma(t151, t129.times_fma(t150, t129.times_fma(t140, t125.times(t144)))));
+    let t159 = t135.times_fnma(t145, t129.times_fma(t151, t130.times_fnma(t150, t130.times_fma(t140, t125.times(t145)))));
+    let t160 = t136.times_fma(t145, t158);
+    let t161 = t136.times_fma(t144, t159);
+    let t162 = t138.times_fma(t153, t137.times_fma(t152, t132.times_fma(t147, t131.times_fma(t146, t155))));
+    let t163 = t132.times_fnma(t147, t131.times_fma(t146, t126.times_fma(t152, t137.times_fma(t141, t156))));
+    let t164 = t132.times_fma(t146, t131.times_fma(t147, t126.times_fma(t153, t138.times_fma(t141, t157))));
+    let t165 = t132.times_fma(t153, t131.times_fma(t152, t126.times_fma(t146, t131.times_fma(t141, t160))));
+    let t166 = t131.times_fma(t153, t132.times_fnma(t152, t126.times_fma(t147, t132.times_fma(t141, t161))));
+    let t167 = t138.times_fma(t147, t137.times_fma(t146, t165));
+    let t168 = t138.times_fma(t146, t137.times_fnma(t147, t166));
+    let t169 = t162.fma(T::lit(0.013211131239356699), t107.fma(T::lit(0.010650848600547212), t64.fnma(T::lit(0.24260889634809232), t24)));
+    let t170 = t162.fnma(T::lit(0.040061436451035166), t107.fma(T::lit(0.00413046814343592), t64.fma(T::lit(0.13019759620332838), t30)));
+    let t171 = t155.fms(T::lit(2.0), t162);
+    let t172 = t171.fnma(T::lit(0.019920368191736457), t114.fma(T::lit(0.008316154267827863), t26.fma(T::lit(0.14837393116990472), t22)));
+    let t173 = t167.fma(T::lit(0.020039666276468665), t47.fma(T::lit(0.2329321080554292), t112 * T::lit(0.0025199668337321933)));
+    let t174 = t168.fma(T::lit(0.020039666276468665), t48.fma(T::lit(0.2329321080554292), t113 * T::lit(0.0025199668337321933)));
+    let t175 = t167.fma(T::lit(0.024236034290401887), t47.fnma(T::lit(0.13408494503421883), t112 * T::lit(0.007184366627591646)));
+    let t176 = t168.fma(T::lit(0.024236034290401887), t48.fnma(T::lit(0.13408494503421883), t113 * T::lit(0.007184366627591646)));
+    let t177 = t167.fnma(T::lit(0.01864982029089311), t47.fma(T::lit(0.05315294607251315), t112 * T::lit(0.008011287828119277)));
+    let t178 = t168.fnma(T::lit(0.01864982029089311), t48.fma(T::lit(0.05315294607251315), t113 * T::lit(0.008011287828119277)));
+    let t179 = t160.fms(T::lit(2.0), t167);
+    let t180 = t161.fms(T::lit(2.0), t168);
+    let t181 = t179.fma(T::lit(0.030344755134797532), t56.fma(T::lit(0.13288236518128288), t116 * T::lit(0.0050699717755393146)));
+    let t182 = t180.fma(T::lit(0.030344755134797532), t57.fma(T::lit(0.13288236518128288), t117 * T::lit(0.0050699717755393146)));
+    let t183 = t179.fma(T::lit(0.003903559702202557), t56.fnma(T::lit(0.13019759620332838), t116 * T::lit(0.008280112485448979)));
+    let t184 = t180.fma(T::lit(0.003903559702202557), t57.fnma(T::lit(0.13019759620332838), t117 * T::lit(0.008280112485448979)));
+    let t185 = t156.fms(T::lit(2.0), t163);
+    let t186 = t157.fms(T::lit(2.0), t164);
+    let t187 = t185.fma(T::lit(0.029537198711378), t39.fma(T::lit(0.1499115259279181), t122 * T::lit(0.00292683727839986)));
+    let t188 = t186.fma(T::lit(0.029537198711378), t40.fma(T::lit(0.1499115259279181), t123 * T::lit(0.00292683727839986)));
+    let t189 = t185.fma(T::lit(0.01840464487015651), t39.fnma(T::lit(0.0994400566505079), t122 * T::lit(0.006934321102796507)));
+    let t190 = t186.fma(T::lit(0.01840464487015651), t40.fnma(T::lit(0.0994400566505079), t123 * T::lit(0.006934321102796507)));
+    let t191 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
+    let t192 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t191)));
+    let t193 = t191.fms(T::lit(2.0), t192);
+    let t194 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
+    let t195 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
+    let t196 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t194));
+    let t197 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t195));
+    let t198 = t194.fms(T::lit(2.0), t196);
+    let t199 = t195.fms(T::lit(2.0), t197);
+    let t200 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
+    let t201 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
+    let t202 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t200));
+    let t203 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t201));
+    let t204 = t200.fms(T::lit(2.0), t202);
+    let t205 = t201.fms(T::lit(2.0), t203);
+    let t206 = b[20].fnma(T::lit(0.16132509906089973), b[0].fms(T::lit(1.2392903192096825), b[6] * T::lit(0.837489157184048)));
+    let t207 = b[30].fma(T::lit(1.2808493539441659), b[12].fnma(T::lit(1.393446400028713), b[2].fma(T::lit(0.779436646470071), t206)));
+    let t208 = t206.fms(T::lit(2.0), t207);
+    let t209 = b[31].fnma(T::lit(0.44577235050135805), b[13].fnma(T::lit(0.31872236213909216), b[3]));
+    let t210 = b[29].fnma(T::lit(0.44577235050135805), b[11].fnma(T::lit(0.31872236213909216), b[1]));
+    let t211 = b[21].fnma(T::lit(1.0327339184455793), b[7].fma(T::lit(0.8119553329326552), t209));
+    let t212 = b[19].fnma(T::lit(1.0327339184455793), b[5].fma(T::lit(0.8119553329326552), t210));
+    let t213 = t209.fms(T::lit(2.0), t211);
+    let t214 = t210.fms(T::lit(2.0), t212);
+    let t215 = b[8].fms(T::lit(1.0417207564076638), b[22] * T::lit(0.0694840612355858));
+    let t216 = b[4].fms(T::lit(1.0417207564076638), b[18] * T::lit(0.0694840612355858));
+    let t217 = b[32].fnma(T::lit(1.0031478583401439), b[14].fma(T::lit(1.0008004087532434), t215));
+    let t218 = b[28].fnma(T::lit(1.0031478583401439), b[10].fma(T::lit(1.0008004087532434), t216));
+    let t219 = t215.fms(T::lit(2.0), t217);
+    let t220 = t216.fms(T::lit(2.0), t218);
+    let t221 = t197.times(t212);
+    let t222 = t203.times_fma(t218, t202.times_fma(t217, t196.times_fma(t211, t221)));
+    let t223 = t196.times_fma(t211, t202.times_fma(t207, t192.times(t217))) - t221;
+    let t224 = t197.times_fma(t211, t196.times_fma(t212, t203.times_fma(t207, t192.times(t218))));
+    let t225 = t202.times_fma(t211, t197.times_fma(t218, t196.times_fma(t217, t196.times_fma(t207, t192.times(t211)))));
+    let t226 = t202.times_fnma(t212, t196.times_fma(t218, t197.times_fnma(t217, t197.times_fma(t207, t192.times(t212)))));
+    let t227 = t203.times_fma(t212, t225);
+    let t228 = t203.times_fma(t211, t226);
+    let t229 = t205.times_fma(t220, t204.times_fma(t219, t199.times_fma(t214, t198.times_fma(t213, t222))));
+    let t230 = t199.times_fnma(t214, t198.times_fma(t213, t193.times_fma(t219, t204.times_fma(t208, t223))));
+    let t231 = t199.times_fma(t213, t198.times_fma(t214, t193.times_fma(t220, t205.times_fma(t208, t224))));
+    let t232 = t199.times_fma(t220, t198.times_fma(t219, t193.times_fma(t213, t198.times_fma(t208, t227))));
+    let t233 = t198.times_fma(t220, t199.times_fnma(t219, t193.times_fma(t214, t199.times_fma(t208, t228))));
+    let t234 = t205.times_fma(t214, t204.times_fma(t213, t232));
+    let t235 = t205.times_fma(t213, t204.times_fnma(t214, t233));
+    let t236 = t229.fma(T::lit(0.06363009633316428), t107.fma(T::lit(0.006667916939219108), t162 * T::lit(0.031448012985106535)));
+    let t237 = t222.fms(T::lit(2.0), t229);
+    let t238 = t237.fma(T::lit(0.06576390254683251), t171.fnma(T::lit(0.034008935561106894), t114.fnma(T::lit(0.0009442949834336472), t55)));
+    let t239 = t227.fms(T::lit(2.0), t234);
+    let t240 = t228.fms(T::lit(2.0), t235);
+    let t241 = t223.fms(T::lit(2.0), t230);
+    let t242 = t224.fms(T::lit(2.0), t231);
+    let t243 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t244 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
+    let t245 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
+    let t246 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t247 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t248 = b[20].fma(T::lit(1.299038105676658), b[0].fms(T::lit(1.1547005383792515), b[6] * T::lit(1.2909944487358056)));
+    let t249 = b[31].fma(T::lit(0.9270248108869579), b[13].fnma(T::lit(0.9354143466934853), b[3]));
+    let t250 = b[29].fma(T::lit(0.9270248108869579), b[11].fnma(T::lit(0.9354143466934853), b[1]));
+    let t251 = b[8].fms(T::lit(1.118033988749895), b[22] * T::lit(0.9682458365518543));
+    let t252 = b[4].fms(T::lit(1.118033988749895), b[18] * T::lit(0.9682458365518543));
+    let t253 = t245.times(t250);
+    let t254 = t247.times_fma(t252, t246.times_fma(t251, t244.times_fma(t249, t253)));
+    let t255 = t244.times_fma(t249, t246.times_fma(t248, t243.times(t251))) - t253;
+    let t256 = t245.times_fma(t249, t244.times_fma(t250, t247.times_fma(t248, t243.times(t252))));
+    let t257 = t246.times_fma(t249, t245.times_fma(t252, t244.times_fma(t251, t244.times_fma(t248, t243.times(t249)))));
+    let t258 = t246.times_fnma(t250, t244.times_fma(t252, t245.times_fnma(t251, t245.times_fma(t248, t243.times(t250)))));
+    let t259 = t247.times_fma(t250, t257);
+    let t260 = t247.times_fma(t249, t258);
+    let t261 = t255.fma(T::lit(0.07610677502899925), t230.fma(T::lit(0.05348608881633756), t163.fma(T::lit(0.016485880005101004), t118)));
+    let t262 = t256.fma(T::lit(0.07610677502899925), t231.fma(T::lit(0.05348608881633756), t164.fma(T::lit(0.016485880005101004), t119)));
+    let t263 = t255.fnma(T::lit(0.0659104005752205), t230.fnma(T::lit(0.0035675881926192548), t163.fma(T::lit(0.03155357413503829), t120)));
+    let t264 = t256.fnma(T::lit(0.0659104005752205), t231.fnma(T::lit(0.0035675881926192548), t164.fma(T::lit(0.03155357413503829), t121)));
+    let t265 = a[20].fnma(T::lit(1.963388407777743), a[0].fma(T::lit(1.66360809064034), a[6] * T::lit(1.0317259399151721)));
+    let t266 = a[30].fnma(T::lit(2.163100207451403), a[12].fnma(T::lit(0.6477071599333407), a[2].fma(T::lit(2.074313293051943), t265)));
+    let t267 = t265.fms(T::lit(2.0), t266);
+    let t268 = a[31].fnma(T::lit(0.5704768066996664), a[13].fma(T::lit(1.488400433900275), a[3]));
+    let t269 = a[29].fnma(T::lit(0.5704768066996664), a[11].fma(T::lit(1.488400433900275), a[1]));
+    let t270 = a[21].fma(T::lit(0.6186850943160107), a[7].fma(T::lit(1.6097102204150644), t268));
+    let t271 = a[19].fma(T::lit(0.6186850943160107), a[5].fma(T::lit(1.6097102204150644), t269));
+    let t272 = t268.fms(T::lit(2.0), t270);
     let t273 = t269.fms(T::lit(2.0), t271);
-    let t274 = t270.fms(T::lit(2.0), t272);
-    let t275 = a[15].fma(T::lit(0.5817884435470521), a[33] * T::lit(1.767538284065846));
-    let t276 = a[9].fma(T::lit(0.5817884435470521), a[27] * T::lit(1.767538284065846));
-    let t277 = a[23].fma(T::lit(1.2564610912377556), t275);
-    let t278 = a[17].fma(T::lit(1.2564610912377556), t276);
+    let t274 = a[8].fma(T::lit(0.7760207803743538), a[22] * T::lit(1.7659110370218514));
+    let t275 = a[4].fma(T::lit(0.7760207803743538), a[18] * T::lit(1.7659110370218514));
+    let t276 = a[32].fma(T::lit(1.3595955572308356), a[14].fma(T::lit(1.4780361980480519), t274));
+    let t277 = a[28].fma(T::lit(1.3595955572308356), a[10].fma(T::lit(1.4780361980480519), t275));
+    let t278 = t274.fms(T::lit(2.0), t276);
     let t279 = t275.fms(T::lit(2.0), t277);
-    let t280 = t276.fms(T::lit(2.0), t278);
-    let t281 = a[24].fma(T::lit(0.42831146138203857), a[34] * T::lit(1.0226304917781994));
-    let t282 = a[16].fma(T::lit(0.42831146138203857), a[26] * T::lit(1.0226304917781994));
-    let t283 = a[24].fms(T::lit(0.8566229227640771), t281);
-    let t284 = a[16].fms(T::lit(0.8566229227640771), t282);
-    let t285 = b[20].fnma(T::lit(1.963388407777743), b[0].fma(T::lit(1.66360809064034), b[6] * T::lit(1.0317259399151721)));
-    let t286 = b[30].fnma(T::lit(2.163100207451403), b[12].fnma(T::lit(0.6477071599333407), b[2].fma(T::lit(2.074313293051943), t285)));
-    let t287 = t285.fms(T::lit(2.0), t286);
-    let t288 = b[31].fnma(T::lit(0.5704768066996664), b[13].fma(T::lit(1.488400433900275), b[3]));
-    let t289 = b[29].fnma(T::lit(0.5704768066996664), b[11].fma(T::lit(1.488400433900275), b[1]));
-    let t290 = b[21].fma(T::lit(0.6186850943160107), b[7].fma(T::lit(1.6097102204150644), t288));
-    let t291 = b[19].fma(T::lit(0.6186850943160107), b[5].fma(T::lit(1.6097102204150644), t289));
-    let t292 = t288.fms(T::lit(2.0), t290);
-    let t293 = t289.fms(T::lit(2.0), t291);
-    let t294 = b[8].fma(T::lit(0.7760207803743538), b[22] * T::lit(1.7659110370218514));
-    let t295 = b[4].fma(T::lit(0.7760207803743538), b[18] * T::lit(1.7659110370218514));
-    let t296 = b[32].fma(T::lit(1.3595955572308356), b[14].fma(T::lit(1.4780361980480519), t294));
-    let t297 = b[28].fma(T::lit(1.3595955572308356), b[10].fma(T::lit(1.4780361980480519), t295));
+    let t280 = a[15].fma(T::lit(0.5817884435470521), a[33] * T::lit(1.767538284065846));
+    let t281 = a[9].fma(T::lit(0.5817884435470521), a[27] * T::lit(1.767538284065846));
+    let t282 = a[23].fma(T::lit(1.2564610912377556), t280);
+    let t283 = a[17].fma(T::lit(1.2564610912377556), t281);
+    let t284 = t280.fms(T::lit(2.0), t282);
+    let t285 = t281.fms(T::lit(2.0), t283);
+    let t286 = a[24].fma(T::lit(0.42831146138203857), a[34] * T::lit(1.0226304917781994));
+    let t287 = a[16].fma(T::lit(0.42831146138203857), a[26] * T::lit(1.0226304917781994));
+    let t288 = a[24].fms(T::lit(0.8566229227640771), t286);
+    let t289 = a[16].fms(T::lit(0.8566229227640771), t287);
+    let t290 = b[20].fnma(T::lit(1.963388407777743), b[0].fma(T::lit(1.66360809064034), b[6] * T::lit(1.0317259399151721)));
+    let t291 = b[30].fnma(T::lit(2.163100207451403), b[12].fnma(T::lit(0.6477071599333407), b[2].fma(T::lit(2.074313293051943), t290)));
+    let t292 = t290.fms(T::lit(2.0), t291);
+    let t293 = b[31].fnma(T::lit(0.5704768066996664), b[13].fma(T::lit(1.488400433900275), b[3]));
+    let t294 = b[29].fnma(T::lit(0.5704768066996664), b[11].fma(T::lit(1.488400433900275), b[1]));
+    let t295 = b[21].fma(T::lit(0.6186850943160107), b[7].fma(T::lit(1.6097102204150644), t293));
+    let t296 = b[19].fma(T::lit(0.6186850943160107), b[5].fma(T::lit(1.6097102204150644), t294));
+    let t297 = t293.fms(T::lit(2.0), t295);
     let t298 = t294.fms(T::lit(2.0), t296);
-    let t299 = t295.fms(T::lit(2.0), t297);
-    let t300 = b[15].fma(T::lit(0.5817884435470521), b[33] * T::lit(1.767538284065846));
-    let t301 = b[9].fma(T::lit(0.5817884435470521), b[27] * T::lit(1.767538284065846));
-    let t302 = b[23].fma(T::lit(1.2564610912377556), t300);
-    let t303 = b[17].fma(T::lit(1.2564610912377556), t301);
+    let t299 = b[8].fma(T::lit(0.7760207803743538), b[22] * T::lit(1.7659110370218514));
+    let t300 = b[4].fma(T::lit(0.7760207803743538), b[18] * T::lit(1.7659110370218514));
+    let t301 = b[32].fma(T::lit(1.3595955572308356), b[14].fma(T::lit(1.4780361980480519), t299));
+    let t302 = b[28].fma(T::lit(1.3595955572308356), b[10].fma(T::lit(1.4780361980480519), t300));
+    let t303 = t299.fms(T::lit(2.0), t301);
     let t304 = t300.fms(T::lit(2.0), t302);
-    let t305 = t301.fms(T::lit(2.0), t303);
-    let t306 = b[24].fma(T::lit(0.42831146138203857), b[34] * T::lit(1.0226304917781994));
-    let t307 = b[16].fma(T::lit(0.42831146138203857), b[26] * T::lit(1.0226304917781994));
-    let t308 = b[24].fms(T::lit(0.8566229227640771), t306);
-    let t309 = b[16].fms(T::lit(0.8566229227640771), t307);
-    let t310 = t278.times(t291);
-    let t311 = t278.times(t290);
-    let t312 = t261.times(t302) + t277.times(t286) + t265.times(t296) - t266.times(t297) + t271.times(t290);
-    let t313 = t261.times(t303) + t278.times(t286) + t265.times(t297) + t266.times(t296) + t272.times(t290);
-    let t314 = t278.times(t303) + t277.times(t302) + t281.times(t306) + t282.times(t307);
-    let t315 = t278.times(t297) + t277.times(t296) + t271.times(t302) + t272.times(t303) + t281.times(t302);
-    let t316 = t278.times(t296) - t277.times(t297) - t272.times(t302) + t271.times(t303) - t281.times(t303);
-    let t317 = t261.times(t306) + t281.times(t286) + t265.times(t302) - t266.times(t303) + t277.times(t290);
-    let t318 = t261.times(t307) + t282.times(t286) + t265.times(t303) + t266.times(t302) + t311 + t277.times(t291);
-    let t319 = t312 - t272.times(t291) + t281.times(t290) + t282.times(t291) + t265.times(t306) + t266.times(t307);
-    let t320 = t313 + t271.times(t291) - t281.times(t291) + t282.times(t290) - t266.times(t306) + t265.times(t307);
-    let t321 = t315 + t282.times(t303) + t277.times(t306) + t278.times(t307);
-    let t322 = t316 + t282.times(t302) - t278.times(t306) + t277.times(t307);
-    let t323 = t317 - t310 + t271.times(t296) - t272.times(t297);
-    let t324 = t318 + t271.times(t297) + t272.times(t296);
-    let t325 = t310 + t277.times(t290) + t265.times(t302) + t266.times(t303) + t271.times(t306) + t272.times(t307);
-    let t326 = t311 - t277.times(t291) - t266.times(t302) + t265.times(t303) - t272.times(t306) + t271.times(t307);
-    let t327 = t325 + t281.times(t296) + t282.times(t297);
-    let t328 = t326 - t281.times(t297) + t282.times(t296);
-    let t329 = t319 + t279.times(t287) + t262.times(t304) + t267.times(t298) - t268.times(t299) + t273.times(t292);
-    let t330 = t320 + t280.times(t287) + t262.times(t305) + t267.times(t299) + t268.times(t298) + t274.times(t292);
-    let t331 = t314 + t279.times(t304) + t280.times(t305) + t283.times(t308) + t284.times(t309);
-    let t332 = t321 + t279.times(t298) + t280.times(t299) + t273.times(t304) + t274.times(t305) + t283.times(t304);
-    let t333 = t322 - t279.times(t299) + t280.times(t298) - t274.times(t304) + t273.times(t305) - t283.times(t305);
-    let t334 = t323 + t283.times(t287) + t262.times(t308) + t267.times(t304) - t268.times(t305) + t279.times(t292);
-    let t335 = t324 + t284.times(t287) + t262.times(t309) + t267.times(t305) + t268.times(t304) + t280.times(t292);
-    let t336 = t329 - t274.times(t293) + t283.times(t292) + t284.times(t293) + t267.times(t308) + t268.times(t309);
-    let t337 = t330 + t273.times(t293) - t283.times(t293) + t284.times(t292) - t268.times(t308) + t267.times(t309);
-    let t338 = t332 + t284.times(t305) + t279.times(t308) + t280.times(t309);
-    let t339 = t333 + t284.times(t304) - t280.times(t308) + t279.times(t309);
-    let t340 = t334 - t280.times(t293) + t273.times(t298) - t274.times(t299);
-    let t341 = t335 + t279.times(t293) + t273.times(t299) + t274.times(t298);
-    let t342 = t327 + t279.times(t292) + t280.times(t293) + t267.times(t304) + t268.times(t305) + t273.times(t308);
-    let t343 = t328 - t279.times(t293) + t280.times(t292) - t268.times(t304) + t267.times(t305) - t274.times(t308);
-    let t344 = t342 + t274.times(t309) + t283.times(t298) + t284.times(t299);
-    let t345 = t343 + t273.times(t309) - t283.times(t299) + t284.times(t298);
-    let t346 = t331.fma(T::lit(0.0186235912221337), t249.fnma(T::lit(0.087880534100294), t225.fnma(T::lit(0.04300002584026091), t165)));
-    let t347 = t331.fnma(T::lit(0.03544094579974892), t249.fma(T::lit(0.08842808166626058), t225.fnma(T::lit(0.008283072525531045), t166)));
-    let t348 = t314.fms(T::lit(2.0), t331);
-    let t349 = t348.fma(T::lit(0.03744324082770821), t233.fma(T::lit(0.040019378939486226), t167.fma(T::lit(0.036886036168790846), t110)));
-    let t350 = t348.fnma(T::lit(0.03904592535436272), t233.fma(T::lit(0.06576390254683251), t167.fnma(T::lit(0.034008935561106894), t111)));
-    let t351 = t338.fma(T::lit(0.018050909162625993), t254.fma(T::lit(0.06807196900525034), t230.fma(T::lit(0.051343979168450474), t169)));
-    let t352 = t339.fma(T::lit(0.018050909162625993), t255.fma(T::lit(0.06807196900525034), t231.fma(T::lit(0.051343979168450474), t170)));
-    let t353 = t338.fma(T::lit(0.02686698102994698), t254.fnma(T::lit(0.06367549641518543), t230.fnma(T::lit(0.016364474322188877), t171)));
-    let t354 = t339.fma(T::lit(0.02686698102994698), t255.fnma(T::lit(0.06367549641518543), t231.fnma(T::lit(0.016364474322188877), t172)));
-    let t355 = t338.fnma(T::lit(0.010297625017120626), t254.fma(T::lit(0.06310440419379505), t230.fnma(T::lit(0.022887726278012933), t173)));
-    let t356 = t339.fnma(T::lit(0.010297625017120626), t255.fma(T::lit(0.06310440419379505), t231.fnma(T::lit(0.022887726278012933), t174)));
-    let t357 = t321.fms(T::lit(2.0), t338);
-    let t358 = t322.fms(T::lit(2.0), t339);
-    let t359 = t327.fms(T::lit(2.0), t344);
-    let t360 = t328.fms(T::lit(2.0), t345);
-    let t361 = t336.fma(T::lit(0.010501810346333398), t13.fms(T::lit(0.2455320005465369), t31 * T::lit(0.09814013073014567)));
-    let t362 = t337.fma(T::lit(0.010501810346333398), t14.fms(T::lit(0.2455320005465369), t32 * T::lit(0.09814013073014567)));
-    let t363 = t336.fma(T::lit(0.031905673007136405), t13.fnma(T::lit(0.06264134767986153), t31 * T::lit(0.13019759620332838)));
-    let t364 = t337.fma(T::lit(0.031905673007136405), t14.fnma(T::lit(0.06264134767986153), t32 * T::lit(0.13019759620332838)));
-    let t365 = t319.fms(T::lit(2.0), t336).fma(T::lit(0.02268026502430666), b[25].times(t42) + b[35].times(t41) + a[35].times(t43) + a[25].times(t44));
-    let t366 = t320.fms(T::lit(2.0), t337).fma(T::lit(0.02268026502430666), b[25].times(t41) - b[35].times(t42) - a[35].times(t44) + a[25].times(t43));
-    let t367 = t340.fma(T::lit(0.00773141128271877), b[25].times(t50) + b[35].times(t49) + a[35].times(t51) + a[25].times(t52));
-    let t368 = t341.fma(T::lit(0.00773141128271877), b[25].times(t49) - b[35].times(t50) - a[35].times(t52) + a[25].times(t51));
-    let t369 = t323.fms(T::lit(2.0), t340).fma(T::lit(0.018459410114019827), b[25].times(t58) + b[35].times(t57) + a[35].times(t59) + a[25].times(t60));
-    let t370 = t324.fms(T::lit(2.0), t341).fma(T::lit(0.018459410114019827), b[25].times(t57) - b[35].times(t58) - a[35].times(t60) + a[25].times(t59));
-    let t371 = a[20].fnma(T::lit(0.3199545553183085), a[0].fms(T::lit(1.2512959098827643), a[6] * T::lit(0.7760207803743538)));
-    let t372 = a[30].fma(T::lit(1.1987201479376166), a[12].fnma(T::lit(1.439914208502916), a[2].fma(T::lit(0.8349996181244668), t371)));
-    let t373 = t371.fms(T::lit(2.0), t372);
-    let t374 = a[31].fnma(T::lit(0.5704768066996664), a[13].fnma(T::lit(0.2411813049756278), a[3]));
-    let t375 = a[29].fnma(T::lit(0.5704768066996664), a[11].fnma(T::lit(0.2411813049756278), a[1]));
-    let t376 = a[21].fnma(T::lit(1.0345144789043033), a[7].fma(T::lit(0.8614907658382753), t374));
-    let t377 = a[19].fnma(T::lit(1.0345144789043033), a[5].fma(T::lit(0.8614907658382753), t375));
-    let t378 = t374.fms(T::lit(2.0), t376);
-    let t379 = t375.fms(T::lit(2.0), t377);
-    let t380 = a[8].fma(T::lit(1.0317259399151721), a[22] * T::lit(0.03487590833984519));
-    let t381 = a[4].fma(T::lit(1.0317259399151721), a[18] * T::lit(0.03487590833984519));
-    let t382 = a[32].fnma(T::lit(0.9673946043343371), a[14].fma(T::lit(1.0516688109181285), t380));
-    let t383 = a[28].fnma(T::lit(0.9673946043343371), a[10].fma(T::lit(1.0516688109181285), t381));
-    let t384 = t380.fms(T::lit(2.0), t382);
-    let t385 = t381.fms(T::lit(2.0), t383);
-    let t386 = a[15].fma(T::lit(1.0283645282517744), a[33] * T::lit(0.2864129707543106));
-    let t387 = a[9].fma(T::lit(1.0283645282517744), a[27] * T::lit(0.2864129707543106));
-    let t388 = a[23].fma(T::lit(1.188595186621004), t386);
-    let t389 = a[17].fma(T::lit(1.188595186621004), t387);
-    let t390 = t386.fms(T::lit(2.0), t388);
-    let t391 = t387.fms(T::lit(2.0), t389);
-    let t392 = a[24].fma(T::lit(1.006543833436964), a[34] * T::lit(1.2861589955674015));
-    let t393 = a[16].fma(T::lit(1.006543833436964), a[26] * T::lit(1.2861589955674015));
-    let t394 = a[24].fms(T::lit(2.013087666873928), t392);
-    let t395 = a[16].fms(T::lit(2.013087666873928), t393);
-    let t396 = b[20].fnma(T::lit(0.3199545553183085), b[0].fms(T::lit(1.2512959098827643), b[6] * T::lit(0.7760207803743538)));
-    let t397 = b[30].fma(T::lit(1.1987201479376166), b[12].fnma(T::lit(1.439914208502916), b[2].fma(T::lit(0.8349996181244668), t396)));
-    let t398 = t396.fms(T::lit(2.0), t397);
-    let t399 = b[31].fnma(T::lit(0.5704768066996664), b[13].fnma(T::lit(0.2411813049756278), b[3]));
-    [t2, t7, t19, t23, t61, t63, t64, t65, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t346, t347, t348, t349, t350, t351, t352, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]
+    let t305 = b[15].fma(T::lit(0.5817884435470521), b[33] * T::lit(1.767538284065846));
+    let t306 = b[9].fma(T::lit(0.5817884435470521), b[27] * T::lit(1.767538284065846));
+    let t307 = b[23].fma(T::lit(1.2564610912377556), t305);
+    let t308 = b[17].fma(T::lit(1.2564610912377556), t306);
+    let t309 = t305.fms(T::lit(2.0), t307);
+    let t310 = t306.fms(T::lit(2.0), t308);
+    let t311 = b[24].fma(T::lit(0.42831146138203857), b[34] * T::lit(1.0226304917781994));
+    let t312 = b[16].fma(T::lit(0.42831146138203857), b[26] * T::lit(1.0226304917781994));
+    let t313 = b[24].fms(T::lit(0.8566229227640771), t311);
+    let t314 = b[16].fms(T::lit(0.8566229227640771), t312);
+    let t315 = t283.times(t296);
+    let t316 = t283.times(t295);
+    let t317 = t276.times_fma(t295, t271.times_fnma(t302, t270.times_fma(t301, t282.times_fma(t291, t266.times(t307)))));
+    let t318 = t277.times_fma(t295, t271.times_fma(t301, t270.times_fma(t302, t283.times_fma(t291, t266.times(t308)))));
+    let t319 = t287.times_fma(t312, t286.times_fma(t311, t282.times_fma(t307, t283.times(t308))));
+    let t320 = t286.times_fma(t307, t277.times_fma(t308, t276.times_fma(t307, t282.times_fma(t301, t283.times(t302)))));
+    let t321 = t286.times_fnma(t308, t276.times_fma(t308, t277.times_fnma(t307, t282.times_fnma(t302, t283.times(t301)))));
+    let t322 = t282.times_fma(t295, t271.times_fnma(t308, t270.times_fma(t307, t286.times_fma(t291, t266.times(t311)))));
+    let t323 = t316 + t271.times_fma(t307, t270.times_fma(t308, t287.times_fma(t291, t266.times(t312))));
+    let t324 = t270.times_fma(t311, t287.times_fma(t296, t286.times_fma(t295, t277.times_fnma(t296, t317))));
+    let t325 = t271.times_fnma(t311, t287.times_fma(t295, t286.times_fnma(t296, t276.times_fma(t296, t318))));
+    let t326 = t271.times_fma(t312, t324);
+    let t327 = t270.times_fma(t312, t325);
+    let t328 = t283.times_fma(t312, t282.times_fma(t311, t287.times_fma(t308, t320)));
+    let t329 = t282.times_fma(t312, t283.times_fnma(t311, t287.times_fma(t307, t321)));
+    let t330 = t277.times_fnma(t302, t276.times_fma(t301, t322 - t315));
+    let t331 = t277.times_fma(t301, t276.times_fma(t302, t282.times_fma(t296, t323)));
+    let t332 = t276.times_fma(t311, t271.times_fma(t308, t270.times_fma(t307, t282.times_fma(t295, t315))));
+    let t333 = t277.times_fnma(t311, t270.times_fma(t308, t271.times_fnma(t307, t282.times_fnma(t296, t316))));
+    let t334 = t287.times_fma(t302, t286.times_fma(t301, t277.times_fma(t312, t332)));
+    let t335 = t287.times_fma(t301, t286.times_fnma(t302, t276.times_fma(t312, t333)));
+    let t336 = t273.times_fnma(t304, t272.times_fma(t303, t267.times_fma(t309, t284.times_fma(t292, t326))));
+    let t337 = t273.times_fma(t303, t272.times_fma(t304, t267.times_fma(t310, t285.times_fma(t292, t327))));
+    let t338 = t273.times_fma(t310, t272.times_fma(t309, t285.times_fma(t298, t284.times_fma(t297, t334))));
+    let t339 = t272.times_fma(t310, t273.times_fnma(t309, t285.times_fma(t297, t284.times_fnma(t298, t335))));
+    let t340 = t279.times_fma(t310, t278.times_fma(t309, t285.times_fma(t304, t284.times_fma(t303, t328))));
+    let t341 = t278.times_fma(t310, t279.times_fnma(t309, t285.times_fma(t303, t284.times_fnma(t304, t329))));
+    let t342 = t289.times_fma(t314, t288.times_fma(t313, t285.times_fma(t310, t284.times_fma(t309, t319))));
+    let t343 = t273.times_fnma(t310, t272.times_fma(t309, t267.times_fma(t313, t288.times_fma(t292, t330))));
+    let t344 = t273.times_fma(t309, t272.times_fma(t310, t267.times_fma(t314, t289.times_fma(t292, t331))));
+    let t345 = t289.times_fma(t298, t288.times_fma(t297, t279.times_fnma(t298, t278.times_fma(t297, t336))));
+    let t346 = t289.times_fma(t297, t288.times_fnma(t298, t278.times_fma(t298, t279.times_fma(t297, t337))));
+    let t347 = t273.times_fma(t314, t272.times_fma(t313, t345));
+    let t348 = t272.times_fma(t314, t273.times_fnma(t313, t346));
+    let t349 = t285.times_fma(t314, t284.times_fma(t313, t289.times_fma(t310, t288.times_fma(t309, t340))));
+    let t350 = t284.times_fma(t314, t285.times_fnma(t313, t289.times_fma(t309, t288.times_fnma(t310, t341))));
+    let t351 = t279.times_fnma(t304, t278.times_fma(t303, t285.times_fnma(t298, t284.times_fma(t297, t343))));
+    let t352 = t279.times_fma(t303, t278.times_fma(t304, t284.times_fma(t298, t285.times_fma(t297, t344))));
+    let t353 = t289.times_fma(t304, t288.times_fma(t303, t279.times_fma(t314, t278.times_fma(t313, t338))));
+    let t354 = t289.times_fma(t303, t288.times_fnma(t304, t278.times_fma(t314, t279.times_fnma(t313, t339))));
+    let t355 = t342.fma(T::lit(0.0186235912221337), t254.fnma(T::lit(0.087880534100294), t229.fnma(T::lit(0.04300002584026091), t169)));
+    let t356 = t342.fnma(T::lit(0.03544094579974892), t254.fma(T::lit(0.08842808166626058), t229.fnma(T::lit(0.008283072525531045), t170)));
+    let t357 = t319.fms(T::lit(2.0), t342);
+    let t358 = t357.fma(T::lit(0.03744324082770821), t237.fma(T::lit(0.040019378939486226), t171.fma(T::lit(0.036886036168790846), t115)));
+    let t359 = t349.fma(T::lit(0.018050909162625993), t259.fma(T::lit(0.06807196900525034), t234.fma(T::lit(0.051343979168450474), t173)));
+    let t360 = t350.fma(T::lit(0.018050909162625993), t260.fma(T::lit(0.06807196900525034), t235.fma(T::lit(0.051343979168450474), t174)));
+    let t361 = t349.fma(T::lit(0.02686698102994698), t259.fnma(T::lit(0.06367549641518543), t234.fnma(T::lit(0.016364474322188877), t175)));
+    let t362 = t350.fma(T::lit(0.02686698102994698), t260.fnma(T::lit(0.06367549641518543), t235.fnma(T::lit(0.016364474322188877), t176)));
+    let t363 = t349.fnma(T::lit(0.010297625017120626), t259.fma(T::lit(0.06310440419379505), t234.fnma(T::lit(0.022887726278012933), t177)));
+    let t364 = t350.fnma(T::lit(0.010297625017120626), t260.fma(T::lit(0.06310440419379505), t235.fnma(T::lit(0.022887726278012933), t178)));
+    let t365 = t328.fms(T::lit(2.0), t349);
+    let t366 = t329.fms(T::lit(2.0), t350);
+    let t367 = t334.fms(T::lit(2.0), t353);
+    let t368 = t335.fms(T::lit(2.0), t354);
+    let t369 = t347.fma(T::lit(0.010501810346333398), t13.fms(T::lit(0.2455320005465369), t31 * T::lit(0.09814013073014567)));
+    let t370 = t348.fma(T::lit(0.010501810346333398), t14.fms(T::lit(0.2455320005465369), t32 * T::lit(0.09814013073014567)));
+    let t371 = t347.fma(T::lit(0.031905673007136405), t13.fnma(T::lit(0.06264134767986153), t31 * T::lit(0.13019759620332838)));
+    let t372 = t348.fma(T::lit(0.031905673007136405), t14.fnma(T::lit(0.06264134767986153), t32 * T::lit(0.13019759620332838)));
+    let t373 = t326.fms(T::lit(2.0), t347).fma(T::lit(0.02268026502430666), a[25].times_fma(t46, a[35].times_fma(t45, b[35].times_fma(t41, b[25].times(t42)))));
+    let t374 = t327.fms(T::lit(2.0), t348).fma(T::lit(0.02268026502430666), a[25].times_fma(t45, a[35].times_fnma(t46, b[35].times_fnma(t42, b[25].times(t41)))));
+    let t375 = t351.fma(T::lit(0.00773141128271877), a[25].times_fma(t54, a[35].times_fma(t53, b[35].times_fma(t49, b[25].times(t50)))));
+    let t376 = t352.fma(T::lit(0.00773141128271877), a[25].times_fma(t53, a[35].times_fnma(t54, b[35].times_fnma(t50, b[25].times(t49)))));
+    let t377 = t330.fms(T::lit(2.0), t351).fma(T::lit(0.018459410114019827), a[25].times_fma(t63, a[35].times_fma(t62, b[35].times_fma(t58, b[25].times(t59)))));
+    let t378 = t331.fms(T::lit(2.0), t352).fma(T::lit(0.018459410114019827), a[25].times_fma(t62, a[35].times_fnma(t63, b[35].times_fnma(t59, b[25].times(t58)))));
+    let t379 = a[20].fnma(T::lit(0.3199545553183085), a[0].fms(T::lit(1.2512959098827643), a[6] * T::lit(0.7760207803743538)));
+    let t380 = a[30].fma(T::lit(1.1987201479376166), a[12].fnma(T::lit(1.439914208502916), a[2].fma(T::lit(0.8349996181244668), t379)));
+    let t381 = t379.fms(T::lit(2.0), t380);
+    let t382 = a[31].fnma(T::lit(0.5704768066996664), a[13].fnma(T::lit(0.2411813049756278), a[3]));
+    let t383 = a[29].fnma(T::lit(0.5704768066996664), a[11].fnma(T::lit(0.2411813049756278), a[1]));
+    let t384 = a[21].fnma(T::lit(1.0345144789043033), a[7].fma(T::lit(0.8614907658382753), t382));
+    let t385 = a[19].fnma(T::lit(1.0345144789043033), a[5].fma(T::lit(0.8614907658382753), t383));
+    let t386 = t382.fms(T::lit(2.0), t384);
+    let t387 = t383.fms(T::lit(2.0), t385);
+    let t388 = a[8].fma(T::lit(1.0317259399151721), a[22] * T::lit(0.03487590833984519));
+    let t389 = a[4].fma(T::lit(1.0317259399151721), a[18] * T::lit(0.03487590833984519));
+    let t390 = a[32].fnma(T::lit(0.9673946043343371), a[14].fma(T::lit(1.0516688109181285), t388));
+    let t391 = a[28].fnma(T::lit(0.9673946043343371), a[10].fma(T::lit(1.0516688109181285), t389));
+    let t392 = t388.fms(T::lit(2.0), t390);
+    let t393 = t389.fms(T::lit(2.0), t391);
+    let t394 = a[15].fma(T::lit(1.0283645282517744), a[33] * T::lit(0.2864129707543106));
+    let t395 = a[9].fma(T::lit(1.0283645282517744), a[27] * T::lit(0.2864129707543106));
+    let t396 = a[23].fma(T::lit(1.188595186621004), t394);
+    let t397 = a[17].fma(T::lit(1.188595186621004), t395);
+    let t398 = t394.fms(T::lit(2.0), t396);
+    let t399 = t395.fms(T::lit(2.0), t397);
+    [t2, t7, t19, t23, t64, t66, t67, t68, t172, t181, t182, t183, t184, t187, t188, t189, t190, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t254, t261, t262, t263, t264, t342, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t371, t372, t373, t374, t375, t376, t377, t378, t380, t381, t384, t385, t386, t387, t390, t391, t392, t393, t396, t397, t398, t399]
 }
 
 #[allow(clippy::all, unused_variables)]
 #[inline(always)]
-fn product_part_1<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36], [t2, t7, t19, t23, t61, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t348, t357, t358, t359, t360, t367, t368, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]: [V; 66]) -> [V; 33] {
-    let t400 = b[29].fnma(T::lit(0.5704768066996664), b[11].fnma(T::lit(0.2411813049756278), b[1]));
-    let t401 = b[21].fnma(T::lit(1.0345144789043033), b[7].fma(T::lit(0.8614907658382753), t399));
-    let t402 = b[19].fnma(T::lit(1.0345144789043033), b[5].fma(T::lit(0.8614907658382753), t400));
-    let t403 = t399.fms(T::lit(2.0), t401);
-    let t404 = t400.fms(T::lit(2.0), t402);
-    let t405 = b[8].fma(T::lit(1.0317259399151721), b[22] * T::lit(0.03487590833984519));
-    let t406 = b[4].fma(T::lit(1.0317259399151721), b[18] * T::lit(0.03487590833984519));
-    let t407 = b[32].fnma(T::lit(0.9673946043343371), b[14].fma(T::lit(1.0516688109181285), t405));
-    let t408 = b[28].fnma(T::lit(0.9673946043343371), b[10].fma(T::lit(1.0516688109181285), t406));
-    let t409 = t405.fms(T::lit(2.0), t407);
-    let t410 = t406.fms(T::lit(2.0), t408);
-    let t411 = b[15].fma(T::lit(1.0283645282517744), b[33] * T::lit(0.2864129707543106));
-    let t412 = b[9].fma(T::lit(1.0283645282517744), b[27] * T::lit(0.2864129707543106));
-    let t413 = b[23].fma(T::lit(1.188595186621004), t411);
-    let t414 = b[17].fma(T::lit(1.188595186621004), t412);
-    let t415 = t411.fms(T::lit(2.0), t413);
-    let t416 = t412.fms(T::lit(2.0), t414);
-    let t417 = b[24].fma(T::lit(1.006543833436964), b[34] * T::lit(1.2861589955674015));
-    let t418 = b[16].fma(T::lit(1.006543833436964), b[26] * T::lit(1.2861589955674015));
-    let t419 = b[24].fms(T::lit(2.013087666873928), t417);
-    let t420 = b[16].fms(T::lit(2.013087666873928), t418);
-    let t421 = t389.times(t402);
-    let t422 = t389.times(t401);
-    let t423 = t372.times(t413) + t388.times(t397) + t376.times(t407) - t377.times(t408) + t382.times(t401);
-    let t424 = t372.times(t414) + t389.times(t397) + t376.times(t408) + t377.times(t407) + t383.times(t401);
-    let t425 = t389.times(t414) + t388.times(t413) + t392.times(t417) + t393.times(t418);
-    let t426 = t389.times(t408) + t388.times(t407) + t382.times(t413) + t383.times(t414) + t392.times(t413);
-    let t427 = t389.times(t407) - t388.times(t408) - t383.times(t413) + t382.times(t414) - t392.times(t414);
-    let t428 = t372.times(t417) + t392.times(t397) + t376.times(t413) - t377.times(t414) + t388.times(t401);
-    let t429 = t372.times(t418) + t393.times(t397) + t376.times(t414) + t377.times(t413) + t422 + t388.times(t402);
-    let t430 = t423 - t383.times(t402) + t392.times(t401) + t393.times(t402) + t376.times(t417) + t377.times(t418);
-    let t431 = t424 + t382.times(t402) - t392.times(t402) + t393.times(t401) - t377.times(t417) + t376.times(t418);
-    let t432 = t426 + t393.times(t414) + t388.times(t417) + t389.times(t418);
-    let t433 = t427 + t393.times(t413) - t389.times(t417) + t388.times(t418);
-    let t434 = t428 - t421 + t382.times(t407) - t383.times(t408);
-    let t435 = t429 + t382.times(t408) + t383.times(t407);
-    let t436 = t421 + t388.times(t401) + t376.times(t413) + t377.times(t414) + t382.times(t417) + t383.times(t418);
-    let t437 = t422 - t388.times(t402) - t377.times(t413) + t376.times(t414) - t383.times(t417) + t382.times(t418);
-    let t438 = t436 + t392.times(t407) + t393.times(t408);
-    let t439 = t437 - t392.times(t408) + t393.times(t407);
-    let t440 = t430 + t390.times(t398) + t373.times(t415) + t378.times(t409) - t379.times(t410) + t384.times(t403);
-    let t441 = t431 + t391.times(t398) + t373.times(t416) + t378.times(t410) + t379.times(t409) + t385.times(t403);
-    let t442 = t425 + t390.times(t415) + t391.times(t416) + t394.times(t419) + t395.times(t420);
-    let t443 = t432 + t390.times(t409) + t391.times(t410) + t384.times(t415) + t385.times(t416) + t394.times(t415);
-    let t444 = t433 - t390.times(t410) + t391.times(t409) - t385.times(t415) + t384.times(t416) - t394.times(t416);
-    let t445 = t434 + t394.times(t398) + t373.times(t419) + t378.times(t415) - t379.times(t416) + t390.times(t403);
-    let t446 = t435 + t395.times(t398) + t373.times(t420) + t378.times(t416) + t379.times(t415) + t391.times(t403);
-    let t447 = t440 - t385.times(t404) + t394.times(t403) + t395.times(t404) + t378.times(t419) + t379.times(t420);
-    let t448 = t441 + t384.times(t404) - t394.times(t404) + t395.times(t403) - t379.times(t419) + t378.times(t420);
-    let t449 = t443 + t395.times(t416) + t390.times(t419) + t391.times(t420);
-    let t450 = t444 + t395.times(t415) - t391.times(t419) + t390.times(t420);
-    let t451 = t445 - t391.times(t404) + t384.times(t409) - t385.times(t410);
-    let t452 = t446 + t390.times(t404) + t384.times(t410) + t385.times(t409);
-    let t453 = t438 + t390.times(t403) + t391.times(t404) + t378.times(t415) + t379.times(t416) + t384.times(t419);
-    let t454 = t439 - t390.times(t404) + t391.times(t403) - t379.times(t415) + t378.times(t416) - t385.times(t419);
-    let t455 = t453 + t385.times(t420) + t394.times(t409) + t395.times(t410);
-    let t456 = t454 + t384.times(t420) - t394.times(t410) + t395.times(t409);
-    let t457 = t442.fma(T::lit(0.06628151260452116), t331.fma(T::lit(0.03002963852635845), t249.fma(T::lit(0.0786027392588983), t232)));
-    let t458 = t425.fms(T::lit(2.0), t442);
-    let t459 = t458.fnma(T::lit(0.07627267939304382), t348.fnma(T::lit(0.011691703107939199), t233.fnma(T::lit(0.07154508293542654), t168)));
-    let t460 = t432.fms(T::lit(2.0), t449);
-    let t461 = t433.fms(T::lit(2.0), t450);
-    let t462 = t460.fma(T::lit(0.045633419404318275), t357.fma(T::lit(0.029056732966862994), t234.fma(T::lit(0.04168901769980652), t177)));
-    let t463 = t461.fma(T::lit(0.045633419404318275), t358.fma(T::lit(0.029056732966862994), t235.fma(T::lit(0.04168901769980652), t178)));
-    let t464 = t460.fnma(T::lit(0.05479853640653197), t357.fma(T::lit(0.011167828437769005), t234.fnma(T::lit(0.05302466879522206), t179)));
-    let t465 = t461.fnma(T::lit(0.05479853640653197), t358.fma(T::lit(0.011167828437769005), t235.fnma(T::lit(0.05302466879522206), t180)));
-    let t466 = t438.fms(T::lit(2.0), t455);
-    let t467 = t439.fms(T::lit(2.0), t456);
-    let t468 = t466.fma(T::lit(0.055707206421846754), t359.fma(T::lit(0.02667989715003847), t236.fma(T::lit(0.051385075338803245), t183)));
-    let t469 = t467.fma(T::lit(0.055707206421846754), t360.fma(T::lit(0.02667989715003847), t237.fma(T::lit(0.051385075338803245), t184)));
-    let t470 = t466.fnma(T::lit(0.051243176897093554), t359.fma(T::lit(0.024541935901483684), t236.fnma(T::lit(0.05150560274149205), t185)));
-    let t471 = t467.fnma(T::lit(0.051243176897093554), t360.fma(T::lit(0.024541935901483684), t237.fnma(T::lit(0.05150560274149205), t186)));
-    let t472 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
-    let t473 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
-    let t474 = a[24] * T::lit(1.2808688457449497);
-    let t475 = a[16] * T::lit(1.2808688457449497);
-    let t476 = b[15].fms(T::lit(1.20761472884912), b[33] * T::lit(1.0013012367248264));
-    let t477 = b[9].fms(T::lit(1.20761472884912), b[27] * T::lit(1.0013012367248264));
-    let t478 = b[24] * T::lit(1.2808688457449497);
-    let t479 = b[16] * T::lit(1.2808688457449497);
-    let t480 = t245.times(t473);
-    let t481 = t244.times(t473);
-    let t482 = t238.times(t476) + t243.times(t472) + t239.times(t246) - t240.times(t247) + t241.times(t244);
-    let t483 = t238.times(t477) + t243.times(t473) + t239.times(t247) + t240.times(t246) + t242.times(t244);
-    let t484 = t473.times(t477) + t472.times(t476) + t474.times(t478) + t475.times(t479);
-    let t485 = t247.times(t473) + t246.times(t472) + t241.times(t476) + t242.times(t477) + t474.times(t476);
-    let t486 = t246.times(t473) - t247.times(t472) - t242.times(t476) + t241.times(t477) - t474.times(t477);
-    let t487 = t238.times(t478) + t243.times(t474) + t239.times(t476) - t240.times(t477) + t244.times(t472);
-    let t488 = t238.times(t479) + t243.times(t475) + t239.times(t477) + t240.times(t476) + t481 + t245.times(t472);
-    let t489 = t482 - t242.times(t245) + t244.times(t474) + t245.times(t475) + t239.times(t478) + t240.times(t479);
-    let t490 = t483 + t241.times(t245) - t245.times(t474) + t244.times(t475) - t240.times(t478) + t239.times(t479);
-    let t491 = t485 + t475.times(t477) + t472.times(t478) + t473.times(t479);
-    let t492 = t486 + t475.times(t476) - t473.times(t478) + t472.times(t479);
-    let t493 = t480 + t244.times(t472) + t239.times(t476) + t240.times(t477) + t241.times(t478) + t242.times(t479);
-    let t494 = t481 - t245.times(t472) - t240.times(t476) + t239.times(t477) - t242.times(t478) + t241.times(t479);
-    let t495 = t493 + t246.times(t474) + t247.times(t475);
-    let t496 = t494 - t247.times(t474) + t246.times(t475);
-    let t497 = t495.fma(T::lit(0.0807193068489386), t455.fma(T::lit(0.05465082667560701), t344.fma(T::lit(0.014007880614847599), t256)));
-    let t498 = t496.fma(T::lit(0.0807193068489386), t456.fma(T::lit(0.05465082667560701), t345.fma(T::lit(0.014007880614847599), t257)));
-    let t499 = t495.fnma(T::lit(0.06990497030705205), t455.fma(T::lit(0.001847387128787269), t344.fma(T::lit(0.03187629971856011), t258)));
-    let t500 = t496.fnma(T::lit(0.06990497030705205), t456.fma(T::lit(0.001847387128787269), t345.fma(T::lit(0.03187629971856011), t259)));
-    let t501 = (t487 - t480 + t241.times(t246) - t242.times(t247)).fma(T::lit(0.09247558341990712), t451.fma(T::lit(0.05331692308432929), t367));
-    let t502 = (t488 + t241.times(t247) + t242.times(t246)).fma(T::lit(0.09247558341990712), t452.fma(T::lit(0.05331692308432929), t368));
-    let t503 = (t2 + a[0].times(b[0]) + t7 + t19 + t23 + a[30].times(b[30]) + t61).fma(T::lit(0.28209479177387814), t484.fma(T::lit(0.08336654163822546), t457));
-    [t430, t431, t434, t435, t442, t447, t448, t449, t450, t451, t452, t458, t459, t462, t463, t464, t465, t468, t469, t470, t471, t484, t489, t490, t491, t492, t497, t498, t499, t500, t501, t502, t503]
+fn product_part_1<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36], [t2, t7, t19, t23, t64, t172, t181, t182, t183, t184, t187, t188, t189, t190, t236, t237, t239, t240, t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t254, t261, t262, t263, t264, t342, t353, t354, t357, t365, t366, t367, t368, t375, t376, t380, t381, t384, t385, t386, t387, t390, t391, t392, t393, t396, t397, t398, t399]: [V; 59]) -> [V; 33] {
+    let t400 = a[24].fma(T::lit(1.006543833436964), a[34] * T::lit(1.2861589955674015));
+    let t401 = a[16].fma(T::lit(1.006543833436964), a[26] * T::lit(1.2861589955674015));
+    let t402 = a[24].fms(T::lit(2.013087666873928), t400);
+    let t403 = a[16].fms(T::lit(2.013087666873928), t401);
+    let t404 = b[20].fnma(T::lit(0.3199545553183085), b[0].fms(T::lit(1.2512959098827643), b[6] * T::lit(0.7760207803743538)));
+    let t405 = b[30].fma(T::lit(1.1987201479376166), b[12].fnma(T::lit(1.439914208502916), b[2].fma(T::lit(0.8349996181244668), t404)));
+    let t406 = t404.fms(T::lit(2.0), t405);
+    let t407 = b[31].fnma(T::lit(0.5704768066996664), b[13].fnma(T::lit(0.2411813049756278), b[3]));
+    let t408 = b[29].fnma(T::lit(0.5704768066996664), b[11].fnma(T::lit(0.2411813049756278), b[1]));
+    let t409 = b[21].fnma(T::lit(1.0345144789043033), b[7].fma(T::lit(0.8614907658382753), t407));
+    let t410 = b[19].fnma(T::lit(1.0345144789043033), b[5].fma(T::lit(0.8614907658382753), t408));
+    let t411 = t407.fms(T::lit(2.0), t409);
+    let t412 = t408.fms(T::lit(2.0), t410);
+    let t413 = b[8].fma(T::lit(1.0317259399151721), b[22] * T::lit(0.03487590833984519));
+    let t414 = b[4].fma(T::lit(1.0317259399151721), b[18] * T::lit(0.03487590833984519));
+    let t415 = b[32].fnma(T::lit(0.9673946043343371), b[14].fma(T::lit(1.0516688109181285), t413));
+    let t416 = b[28].fnma(T::lit(0.9673946043343371), b[10].fma(T::lit(1.0516688109181285), t414));
+    let t417 = t413.fms(T::lit(2.0), t415);
+    let t418 = t414.fms(T::lit(2.0), t416);
+    let t419 = b[15].fma(T::lit(1.0283645282517744), b[33] * T::lit(0.2864129707543106));
+    let t420 = b[9].fma(T::lit(1.0283645282517744), b[27] * T::lit(0.2864129707543106));
+    let t421 = b[23].fma(T::lit(1.188595186621004), t419);
+    let t422 = b[17].fma(T::lit(1.188595186621004), t420);
+    let t423 = t419.fms(T::lit(2.0), t421);
+    let t424 = t420.fms(T::lit(2.0), t422);
+    let t425 = b[24].fma(T::lit(1.006543833436964), b[34] * T::lit(1.2861589955674015));
+    let t426 = b[16].fma(T::lit(1.006543833436964), b[26] * T::lit(1.2861589955674015));
+    let t427 = b[24].fms(T::lit(2.013087666873928), t425);
+    let t428 = b[16].fms(T::lit(2.013087666873928), t426);
+    let t429 = t397.times(t410);
+    let t430 = t397.times(t409);
+    let t431 = t390.times_fma(t409, t385.times_fnma(t416, t384.times_fma(t415, t396.times_fma(t405, t380.times(t421)))));
+    let t432 = t391.times_fma(t409, t385.times_fma(t415, t384.times_fma(t416, t397.times_fma(t405, t380.times(t422)))));
+    let t433 = t401.times_fma(t426, t400.times_fma(t425, t396.times_fma(t421, t397.times(t422))));
+    let t434 = t400.times_fma(t421, t391.times_fma(t422, t390.times_fma(t421, t396.times_fma(t415, t397.times(t416)))));
+    let t435 = t400.times_fnma(t422, t390.times_fma(t422, t391.times_fnma(t421, t396.times_fnma(t416, t397.times(t415)))));
+    let t436 = t396.times_fma(t409, t385.times_fnma(t422, t384.times_fma(t421, t400.times_fma(t405, t380.times(t425)))));
+    let t437 = t430 + t385.times_fma(t421, t384.times_fma(t422, t401.times_fma(t405, t380.times(t426))));
+    let t438 = t384.times_fma(t425, t401.times_fma(t410, t400.times_fma(t409, t391.times_fnma(t410, t431))));
+    let t439 = t385.times_fnma(t425, t401.times_fma(t409, t400.times_fnma(t410, t390.times_fma(t410, t432))));
+    let t440 = t385.times_fma(t426, t438);
+    let t441 = t384.times_fma(t426, t439);
+    let t442 = t397.times_fma(t426, t396.times_fma(t425, t401.times_fma(t422, t434)));
+    let t443 = t396.times_fma(t426, t397.times_fnma(t425, t401.times_fma(t421, t435)));
+    let t444 = t391.times_fnma(t416, t390.times_fma(t415, t436 - t429));
+    let t445 = t391.times_fma(t415, t390.times_fma(t416, t396.times_fma(t410, t437)));
+    let t446 = t390.times_fma(t425, t385.times_fma(t422, t384.times_fma(t421, t396.times_fma(t409, t429))));
+    let t447 = t391.times_fnma(t425, t384.times_fma(t422, t385.times_fnma(t421, t396.times_fnma(t410, t430))));
+    let t448 = t401.times_fma(t416, t400.times_fma(t415, t391.times_fma(t426, t446)));
+    let t449 = t401.times_fma(t415, t400.times_fnma(t416, t390.times_fma(t426, t447)));
+    let t450 = t387.times_fnma(t418, t386.times_fma(t417, t381.times_fma(t423, t398.times_fma(t406, t440))));
+    let t451 = t387.times_fma(t417, t386.times_fma(t418, t381.times_fma(t424, t399.times_fma(t406, t441))));
+    let t452 = t387.times_fma(t424, t386.times_fma(t423, t399.times_fma(t412, t398.times_fma(t411, t448))));
+    let t453 = t386.times_fma(t424, t387.times_fnma(t423, t399.times_fma(t411, t398.times_fnma(t412, t449))));
+    let t454 = t393.times_fma(t424, t392.times_fma(t423, t399.times_fma(t418, t398.times_fma(t417, t442))));
+    let t455 = t392.times_fma(t424, t393.times_fnma(t423, t399.times_fma(t417, t398.times_fnma(t418, t443))));
+    let t456 = t403.times_fma(t428, t402.times_fma(t427, t399.times_fma(t424, t398.times_fma(t423, t433))));
+    let t457 = t387.times_fnma(t424, t386.times_fma(t423, t381.times_fma(t427, t402.times_fma(t406, t444))));
+    let t458 = t387.times_fma(t423, t386.times_fma(t424, t381.times_fma(t428, t403.times_fma(t406, t445))));
+    let t459 = t403.times_fma(t412, t402.times_fma(t411, t393.times_fnma(t412, t392.times_fma(t411, t450))));
+    let t460 = t403.times_fma(t411, t402.times_fnma(t412, t392.times_fma(t412, t393.times_fma(t411, t451))));
+    let t461 = t387.times_fma(t428, t386.times_fma(t427, t459));
+    let t462 = t386.times_fma(t428, t387.times_fnma(t427, t460));
+    let t463 = t399.times_fma(t428, t398.times_fma(t427, t403.times_fma(t424, t402.times_fma(t423, t454))));
+    let t464 = t398.times_fma(t428, t399.times_fnma(t427, t403.times_fma(t423, t402.times_fnma(t424, t455))));
+    let t465 = t393.times_fnma(t418, t392.times_fma(t417, t399.times_fnma(t412, t398.times_fma(t411, t457))));
+    let t466 = t393.times_fma(t417, t392.times_fma(t418, t398.times_fma(t412, t399.times_fma(t411, t458))));
+    let t467 = t403.times_fma(t418, t402.times_fma(t417, t393.times_fma(t428, t392.times_fma(t427, t452))));
+    let t468 = t403.times_fma(t417, t402.times_fnma(t418, t392.times_fma(t428, t393.times_fnma(t427, t453))));
+    let t469 = t456.fma(T::lit(0.06628151260452116), t342.fma(T::lit(0.03002963852635845), t254.fma(T::lit(0.0786027392588983), t236)));
+    let t470 = t433.fms(T::lit(2.0), t456);
+    let t471 = t470.fnma(T::lit(0.07627267939304382), t357.fnma(T::lit(0.011691703107939199), t237.fnma(T::lit(0.07154508293542654), t172)));
+    let t472 = t442.fms(T::lit(2.0), t463);
+    let t473 = t443.fms(T::lit(2.0), t464);
+    let t474 = t472.fma(T::lit(0.045633419404318275), t365.fma(T::lit(0.029056732966862994), t239.fma(T::lit(0.04168901769980652), t181)));
+    let t475 = t473.fma(T::lit(0.045633419404318275), t366.fma(T::lit(0.029056732966862994), t240.fma(T::lit(0.04168901769980652), t182)));
+    let t476 = t472.fnma(T::lit(0.05479853640653197), t365.fma(T::lit(0.011167828437769005), t239.fnma(T::lit(0.05302466879522206), t183)));
+    let t477 = t473.fnma(T::lit(0.05479853640653197), t366.fma(T::lit(0.011167828437769005), t240.fnma(T::lit(0.05302466879522206), t184)));
+    let t478 = t448.fms(T::lit(2.0), t467);
+    let t479 = t449.fms(T::lit(2.0), t468);
+    let t480 = t478.fma(T::lit(0.055707206421846754), t367.fma(T::lit(0.02667989715003847), t241.fma(T::lit(0.051385075338803245), t187)));
+    let t481 = t479.fma(T::lit(0.055707206421846754), t368.fma(T::lit(0.02667989715003847), t242.fma(T::lit(0.051385075338803245), t188)));
+    let t482 = t478.fnma(T::lit(0.051243176897093554), t367.fma(T::lit(0.024541935901483684), t241.fnma(T::lit(0.05150560274149205), t189)));
+    let t483 = t479.fnma(T::lit(0.051243176897093554), t368.fma(T::lit(0.024541935901483684), t242.fnma(T::lit(0.05150560274149205), t190)));
+    let t484 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
+    let t485 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
+    let t486 = a[24] * T::lit(1.2808688457449497);
+    let t487 = a[16] * T::lit(1.2808688457449497);
+    let t488 = b[15].fms(T::lit(1.20761472884912), b[33] * T::lit(1.0013012367248264));
+    let t489 = b[9].fms(T::lit(1.20761472884912), b[27] * T::lit(1.0013012367248264));
+    let t490 = b[24] * T::lit(1.2808688457449497);
+    let t491 = b[16] * T::lit(1.2808688457449497);
+    let t492 = t250.times(t485);
+    let t493 = t249.times(t485);
+    let t494 = t246.times_fma(t249, t245.times_fnma(t252, t244.times_fma(t251, t248.times_fma(t484, t243.times(t488)))));
+    let t495 = t247.times_fma(t249, t245.times_fma(t251, t244.times_fma(t252, t248.times_fma(t485, t243.times(t489)))));
+    let t496 = t487.times_fma(t491, t486.times_fma(t490, t484.times_fma(t488, t485.times(t489))));
+    let t497 = t486.times_fma(t488, t247.times_fma(t489, t246.times_fma(t488, t251.times_fma(t484, t252.times(t485)))));
+    let t498 = t486.times_fnma(t489, t246.times_fma(t489, t247.times_fnma(t488, t252.times_fnma(t484, t251.times(t485)))));
+    let t499 = t249.times_fma(t484, t245.times_fnma(t489, t244.times_fma(t488, t248.times_fma(t486, t243.times(t490)))));
+    let t500 = t493 + t245.times_fma(t488, t244.times_fma(t489, t248.times_fma(t487, t243.times(t491))));
+    let t501 = t244.times_fma(t490, t250.times_fma(t487, t249.times_fma(t486, t247.times_fnma(t250, t494))));
+    let t502 = t245.times_fnma(t490, t249.times_fma(t487, t250.times_fnma(t486, t246.times_fma(t250, t495))));
+    let t503 = t245.times_fma(t491, t501);
+    let t504 = t244.times_fma(t491, t502);
+    let t505 = t485.times_fma(t491, t484.times_fma(t490, t487.times_fma(t489, t497)));
+    let t506 = t484.times_fma(t491, t485.times_fnma(t490, t487.times_fma(t488, t498)));
+    let t507 = t246.times_fma(t490, t245.times_fma(t489, t244.times_fma(t488, t249.times_fma(t484, t492))));
+    let t508 = t247.times_fnma(t490, t244.times_fma(t489, t245.times_fnma(t488, t250.times_fnma(t484, t493))));
+    let t509 = t252.times_fma(t487, t251.times_fma(t486, t247.times_fma(t491, t507)));
+    let t510 = t251.times_fma(t487, t252.times_fnma(t486, t246.times_fma(t491, t508)));
+    let t511 = t509.fma(T::lit(0.0807193068489386), t467.fma(T::lit(0.05465082667560701), t353.fma(T::lit(0.014007880614847599), t261)));
+    let t512 = t510.fma(T::lit(0.0807193068489386), t468.fma(T::lit(0.05465082667560701), t354.fma(T::lit(0.014007880614847599), t262)));
+    let t513 = t509.fnma(T::lit(0.06990497030705205), t467.fma(T::lit(0.001847387128787269), t353.fma(T::lit(0.03187629971856011), t263)));
+    let t514 = t510.fnma(T::lit(0.06990497030705205), t468.fma(T::lit(0.001847387128787269), t354.fma(T::lit(0.03187629971856011), t264)));
+    let t515 = t247.times_fnma(t252, t246.times_fma(t251, t499 - t492)).fma(T::lit(0.09247558341990712), t465.fma(T::lit(0.05331692308432929), t375));
+    let t516 = t247.times_fma(t251, t246.times_fma(t252, t250.times_fma(t484, t500))).fma(T::lit(0.09247558341990712), t466.fma(T::lit(0.05331692308432929), t376));
+    let t517 = (a[30].times_fma(b[30], a[0].times_fma(b[0], t2) + t7 + t19 + t23) + t64).fma(T::lit(0.28209479177387814), t496.fma(T::lit(0.08336654163822546), t469));
+    [t440, t441, t444, t445, t456, t461, t462, t463, t464, t465, t466, t470, t471, t474, t475, t476, t477, t480, t481, t482, t483, t496, t503, t504, t505, t506, t511, t512, t513, t514, t515, t516, t517]
 }
 
 /// `product:6`: Multiplies two functions of order 6; what the product has beyond that order is cut off.
@@ -7473,45 +7487,45 @@ fn product_part_1<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36], [t2, t7, t19,
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn product<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> [V; 36] {
-    let [t2, t7, t19, t23, t61, t63, t64, t65, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t346, t347, t348, t349, t350, t351, t352, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399] = product_part_0::<T, V>(a, b);
-    let [t430, t431, t434, t435, t442, t447, t448, t449, t450, t451, t452, t458, t459, t462, t463, t464, t465, t468, t469, t470, t471, t484, t489, t490, t491, t492, t497, t498, t499, t500, t501, t502, t503] = product_part_1::<T, V>(a, b, [t2, t7, t19, t23, t61, t168, t177, t178, t179, t180, t183, t184, t185, t186, t232, t233, t234, t235, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t249, t256, t257, t258, t259, t331, t344, t345, t348, t357, t358, t359, t360, t367, t368, t372, t373, t376, t377, t378, t379, t382, t383, t384, t385, t388, t389, t390, t391, t392, t393, t394, t395, t397, t398, t399]);
+    let [t2, t7, t19, t23, t64, t66, t67, t68, t172, t181, t182, t183, t184, t187, t188, t189, t190, t236, t237, t238, t239, t240, t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t254, t261, t262, t263, t264, t342, t353, t354, t355, t356, t357, t358, t359, t360, t361, t362, t363, t364, t365, t366, t367, t368, t369, t370, t371, t372, t373, t374, t375, t376, t377, t378, t380, t381, t384, t385, t386, t387, t390, t391, t392, t393, t396, t397, t398, t399] = product_part_0::<T, V>(a, b);
+    let [t440, t441, t444, t445, t456, t461, t462, t463, t464, t465, t466, t470, t471, t474, t475, t476, t477, t480, t481, t482, t483, t496, t503, t504, t505, t506, t511, t512, t513, t514, t515, t516, t517] = product_part_1::<T, V>(a, b, [t2, t7, t19, t23, t64, t172, t181, t182, t183, t184, t187, t188, t189, t190, t236, t237, t239, t240, t241, t242, t243, t244, t245, t246, t247, t248, t249, t250, t251, t252, t254, t261, t262, t263, t264, t342, t353, t354, t357, t365, t366, t367, t368, t375, t376, t380, t381, t384, t385, t386, t387, t390, t391, t392, t393, t396, t397, t398, t399]);
     [
-        t503,
-        t492.fma(T::lit(0.07219754288435642), t450.fma(T::lit(0.052970294301314516), t352)),
-        t458.fma(T::lit(0.04423017551353824), t349),
-        t491.fma(T::lit(0.07219754288435642), t449.fma(T::lit(0.052970294301314516), t351)),
-        t498,
-        t463,
-        t484.fnma(T::lit(0.0932066270760694), t442.fnma(T::lit(0.041106049120365286), t346)),
-        t462,
-        t497,
-        t490.fma(T::lit(0.08718681617386478), t448.fma(T::lit(0.05447277171052896), t362)),
-        t469,
-        t492.fnma(T::lit(0.06753461741004516), t450.fnma(T::lit(0.012775444704534096), t354)),
-        t459,
-        t491.fnma(T::lit(0.06753461741004516), t449.fnma(T::lit(0.012775444704534096), t353)),
-        t468,
-        t489.fma(T::lit(0.08718681617386478), t447.fma(T::lit(0.05447277171052896), t361)),
-        t502,
-        t431.fms(T::lit(2.0), t448).fma(T::lit(0.06296023684044044), t366),
-        t500,
-        t465,
-        t484.fma(T::lit(0.09378735934300364), t442.fnma(T::lit(0.016948086958257016), t347)),
-        t464,
-        t499,
-        t430.fms(T::lit(2.0), t447).fma(T::lit(0.06296023684044044), t365),
-        t501,
-        t64 + a[25].times(t65),
-        t435.fms(T::lit(2.0), t452).fma(T::lit(0.06812822051348834), t370),
-        t490.fnma(T::lit(0.07229148897859977), t448.fma(T::lit(0.01517137935256962), t364)),
+        t517,
+        t506.fma(T::lit(0.07219754288435642), t464.fma(T::lit(0.052970294301314516), t360)),
+        t470.fma(T::lit(0.04423017551353824), t358),
+        t505.fma(T::lit(0.07219754288435642), t463.fma(T::lit(0.052970294301314516), t359)),
+        t512,
+        t475,
+        t496.fnma(T::lit(0.0932066270760694), t456.fnma(T::lit(0.041106049120365286), t355)),
+        t474,
+        t511,
+        t504.fma(T::lit(0.08718681617386478), t462.fma(T::lit(0.05447277171052896), t370)),
+        t481,
+        t506.fnma(T::lit(0.06753461741004516), t464.fnma(T::lit(0.012775444704534096), t362)),
         t471,
-        t492.fma(T::lit(0.06692891353887354), t450.fnma(T::lit(0.030218324342955443), t356)),
-        t458.fma(T::lit(0.06349655902117082), t350),
-        t491.fma(T::lit(0.06692891353887354), t449.fnma(T::lit(0.030218324342955443), t355)),
-        t470,
-        t489.fnma(T::lit(0.07229148897859977), t447.fma(T::lit(0.01517137935256962), t363)),
-        t434.fms(T::lit(2.0), t451).fma(T::lit(0.06812822051348834), t369),
-        t63 + a[35].times(t65),
+        t505.fnma(T::lit(0.06753461741004516), t463.fnma(T::lit(0.012775444704534096), t361)),
+        t480,
+        t503.fma(T::lit(0.08718681617386478), t461.fma(T::lit(0.05447277171052896), t369)),
+        t516,
+        t441.fms(T::lit(2.0), t462).fma(T::lit(0.06296023684044044), t374),
+        t514,
+        t477,
+        t496.fma(T::lit(0.09378735934300364), t456.fnma(T::lit(0.016948086958257016), t356)),
+        t476,
+        t513,
+        t440.fms(T::lit(2.0), t461).fma(T::lit(0.06296023684044044), t373),
+        t515,
+        a[25].times_fma(t68, t67),
+        t445.fms(T::lit(2.0), t466).fma(T::lit(0.06812822051348834), t378),
+        t504.fnma(T::lit(0.07229148897859977), t462.fma(T::lit(0.01517137935256962), t372)),
+        t483,
+        t506.fma(T::lit(0.06692891353887354), t464.fnma(T::lit(0.030218324342955443), t364)),
+        t470.fma(T::lit(0.06349655902117082), t357.fnma(T::lit(0.03904592535436272), t238)),
+        t505.fma(T::lit(0.06692891353887354), t463.fnma(T::lit(0.030218324342955443), t363)),
+        t482,
+        t503.fnma(T::lit(0.07229148897859977), t461.fma(T::lit(0.01517137935256962), t371)),
+        t444.fms(T::lit(2.0), t465).fma(T::lit(0.06812822051348834), t377),
+        a[35].times_fma(t68, t66),
     ]
 }
 
@@ -7541,40 +7555,40 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 36]) -> [V; 36] {
     let t6 = a[6].times(a[30]);
     let t7 = a[12].fma(T::lit(0.4792293944891293), a[30] * T::lit(0.16173926423206153));
     let t8 = a[12].times(a[12]);
-    let t9 = t8.fma(T::lit(0.168208834801344), t5 + a[6].times(a[20].fma(T::lit(0.48359107161236253), t0)) + a[30].times(t7));
+    let t9 = t8.fma(T::lit(0.168208834801344), a[30].times_fma(t7, a[6].times_fma(a[20].fma(T::lit(0.48359107161236253), t0), t5)));
     let t10 = t8.fma(T::lit(0.15386988642211535), t2.fma(T::lit(0.49246504245965816), t4 * T::lit(0.24179553580618127)));
-    let t11 = t6 * T::lit(0.4792293944891293) + a[2].times(t3) + a[12].times(a[20].fma(T::lit(0.3077397728442307), a[6].fma(T::lit(0.336417669602688), t0)));
-    let t12 = a[9].times(a[25]) + a[15].times(a[35]);
-    let t13 = a[15].times(a[25]) - a[9].times(a[35]);
+    let t11 = a[12].times_fma(a[20].fma(T::lit(0.3077397728442307), a[6].fma(T::lit(0.336417669602688), t0)), a[2].times_fma(t3, t6 * T::lit(0.4792293944891293)));
+    let t12 = a[15].times_fma(a[35], a[9].times(a[25]));
+    let t13 = a[9].times_fnma(a[35], a[15].times(a[25]));
     let t14 = a[8].fms(T::lit(0.4910640010930738), a[22] * T::lit(0.19628026146029134));
     let t15 = a[4].fms(T::lit(0.4910640010930738), a[18] * T::lit(0.19628026146029134));
     let t16 = a[20].times(a[20]);
-    let t17 = t16.fma(T::lit(0.13696110769441036), t10) + a[20].times(a[6].fma(T::lit(0.3276795483143065), t0));
+    let t17 = a[20].times_fma(a[6].fma(T::lit(0.3276795483143065), t0), t16.fma(T::lit(0.13696110769441036), t10));
     let t18 = a[20].times(a[30]);
-    let t19 = t18.fma(T::lit(0.4910640010930738), a[12].times(t3) + a[2].times(a[6].fma(T::lit(0.504626504404032), t0)));
+    let t19 = t18.fma(T::lit(0.4910640010930738), a[2].times_fma(a[6].fma(T::lit(0.504626504404032), t0), a[12].times(t3)));
     let t20 = t18.fma(T::lit(0.13019759620332838), t6.fma(T::lit(0.16173926423206153), a[6].times(t7)));
     let t21 = a[30].fma(T::lit(0.13019759620332838), a[2].fma(T::lit(0.4910640010930738), a[12] * T::lit(0.29674786233980943)));
-    let t22 = a[17].times(a[25]) + a[23].times(a[35]);
-    let t23 = a[23].times(a[25]) - a[17].times(a[35]);
+    let t22 = a[23].times_fma(a[35], a[17].times(a[25]));
+    let t23 = a[17].times_fnma(a[35], a[23].times(a[25]));
     let t24 = a[14].fms(T::lit(0.2998230518558362), a[32] * T::lit(0.1988801133010158));
     let t25 = a[10].fms(T::lit(0.2998230518558362), a[28] * T::lit(0.1988801133010158));
-    let t26 = a[16].times(a[25]) + a[24].times(a[35]);
-    let t27 = a[24].times(a[25]) - a[16].times(a[35]);
+    let t26 = a[24].times_fma(a[35], a[16].times(a[25]));
+    let t27 = a[16].times_fnma(a[35], a[24].times(a[25]));
     let t28 = a[31].fma(T::lit(0.1063058921450263), a[3].fms(T::lit(0.4658642161108584), a[13] * T::lit(0.26816989006843767)));
     let t29 = a[29].fma(T::lit(0.1063058921450263), a[1].fms(T::lit(0.4658642161108584), a[11] * T::lit(0.26816989006843767)));
-    let t30 = a[15].times(t14) - a[9].times(t15) + a[23].times(t24) - a[17].times(t25) + a[24].times(t28);
-    let t31 = a[9].times(t14) + a[15].times(t15) + a[23].times(t25) + a[17].times(t24) + a[24].times(t29);
-    let t32 = a[25].times(a[27]) + a[33].times(a[35]);
-    let t33 = a[25].times(a[33]) - a[27].times(a[35]);
+    let t30 = a[24].times_fma(t28, a[17].times_fnma(t25, a[23].times_fma(t24, a[15].times_fms(t14, a[9].times(t15)))));
+    let t31 = a[24].times_fma(t29, a[17].times_fma(t24, a[23].times_fma(t25, a[15].times_fma(t15, a[9].times(t14)))));
+    let t32 = a[33].times_fma(a[35], a[25].times(a[27]));
+    let t33 = a[27].times_fnma(a[35], a[25].times(a[33]));
     let t34 = a[8].fnma(T::lit(0.12528269535972306), a[22] * T::lit(0.26039519240665676));
     let t35 = a[4].fnma(T::lit(0.12528269535972306), a[18] * T::lit(0.26039519240665676));
-    let t36 = a[25].times(a[26]) + a[34].times(a[35]);
-    let t37 = a[25].times(a[34]) - a[26].times(a[35]);
+    let t36 = a[34].times_fma(a[35], a[25].times(a[26]));
+    let t37 = a[26].times_fnma(a[35], a[25].times(a[34]));
     let t38 = a[7].fms(T::lit(0.26576473036256576), a[21] * T::lit(0.26039519240665676));
     let t39 = a[5].fms(T::lit(0.26576473036256576), a[19] * T::lit(0.26039519240665676));
-    let t40 = t30 - a[16].times(t29) + a[33].times(t34) - a[27].times(t35) + a[34].times(t38) - a[26].times(t39);
-    let t41 = t31 + a[16].times(t28) + a[33].times(t35) + a[27].times(t34) + a[34].times(t39) + a[26].times(t38);
-    let t42 = a[25].times(a[25]) + a[35].times(a[35]);
+    let t40 = a[34].times_fma(t38, a[27].times_fnma(t35, a[33].times_fma(t34, a[16].times_fnma(t29, t30))));
+    let t41 = a[34].times_fma(t39, a[27].times_fma(t34, a[33].times_fma(t35, a[16].times_fma(t28, t31))));
+    let t42 = a[35].times_fma(a[35], a[25].times(a[25]));
     let t43 = a[20].fma(T::lit(0.26039519240665676), a[6].fnma(T::lit(0.48521779269618465), t0));
     let t44 = a[20].fma(T::lit(1.639096232595449), a[0].fma(T::lit(2.646033610427959), a[6] * T::lit(4.226582849415041)));
     let t45 = a[30].fnma(T::lit(0.3747251633606226), a[12].fma(T::lit(3.300104650786707), a[2].fma(T::lit(4.123649063941215), t44)));
@@ -7604,269 +7618,283 @@ pub fn square<T: Real, V: Signal<T>>(a: &[V; 36]) -> [V; 36] {
     let t69 = t49.times(t55);
     let t70 = t50.times(t55);
     let t71 = t49.times(t56);
-    let t72 = t50.times(t50) + t49.times(t49) + t55.times(t55) + t56.times(t56) + t61.times(t61) + t62.times(t62);
+    let t72 = t61.times_fma(t61, t56.times_fma(t56, t55.times_fma(t55, t49.times_fma(t49, t50.times(t50)))));
     let t73 = t49.times(t61);
-    let t74 = t49.times(t49 * T::lit(0.5)) + t45.times(t55) - t50.times(t50 * T::lit(0.5)) + t73 + t50.times(t62);
+    let t74 = t50.times_fnma(t50 * T::lit(0.5), t45.times_fma(t55, t49.times(t49 * T::lit(0.5)))) + t73;
     let t75 = t49.times(t62);
-    let t76 = t72 + t65.times(t65) + t66.times(t66);
-    let t77 = t69 + t45.times(t61) - t50.times(t56) + t49.times(t65) + t50.times(t66);
-    let t78 = t71 + t45.times(t62) + t70 - t50.times(t65) + t49.times(t66);
-    let t79 = t69 + t45.times(t49) + t50.times(t56) + t55.times(t61) + t56.times(t62) + t61.times(t65) + t62.times(t66);
-    let t80 = t45.times(t50) - t70 + t71 - t56.times(t61) + t55.times(t62) - t62.times(t65) + t61.times(t66);
-    let t81 = t73 + t45.times(t65) - t50.times(t62) + t55.times(t55 * T::lit(0.5)) - t56.times(t56 * T::lit(0.5));
-    let t82 = t75 + t45.times(t66) + t50.times(t61) + t55.times(t56);
-    let t83 = t74 + t55.times(t65) + t56.times(t66);
-    let t84 = t49.times(t50) + t45.times(t56) - t50.times(t61) + t75 - t56.times(t65) + t55.times(t66);
-    let t85 = t76 + t51.times(t51) + t52.times(t52) + t57.times(t57) + t58.times(t58) + t63.times(t63) + t64.times(t64);
-    let t86 = t83 + t46.times(t57) + t51.times(t51 * T::lit(0.5)) - t52.times(t52 * T::lit(0.5)) + t51.times(t63);
-    let t87 = t85 + t67.times(t67) + t68.times(t68);
-    let t88 = t77 + t46.times(t63) + t51.times(t57) - t52.times(t58) + t51.times(t67) + t52.times(t68);
-    let t89 = t78 + t46.times(t64) + t51.times(t58) + t52.times(t57) - t52.times(t67) + t51.times(t68);
-    let t90 = t79 + t46.times(t51) + t51.times(t57) + t52.times(t58) + t57.times(t63) + t58.times(t64) + t63.times(t67);
-    let t91 = t80 + t46.times(t52) - t52.times(t57) + t51.times(t58) - t58.times(t63) + t57.times(t64) - t64.times(t67);
-    let t92 = t90 + t64.times(t68);
-    let t93 = t91 + t63.times(t68);
-    let t94 = t81 + t46.times(t67) + t51.times(t63) - t52.times(t64) + t57.times(t57 * T::lit(0.5)) - t58.times(t58 * T::lit(0.5));
-    let t95 = t82 + t46.times(t68) + t51.times(t64) + t52.times(t63) + t57.times(t58);
-    let t96 = t86 + t52.times(t64) + t57.times(t67) + t58.times(t68);
-    let t97 = t84 + t46.times(t58) + t51.times(t52) - t52.times(t63) + t51.times(t64) - t58.times(t67) + t57.times(t68);
-    let t98 = t87.fma(T::lit(0.010650848600547212), t42.fnma(T::lit(0.24260889634809232), t16.fma(T::lit(0.16383977415715326), t9)));
-    let t99 = t87.fma(T::lit(0.00413046814343592), t42.fma(T::lit(0.13019759620332838), t17 + a[30].times(t21)));
-    let t100 = t76.fms(T::lit(2.0), t87);
-    let t101 = t79.fms(T::lit(2.0), t92);
-    let t102 = t80.fms(T::lit(2.0), t93);
-    let t103 = t96.fma(T::lit(0.002458973446539431), t12.fms(T::lit(0.4910640010930738), t32 * T::lit(0.12528269535972306)));
-    let t104 = t97.fma(T::lit(0.002458973446539431), t13.fms(T::lit(0.4910640010930738), t33 * T::lit(0.12528269535972306)));
-    let t105 = t96.fma(T::lit(0.009938428690382436), t12.fnma(T::lit(0.19628026146029134), t32 * T::lit(0.26039519240665676)));
-    let t106 = t97.fma(T::lit(0.009938428690382436), t13.fnma(T::lit(0.19628026146029134), t33 * T::lit(0.26039519240665676)));
-    let t107 = t83.fms(T::lit(2.0), t96);
-    let t108 = t84.fms(T::lit(2.0), t97);
-    let t109 = t77.fms(T::lit(2.0), t88).fma(T::lit(0.003128586846107965), a[25].times(t25) + a[35].times(t24));
-    let t110 = t78.fms(T::lit(2.0), t89).fma(T::lit(0.003128586846107965), a[25].times(t24) - a[35].times(t25));
-    let t111 = t81.fms(T::lit(2.0), t94).fma(T::lit(0.0016009345453167538), a[25].times(t39) + a[35].times(t38));
-    let t112 = t82.fms(T::lit(2.0), t95).fma(T::lit(0.0016009345453167538), a[25].times(t38) - a[35].times(t39));
-    let t113 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
-    let t114 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t113)));
-    let t115 = t113.fms(T::lit(2.0), t114);
-    let t116 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
-    let t117 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
-    let t118 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t116));
-    let t119 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t117));
-    let t120 = t116.fms(T::lit(2.0), t118);
-    let t121 = t117.fms(T::lit(2.0), t119);
-    let t122 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
-    let t123 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
-    let t124 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t122));
-    let t125 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t123));
-    let t126 = t122.fms(T::lit(2.0), t124);
-    let t127 = t123.fms(T::lit(2.0), t125);
-    let t128 = a[15].fma(T::lit(0.6538252483314623), a[33] * T::lit(1.6953448249209755));
-    let t129 = a[9].fma(T::lit(0.6538252483314623), a[27] * T::lit(1.6953448249209755));
-    let t130 = a[23].fma(T::lit(1.3282844621033014), t128);
-    let t131 = a[17].fma(T::lit(1.3282844621033014), t129);
-    let t132 = t128.fms(T::lit(2.0), t130);
-    let t133 = t129.fms(T::lit(2.0), t131);
-    let t134 = a[24].fma(T::lit(0.5102753528655176), a[34] * T::lit(1.146064564227057));
-    let t135 = a[16].fma(T::lit(0.5102753528655176), a[26] * T::lit(1.146064564227057));
-    let t136 = a[24].fms(T::lit(1.0205507057310352), t134);
-    let t137 = a[16].fms(T::lit(1.0205507057310352), t135);
-    let t138 = t118.times(t124);
-    let t139 = t119.times(t124);
-    let t140 = t118.times(t125);
-    let t141 = t119.times(t119) + t118.times(t118) + t124.times(t124) + t125.times(t125) + t130.times(t130);
-    let t142 = t118.times(t130);
-    let t143 = t118.times(t118 * T::lit(0.5)) + t114.times(t124) - t119.times(t119 * T::lit(0.5)) + t142;
-    let t144 = t118.times(t131);
-    let t145 = t141 + t131.times(t131) + t134.times(t134) + t135.times(t135);
-    let t146 = t138 + t114.times(t130) - t119.times(t125) + t118.times(t134) + t119.times(t135);
-    let t147 = t140 + t114.times(t131) + t139 - t119.times(t134) + t118.times(t135);
-    let t148 = t138 + t114.times(t118) + t119.times(t125) + t124.times(t130) + t125.times(t131) + t130.times(t134);
-    let t149 = t148 + t131.times(t135);
-    let t150 = t114.times(t119) - t139 + t140 - t125.times(t130) + t124.times(t131) - t131.times(t134) + t130.times(t135);
-    let t151 = t142 + t114.times(t134) - t119.times(t131) + t124.times(t124 * T::lit(0.5)) - t125.times(t125 * T::lit(0.5));
-    let t152 = t144 + t114.times(t135) + t119.times(t130) + t124.times(t125);
-    let t153 = t143 + t119.times(t131) + t124.times(t134) + t125.times(t135);
-    let t154 = t118.times(t119) + t114.times(t125) - t119.times(t130) + t144 - t125.times(t134) + t124.times(t135);
-    let t155 = t153 + t115.times(t126) + t120.times(t120 * T::lit(0.5)) - t121.times(t121 * T::lit(0.5));
-    let t156 = t145 + t120.times(t120) + t121.times(t121) + t126.times(t126) + t127.times(t127) + t132.times(t132);
-    let t157 = t149 + t115.times(t120) + t120.times(t126) + t121.times(t127) + t126.times(t132) + t127.times(t133);
-    let t158 = t150 + t115.times(t121) - t121.times(t126) + t120.times(t127) - t127.times(t132) + t126.times(t133);
-    let t159 = t156 + t133.times(t133) + t136.times(t136) + t137.times(t137);
-    let t160 = t146 + t115.times(t132) + t120.times(t126) - t121.times(t127) + t120.times(t136) + t121.times(t137);
-    let t161 = t147 + t115.times(t133) + t120.times(t127) + t121.times(t126) - t121.times(t136) + t120.times(t137);
-    let t162 = t157 + t132.times(t136) + t133.times(t137);
-    let t163 = t158 - t133.times(t136) + t132.times(t137);
-    let t164 = t151 + t115.times(t136) + t120.times(t132) - t121.times(t133) + t126.times(t126 * T::lit(0.5));
-    let t165 = t164 - t127.times(t127 * T::lit(0.5));
-    let t166 = t152 + t115.times(t137) + t120.times(t133) + t121.times(t132) + t126.times(t127);
-    let t167 = t154 + t115.times(t127) + t120.times(t121) - t121.times(t132) + t120.times(t133) - t127.times(t136);
-    let t168 = t155 + t120.times(t132) + t121.times(t133) + t126.times(t136) + t127.times(t137);
-    let t169 = t167 + t126.times(t137);
-    let t170 = t145.fms(T::lit(2.0), t159);
-    let t171 = t170.fnma(T::lit(0.019920368191736457), t100.fma(T::lit(0.008316154267827863), t18.fma(T::lit(0.29674786233980943), t11)));
-    let t172 = t170.fnma(T::lit(0.034008935561106894), t100.fnma(T::lit(0.0009442949834336472), t20 + a[20].times(t21) + a[30].times(t0)));
-    let t173 = t162.fma(T::lit(0.04007933255293733), t26.fma(T::lit(0.4658642161108584), t92 * T::lit(0.005039933667464387)));
-    let t174 = t163.fma(T::lit(0.04007933255293733), t27.fma(T::lit(0.4658642161108584), t93 * T::lit(0.005039933667464387)));
-    let t175 = t162.fma(T::lit(0.04847206858080377), t26.fnma(T::lit(0.26816989006843767), t92 * T::lit(0.014368733255183293)));
-    let t176 = t163.fma(T::lit(0.04847206858080377), t27.fnma(T::lit(0.26816989006843767), t93 * T::lit(0.014368733255183293)));
-    let t177 = t162.fnma(T::lit(0.03729964058178622), t26.fma(T::lit(0.1063058921450263), t92 * T::lit(0.016022575656238554)));
-    let t178 = t163.fnma(T::lit(0.03729964058178622), t27.fma(T::lit(0.1063058921450263), t93 * T::lit(0.016022575656238554)));
-    let t179 = t149.fms(T::lit(2.0), t162);
-    let t180 = t150.fms(T::lit(2.0), t163);
-    let t181 = t179.fma(T::lit(0.060689510269595064), t36.fma(T::lit(0.26576473036256576), t101 * T::lit(0.010139943551078629)));
-    let t182 = t180.fma(T::lit(0.060689510269595064), t37.fma(T::lit(0.26576473036256576), t102 * T::lit(0.010139943551078629)));
-    let t183 = t179.fma(T::lit(0.007807119404405114), t36.fnma(T::lit(0.26039519240665676), t101 * T::lit(0.016560224970897958)));
-    let t184 = t180.fma(T::lit(0.007807119404405114), t37.fnma(T::lit(0.26039519240665676), t102 * T::lit(0.016560224970897958)));
-    let t185 = t153.fms(T::lit(2.0), t168);
-    let t186 = t154.fms(T::lit(2.0), t169);
-    let t187 = t185.fma(T::lit(0.059074397422756), t22.fma(T::lit(0.2998230518558362), t107 * T::lit(0.00585367455679972)));
-    let t188 = t186.fma(T::lit(0.059074397422756), t23.fma(T::lit(0.2998230518558362), t108 * T::lit(0.00585367455679972)));
-    let t189 = t185.fma(T::lit(0.03680928974031302), t22.fnma(T::lit(0.1988801133010158), t107 * T::lit(0.013868642205593014)));
-    let t190 = t186.fma(T::lit(0.03680928974031302), t23.fnma(T::lit(0.1988801133010158), t108 * T::lit(0.013868642205593014)));
-    let t191 = t160.fma(T::lit(0.02620487955938351), t88.fma(T::lit(0.0011590475298406061), a[25].times(t15) + a[35].times(t14)));
-    let t192 = t161.fma(T::lit(0.02620487955938351), t89.fma(T::lit(0.0011590475298406061), a[25].times(t14) - a[35].times(t15)));
-    let t193 = t160.fma(T::lit(0.06794828902990908), t88.fma(T::lit(0.006041120581828199), a[25].times(t35) + a[35].times(t34)));
-    let t194 = t161.fma(T::lit(0.06794828902990908), t89.fma(T::lit(0.006041120581828199), a[25].times(t34) - a[35].times(t35)));
-    let t195 = t165.fma(T::lit(0.02045149556106452), t94.fma(T::lit(0.0005364775081756356), a[25].times(t29) + a[35].times(t28)));
-    let t196 = t166.fma(T::lit(0.02045149556106452), t95.fma(T::lit(0.0005364775081756356), a[25].times(t28) - a[35].times(t29)));
-    let t197 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
-    let t198 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t197)));
-    let t199 = t197.fms(T::lit(2.0), t198);
-    let t200 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
-    let t201 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
-    let t202 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t200));
-    let t203 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t201));
-    let t204 = t200.fms(T::lit(2.0), t202);
-    let t205 = t201.fms(T::lit(2.0), t203);
-    let t206 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
-    let t207 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
-    let t208 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t206));
-    let t209 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t207));
-    let t210 = t206.fms(T::lit(2.0), t208);
-    let t211 = t207.fms(T::lit(2.0), t209);
-    let t212 = a[15].fma(T::lit(1.0483855431212021), a[33] * T::lit(0.16228383047049297));
-    let t213 = a[9].fma(T::lit(1.0483855431212021), a[27] * T::lit(0.16228383047049297));
-    let t214 = a[23].fma(T::lit(1.1420612985906038), t212);
-    let t215 = a[17].fma(T::lit(1.1420612985906038), t213);
-    let t216 = t212.fms(T::lit(2.0), t214);
-    let t217 = t213.fms(T::lit(2.0), t215);
-    let t218 = a[24].fma(T::lit(1.036080728846176), a[34] * T::lit(1.247777283818818));
-    let t219 = a[16].fma(T::lit(1.036080728846176), a[26] * T::lit(1.247777283818818));
-    let t220 = a[24].fms(T::lit(2.072161457692352), t218);
-    let t221 = a[16].fms(T::lit(2.072161457692352), t219);
-    let t222 = t202.times(t208);
-    let t223 = t203.times(t208);
-    let t224 = t202.times(t209);
-    let t225 = t203.times(t203) + t202.times(t202) + t208.times(t208) + t209.times(t209) + t214.times(t214);
-    let t226 = t202.times(t214);
-    let t227 = t202.times(t202 * T::lit(0.5)) + t198.times(t208) - t203.times(t203 * T::lit(0.5)) + t226;
-    let t228 = t202.times(t215);
-    let t229 = t225 + t215.times(t215) + t218.times(t218) + t219.times(t219);
-    let t230 = t222 + t198.times(t214) - t203.times(t209) + t202.times(t218) + t203.times(t219);
-    let t231 = t224 + t198.times(t215) + t223 - t203.times(t218) + t202.times(t219);
-    let t232 = t222 + t198.times(t202) + t203.times(t209) + t208.times(t214) + t209.times(t215) + t214.times(t218);
-    let t233 = t232 + t215.times(t219);
-    let t234 = t198.times(t203) - t223 + t224 - t209.times(t214) + t208.times(t215) - t215.times(t218) + t214.times(t219);
-    let t235 = t226 + t198.times(t218) - t203.times(t215) + t208.times(t208 * T::lit(0.5)) - t209.times(t209 * T::lit(0.5));
-    let t236 = t228 + t198.times(t219) + t203.times(t214) + t208.times(t209);
-    let t237 = t227 + t203.times(t215) + t208.times(t218) + t209.times(t219);
-    let t238 = t202.times(t203) + t198.times(t209) - t203.times(t214) + t228 - t209.times(t218) + t208.times(t219);
-    let t239 = t237 + t199.times(t210) + t204.times(t204 * T::lit(0.5)) - t205.times(t205 * T::lit(0.5));
-    let t240 = t229 + t204.times(t204) + t205.times(t205) + t210.times(t210) + t211.times(t211) + t216.times(t216);
-    let t241 = t233 + t199.times(t204) + t204.times(t210) + t205.times(t211) + t210.times(t216) + t211.times(t217);
-    let t242 = t234 + t199.times(t205) - t205.times(t210) + t204.times(t211) - t211.times(t216) + t210.times(t217);
-    let t243 = t240 + t217.times(t217) + t220.times(t220) + t221.times(t221);
-    let t244 = t230 + t199.times(t216) + t204.times(t210) - t205.times(t211) + t204.times(t220) + t205.times(t221);
-    let t245 = t231 + t199.times(t217) + t204.times(t211) + t205.times(t210) - t205.times(t220) + t204.times(t221);
-    let t246 = t241 + t216.times(t220) + t217.times(t221);
-    let t247 = t242 - t217.times(t220) + t216.times(t221);
-    let t248 = t235 + t199.times(t220) + t204.times(t216) - t205.times(t217) + t210.times(t210 * T::lit(0.5));
-    let t249 = t248 - t211.times(t211 * T::lit(0.5));
-    let t250 = t236 + t199.times(t221) + t204.times(t217) + t205.times(t216) + t210.times(t211);
-    let t251 = t238 + t199.times(t211) + t204.times(t205) - t205.times(t216) + t204.times(t217) - t211.times(t220);
-    let t252 = t239 + t204.times(t216) + t205.times(t217) + t210.times(t220) + t211.times(t221);
-    let t253 = t251 + t210.times(t221);
-    let t254 = t243.fma(T::lit(0.06363009633316428), t87.fma(T::lit(0.006667916939219108), t159 * T::lit(0.031448012985106535)));
-    let t255 = t229.fms(T::lit(2.0), t243);
-    let t256 = t255.fma(T::lit(0.040019378939486226), t170.fma(T::lit(0.036886036168790846), t100.fma(T::lit(0.010391458875082667), t19)));
-    let t257 = t233.fms(T::lit(2.0), t246);
-    let t258 = t234.fms(T::lit(2.0), t247);
-    let t259 = t237.fms(T::lit(2.0), t252);
-    let t260 = t238.fms(T::lit(2.0), t253);
-    let t261 = t230.fms(T::lit(2.0), t244).fma(T::lit(0.11727594304785892), t146.fms(T::lit(2.0), t160).fma(T::lit(0.05323675468153769), t109));
-    let t262 = t231.fms(T::lit(2.0), t245).fma(T::lit(0.11727594304785892), t147.fms(T::lit(2.0), t161).fma(T::lit(0.05323675468153769), t110));
-    let t263 = t235.fms(T::lit(2.0), t249).fma(T::lit(0.1281317017345182), t151.fms(T::lit(2.0), t165).fma(T::lit(0.045933502796793424), t111));
-    let t264 = t236.fms(T::lit(2.0), t250).fma(T::lit(0.1281317017345182), t152.fms(T::lit(2.0), t166).fma(T::lit(0.045933502796793424), t112));
-    let t265 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
-    let t266 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
-    let t267 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
-    let t268 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
-    let t269 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
-    let t270 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
-    let t271 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
-    let t272 = a[24] * T::lit(1.2808688457449497);
-    let t273 = a[16] * T::lit(1.2808688457449497);
-    let t274 = t266.times(t268);
-    let t275 = t267.times(t268);
-    let t276 = t266.times(t269);
-    let t277 = t267.times(t267) + t266.times(t266) + t268.times(t268) + t269.times(t269) + t270.times(t270);
-    let t278 = t266.times(t270);
-    let t279 = t266.times(t266 * T::lit(0.5)) + t265.times(t268) - t267.times(t267 * T::lit(0.5)) + t278;
-    let t280 = t266.times(t271);
-    let t281 = t277 + t271.times(t271) + t272.times(t272) + t273.times(t273);
-    let t282 = t274 + t265.times(t270) - t267.times(t269) + t266.times(t272) + t267.times(t273);
-    let t283 = t276 + t265.times(t271) + t275 - t267.times(t272) + t266.times(t273);
-    let t284 = t274 + t265.times(t266) + t267.times(t269) + t268.times(t270) + t269.times(t271) + t270.times(t272);
-    let t285 = t284 + t271.times(t273);
-    let t286 = t265.times(t267) - t275 + t276 - t269.times(t270) + t268.times(t271) - t271.times(t272) + t270.times(t273);
-    let t287 = t278 + t265.times(t272) - t267.times(t271) + t268.times(t268 * T::lit(0.5)) - t269.times(t269 * T::lit(0.5));
-    let t288 = t279 + t267.times(t271) + t268.times(t272) + t269.times(t273);
-    let t289 = t266.times(t267) + t265.times(t269) - t267.times(t270) + t280 - t269.times(t272) + t268.times(t273);
-    let t290 = t281.fnma(T::lit(0.087880534100294), t243.fnma(T::lit(0.04300002584026091), t159.fma(T::lit(0.013211131239356699), t98)));
-    let t291 = t281.fma(T::lit(0.08842808166626058), t243.fnma(T::lit(0.008283072525531045), t159.fnma(T::lit(0.040061436451035166), t99)));
-    let t292 = t288.fma(T::lit(0.1522135500579985), t252.fma(T::lit(0.10697217763267512), t168.fma(T::lit(0.03297176001020201), t103)));
-    let t293 = t289.fma(T::lit(0.1522135500579985), t253.fma(T::lit(0.10697217763267512), t169.fma(T::lit(0.03297176001020201), t104)));
-    let t294 = t288.fnma(T::lit(0.131820801150441), t252.fnma(T::lit(0.0071351763852385095), t168.fma(T::lit(0.06310714827007657), t105)));
-    let t295 = t289.fnma(T::lit(0.131820801150441), t253.fnma(T::lit(0.0071351763852385095), t169.fma(T::lit(0.06310714827007657), t106)));
-    let t296 = (t280 + t265.times(t273) + t267.times(t270) + t268.times(t269)).fma(T::lit(0.174382528734682), t250.fma(T::lit(0.10639301471742209), t196));
-    let t297 = (t1 + a[0].times(a[0]) + t4 + t8 + t16 + a[30].times(a[30]) + t42).fma(T::lit(0.28209479177387814), t281.fma(T::lit(0.0786027392588983), t254));
+    let t76 = t66.times_fma(t66, t65.times_fma(t65, t62.times_fma(t62, t72)));
+    let t77 = t50.times_fma(t66, t49.times_fma(t65, t50.times_fnma(t56, t45.times_fma(t61, t69))));
+    let t78 = t49.times_fma(t66, t50.times_fnma(t65, t70 + t45.times_fma(t62, t71)));
+    let t79 = t61.times_fma(t65, t56.times_fma(t62, t55.times_fma(t61, t50.times_fma(t56, t45.times_fma(t49, t69)))));
+    let t80 = t62.times_fnma(t65, t55.times_fma(t62, t56.times_fnma(t61, t45.times_fms(t50, t70) + t71)));
+    let t81 = t62.times_fma(t66, t79);
+    let t82 = t61.times_fma(t66, t80);
+    let t83 = t56.times_fnma(t56 * T::lit(0.5), t55.times_fma(t55 * T::lit(0.5), t50.times_fnma(t62, t45.times_fma(t65, t73))));
+    let t84 = t55.times_fma(t56, t50.times_fma(t61, t45.times_fma(t66, t75)));
+    let t85 = t56.times_fma(t66, t55.times_fma(t65, t50.times_fma(t62, t74)));
+    let t86 = t55.times_fma(t66, t56.times_fnma(t65, t50.times_fnma(t61, t45.times_fma(t56, t49.times(t50))) + t75));
+    let t87 = t52.times_fnma(t52 * T::lit(0.5), t51.times_fma(t51 * T::lit(0.5), t46.times_fma(t57, t85)));
+    let t88 = t63.times_fma(t63, t58.times_fma(t58, t57.times_fma(t57, t52.times_fma(t52, t51.times_fma(t51, t76)))));
+    let t89 = t58.times_fma(t64, t57.times_fma(t63, t52.times_fma(t58, t51.times_fma(t57, t46.times_fma(t51, t81)))));
+    let t90 = t57.times_fma(t64, t58.times_fnma(t63, t51.times_fma(t58, t52.times_fnma(t57, t46.times_fma(t52, t82)))));
+    let t91 = t68.times_fma(t68, t67.times_fma(t67, t64.times_fma(t64, t88)));
+    let t92 = t52.times_fma(t68, t51.times_fma(t67, t52.times_fnma(t58, t51.times_fma(t57, t46.times_fma(t63, t77)))));
+    let t93 = t51.times_fma(t68, t52.times_fnma(t67, t52.times_fma(t57, t51.times_fma(t58, t46.times_fma(t64, t78)))));
+    let t94 = t64.times_fma(t68, t63.times_fma(t67, t89));
+    let t95 = t63.times_fma(t68, t64.times_fnma(t67, t90));
+    let t96 = t57.times_fma(t57 * T::lit(0.5), t52.times_fnma(t64, t51.times_fma(t63, t46.times_fma(t67, t83))));
+    let t97 = t58.times_fnma(t58 * T::lit(0.5), t96);
+    let t98 = t57.times_fma(t58, t52.times_fma(t63, t51.times_fma(t64, t46.times_fma(t68, t84))));
+    let t99 = t58.times_fnma(t67, t51.times_fma(t64, t52.times_fnma(t63, t51.times_fma(t52, t46.times_fma(t58, t86)))));
+    let t100 = t58.times_fma(t68, t57.times_fma(t67, t52.times_fma(t64, t51.times_fma(t63, t87))));
+    let t101 = t57.times_fma(t68, t99);
+    let t102 = t91.fma(T::lit(0.010650848600547212), t42.fnma(T::lit(0.24260889634809232), t16.fma(T::lit(0.16383977415715326), t9)));
+    let t103 = t91.fma(T::lit(0.00413046814343592), t42.fma(T::lit(0.13019759620332838), a[30].times_fma(t21, t17)));
+    let t104 = t76.fms(T::lit(2.0), t91);
+    let t105 = t81.fms(T::lit(2.0), t94);
+    let t106 = t82.fms(T::lit(2.0), t95);
+    let t107 = t100.fma(T::lit(0.002458973446539431), t12.fms(T::lit(0.4910640010930738), t32 * T::lit(0.12528269535972306)));
+    let t108 = t101.fma(T::lit(0.002458973446539431), t13.fms(T::lit(0.4910640010930738), t33 * T::lit(0.12528269535972306)));
+    let t109 = t100.fma(T::lit(0.009938428690382436), t12.fnma(T::lit(0.19628026146029134), t32 * T::lit(0.26039519240665676)));
+    let t110 = t101.fma(T::lit(0.009938428690382436), t13.fnma(T::lit(0.19628026146029134), t33 * T::lit(0.26039519240665676)));
+    let t111 = t85.fms(T::lit(2.0), t100);
+    let t112 = t86.fms(T::lit(2.0), t101);
+    let t113 = t77.fms(T::lit(2.0), t92).fma(T::lit(0.003128586846107965), a[35].times_fma(t24, a[25].times(t25)));
+    let t114 = t78.fms(T::lit(2.0), t93).fma(T::lit(0.003128586846107965), a[35].times_fnma(t25, a[25].times(t24)));
+    let t115 = t83.fms(T::lit(2.0), t97).fma(T::lit(0.0016009345453167538), a[35].times_fma(t38, a[25].times(t39)));
+    let t116 = t84.fms(T::lit(2.0), t98).fma(T::lit(0.0016009345453167538), a[35].times_fnma(t39, a[25].times(t38)));
+    let t117 = a[20].fnma(T::lit(1.9991069660714271), a[0].fma(T::lit(1.5692882581599668), a[6] * T::lit(0.6592490641857499)));
+    let t118 = a[30].fnma(T::lit(1.697080933979498), a[12].fnma(T::lit(0.9940469026237083), a[2].fma(T::lit(1.8406512194319236), t117)));
+    let t119 = t117.fms(T::lit(2.0), t118);
+    let t120 = a[31].fnma(T::lit(0.9306452529497676), a[13].fma(T::lit(1.2094030886562595), a[3]));
+    let t121 = a[29].fnma(T::lit(0.9306452529497676), a[11].fma(T::lit(1.2094030886562595), a[1]));
+    let t122 = a[21].fma(T::lit(0.19479165213376157), a[7].fma(T::lit(1.5142345544161826), t120));
+    let t123 = a[19].fma(T::lit(0.19479165213376157), a[5].fma(T::lit(1.5142345544161826), t121));
+    let t124 = t120.fms(T::lit(2.0), t122);
+    let t125 = t121.fms(T::lit(2.0), t123);
+    let t126 = a[8].fma(T::lit(0.8226624025400736), a[22] * T::lit(1.5745558683324827));
+    let t127 = a[4].fma(T::lit(0.8226624025400736), a[18] * T::lit(1.5745558683324827));
+    let t128 = a[32].fma(T::lit(0.9184107467781507), a[14].fma(T::lit(1.4739366566229546), t126));
+    let t129 = a[28].fma(T::lit(0.9184107467781507), a[10].fma(T::lit(1.4739366566229546), t127));
+    let t130 = t126.fms(T::lit(2.0), t128);
+    let t131 = t127.fms(T::lit(2.0), t129);
+    let t132 = a[15].fma(T::lit(0.6538252483314623), a[33] * T::lit(1.6953448249209755));
+    let t133 = a[9].fma(T::lit(0.6538252483314623), a[27] * T::lit(1.6953448249209755));
+    let t134 = a[23].fma(T::lit(1.3282844621033014), t132);
+    let t135 = a[17].fma(T::lit(1.3282844621033014), t133);
+    let t136 = t132.fms(T::lit(2.0), t134);
+    let t137 = t133.fms(T::lit(2.0), t135);
+    let t138 = a[24].fma(T::lit(0.5102753528655176), a[34] * T::lit(1.146064564227057));
+    let t139 = a[16].fma(T::lit(0.5102753528655176), a[26] * T::lit(1.146064564227057));
+    let t140 = a[24].fms(T::lit(1.0205507057310352), t138);
+    let t141 = a[16].fms(T::lit(1.0205507057310352), t139);
+    let t142 = t123.times_fnma(t123 * T::lit(0.5), t118.times_fma(t128, t122.times(t122 * T::lit(0.5))));
+    let t143 = t122.times(t128);
+    let t144 = t123.times(t128);
+    let t145 = t122.times(t129);
+    let t146 = t134.times_fma(t134, t129.times_fma(t129, t128.times_fma(t128, t122.times_fma(t122, t123.times(t123)))));
+    let t147 = t122.times(t134);
+    let t148 = t122.times(t135);
+    let t149 = t129.times_fma(t135, t128.times_fma(t134, t123.times_fma(t129, t118.times_fma(t122, t143))));
+    let t150 = t139.times_fma(t139, t138.times_fma(t138, t135.times_fma(t135, t146)));
+    let t151 = t123.times_fma(t139, t122.times_fma(t138, t123.times_fnma(t129, t118.times_fma(t134, t143))));
+    let t152 = t122.times_fma(t139, t123.times_fnma(t138, t144 + t118.times_fma(t135, t145)));
+    let t153 = t135.times_fnma(t138, t128.times_fma(t135, t129.times_fnma(t134, t118.times_fms(t123, t144) + t145)));
+    let t154 = t135.times_fma(t139, t134.times_fma(t138, t149));
+    let t155 = t134.times_fma(t139, t153);
+    let t156 = t129.times_fnma(t129 * T::lit(0.5), t128.times_fma(t128 * T::lit(0.5), t123.times_fnma(t135, t118.times_fma(t138, t147))));
+    let t157 = t128.times_fma(t129, t123.times_fma(t134, t118.times_fma(t139, t148)));
+    let t158 = t129.times_fnma(t138, t123.times_fnma(t134, t118.times_fma(t129, t122.times(t123))) + t148);
+    let t159 = t129.times_fma(t139, t128.times_fma(t138, t123.times_fma(t135, t142 + t147)));
+    let t160 = t128.times_fma(t139, t158);
+    let t161 = t131.times_fma(t131, t130.times_fma(t130, t125.times_fma(t125, t124.times_fma(t124, t150))));
+    let t162 = t125.times_fnma(t125 * T::lit(0.5), t124.times_fma(t124 * T::lit(0.5), t119.times_fma(t130, t159)));
+    let t163 = t124.times_fma(t137, t125.times_fnma(t136, t124.times_fma(t125, t119.times_fma(t131, t160))));
+    let t164 = t130.times_fma(t136, t125.times_fma(t131, t124.times_fma(t130, t119.times_fma(t124, t154))));
+    let t165 = t131.times_fnma(t136, t124.times_fma(t131, t125.times_fnma(t130, t119.times_fma(t125, t155))));
+    let t166 = t141.times_fma(t141, t140.times_fma(t140, t137.times_fma(t137, t136.times_fma(t136, t161))));
+    let t167 = t124.times_fma(t140, t125.times_fnma(t131, t124.times_fma(t130, t119.times_fma(t136, t151))));
+    let t168 = t125.times_fnma(t140, t125.times_fma(t130, t124.times_fma(t131, t119.times_fma(t137, t152))));
+    let t169 = t125.times_fma(t141, t167);
+    let t170 = t124.times_fma(t141, t168);
+    let t171 = t137.times_fma(t141, t136.times_fma(t140, t131.times_fma(t137, t164)));
+    let t172 = t136.times_fma(t141, t137.times_fnma(t140, t130.times_fma(t137, t165)));
+    let t173 = t130.times_fma(t130 * T::lit(0.5), t125.times_fnma(t137, t124.times_fma(t136, t119.times_fma(t140, t156))));
+    let t174 = t131.times_fnma(t131 * T::lit(0.5), t173);
+    let t175 = t130.times_fma(t131, t125.times_fma(t136, t124.times_fma(t137, t119.times_fma(t141, t157))));
+    let t176 = t131.times_fma(t141, t130.times_fma(t140, t125.times_fma(t137, t124.times_fma(t136, t162))));
+    let t177 = t130.times_fma(t141, t131.times_fnma(t140, t163));
+    let t178 = t150.fms(T::lit(2.0), t166);
+    let t179 = t178.fnma(T::lit(0.019920368191736457), t104.fma(T::lit(0.008316154267827863), t18.fma(T::lit(0.29674786233980943), t11)));
+    let t180 = t178.fnma(T::lit(0.034008935561106894), t104.fnma(T::lit(0.0009442949834336472), a[30].times_fma(t0, a[20].times_fma(t21, t20))));
+    let t181 = t171.fma(T::lit(0.04007933255293733), t26.fma(T::lit(0.4658642161108584), t94 * T::lit(0.005039933667464387)));
+    let t182 = t172.fma(T::lit(0.04007933255293733), t27.fma(T::lit(0.4658642161108584), t95 * T::lit(0.005039933667464387)));
+    let t183 = t171.fma(T::lit(0.04847206858080377), t26.fnma(T::lit(0.26816989006843767), t94 * T::lit(0.014368733255183293)));
+    let t184 = t172.fma(T::lit(0.04847206858080377), t27.fnma(T::lit(0.26816989006843767), t95 * T::lit(0.014368733255183293)));
+    let t185 = t171.fnma(T::lit(0.03729964058178622), t26.fma(T::lit(0.1063058921450263), t94 * T::lit(0.016022575656238554)));
+    let t186 = t172.fnma(T::lit(0.03729964058178622), t27.fma(T::lit(0.1063058921450263), t95 * T::lit(0.016022575656238554)));
+    let t187 = t154.fms(T::lit(2.0), t171);
+    let t188 = t155.fms(T::lit(2.0), t172);
+    let t189 = t187.fma(T::lit(0.060689510269595064), t36.fma(T::lit(0.26576473036256576), t105 * T::lit(0.010139943551078629)));
+    let t190 = t188.fma(T::lit(0.060689510269595064), t37.fma(T::lit(0.26576473036256576), t106 * T::lit(0.010139943551078629)));
+    let t191 = t187.fma(T::lit(0.007807119404405114), t36.fnma(T::lit(0.26039519240665676), t105 * T::lit(0.016560224970897958)));
+    let t192 = t188.fma(T::lit(0.007807119404405114), t37.fnma(T::lit(0.26039519240665676), t106 * T::lit(0.016560224970897958)));
+    let t193 = t159.fms(T::lit(2.0), t176);
+    let t194 = t160.fms(T::lit(2.0), t177);
+    let t195 = t193.fma(T::lit(0.059074397422756), t22.fma(T::lit(0.2998230518558362), t111 * T::lit(0.00585367455679972)));
+    let t196 = t194.fma(T::lit(0.059074397422756), t23.fma(T::lit(0.2998230518558362), t112 * T::lit(0.00585367455679972)));
+    let t197 = t193.fma(T::lit(0.03680928974031302), t22.fnma(T::lit(0.1988801133010158), t111 * T::lit(0.013868642205593014)));
+    let t198 = t194.fma(T::lit(0.03680928974031302), t23.fnma(T::lit(0.1988801133010158), t112 * T::lit(0.013868642205593014)));
+    let t199 = t169.fma(T::lit(0.02620487955938351), t92.fma(T::lit(0.0011590475298406061), a[35].times_fma(t14, a[25].times(t15))));
+    let t200 = t170.fma(T::lit(0.02620487955938351), t93.fma(T::lit(0.0011590475298406061), a[35].times_fnma(t15, a[25].times(t14))));
+    let t201 = t169.fma(T::lit(0.06794828902990908), t92.fma(T::lit(0.006041120581828199), a[35].times_fma(t34, a[25].times(t35))));
+    let t202 = t170.fma(T::lit(0.06794828902990908), t93.fma(T::lit(0.006041120581828199), a[35].times_fnma(t35, a[25].times(t34))));
+    let t203 = t174.fma(T::lit(0.02045149556106452), t97.fma(T::lit(0.0005364775081756356), a[35].times_fma(t28, a[25].times(t29))));
+    let t204 = t175.fma(T::lit(0.02045149556106452), t98.fma(T::lit(0.0005364775081756356), a[35].times_fnma(t29, a[25].times(t28))));
+    let t205 = a[20].fnma(T::lit(0.16132509906089973), a[0].fms(T::lit(1.2392903192096825), a[6] * T::lit(0.837489157184048)));
+    let t206 = a[30].fma(T::lit(1.2808493539441659), a[12].fnma(T::lit(1.393446400028713), a[2].fma(T::lit(0.779436646470071), t205)));
+    let t207 = t205.fms(T::lit(2.0), t206);
+    let t208 = a[31].fnma(T::lit(0.44577235050135805), a[13].fnma(T::lit(0.31872236213909216), a[3]));
+    let t209 = a[29].fnma(T::lit(0.44577235050135805), a[11].fnma(T::lit(0.31872236213909216), a[1]));
+    let t210 = a[21].fnma(T::lit(1.0327339184455793), a[7].fma(T::lit(0.8119553329326552), t208));
+    let t211 = a[19].fnma(T::lit(1.0327339184455793), a[5].fma(T::lit(0.8119553329326552), t209));
+    let t212 = t208.fms(T::lit(2.0), t210);
+    let t213 = t209.fms(T::lit(2.0), t211);
+    let t214 = a[8].fms(T::lit(1.0417207564076638), a[22] * T::lit(0.0694840612355858));
+    let t215 = a[4].fms(T::lit(1.0417207564076638), a[18] * T::lit(0.0694840612355858));
+    let t216 = a[32].fnma(T::lit(1.0031478583401439), a[14].fma(T::lit(1.0008004087532434), t214));
+    let t217 = a[28].fnma(T::lit(1.0031478583401439), a[10].fma(T::lit(1.0008004087532434), t215));
+    let t218 = t214.fms(T::lit(2.0), t216);
+    let t219 = t215.fms(T::lit(2.0), t217);
+    let t220 = a[15].fma(T::lit(1.0483855431212021), a[33] * T::lit(0.16228383047049297));
+    let t221 = a[9].fma(T::lit(1.0483855431212021), a[27] * T::lit(0.16228383047049297));
+    let t222 = a[23].fma(T::lit(1.1420612985906038), t220);
+    let t223 = a[17].fma(T::lit(1.1420612985906038), t221);
+    let t224 = t220.fms(T::lit(2.0), t222);
+    let t225 = t221.fms(T::lit(2.0), t223);
+    let t226 = a[24].fma(T::lit(1.036080728846176), a[34] * T::lit(1.247777283818818));
+    let t227 = a[16].fma(T::lit(1.036080728846176), a[26] * T::lit(1.247777283818818));
+    let t228 = a[24].fms(T::lit(2.072161457692352), t226);
+    let t229 = a[16].fms(T::lit(2.072161457692352), t227);
+    let t230 = t211.times_fnma(t211 * T::lit(0.5), t206.times_fma(t216, t210.times(t210 * T::lit(0.5))));
+    let t231 = t210.times(t216);
+    let t232 = t211.times(t216);
+    let t233 = t210.times(t217);
+    let t234 = t222.times_fma(t222, t217.times_fma(t217, t216.times_fma(t216, t210.times_fma(t210, t211.times(t211)))));
+    let t235 = t210.times(t222);
+    let t236 = t210.times(t223);
+    let t237 = t217.times_fma(t223, t216.times_fma(t222, t211.times_fma(t217, t206.times_fma(t210, t231))));
+    let t238 = t227.times_fma(t227, t226.times_fma(t226, t223.times_fma(t223, t234)));
+    let t239 = t211.times_fma(t227, t210.times_fma(t226, t211.times_fnma(t217, t206.times_fma(t222, t231))));
+    let t240 = t210.times_fma(t227, t211.times_fnma(t226, t232 + t206.times_fma(t223, t233)));
+    let t241 = t223.times_fnma(t226, t216.times_fma(t223, t217.times_fnma(t222, t206.times_fms(t211, t232) + t233)));
+    let t242 = t223.times_fma(t227, t222.times_fma(t226, t237));
+    let t243 = t222.times_fma(t227, t241);
+    let t244 = t217.times_fnma(t217 * T::lit(0.5), t216.times_fma(t216 * T::lit(0.5), t211.times_fnma(t223, t206.times_fma(t226, t235))));
+    let t245 = t216.times_fma(t217, t211.times_fma(t222, t206.times_fma(t227, t236)));
+    let t246 = t217.times_fnma(t226, t211.times_fnma(t222, t206.times_fma(t217, t210.times(t211))) + t236);
+    let t247 = t217.times_fma(t227, t216.times_fma(t226, t211.times_fma(t223, t230 + t235)));
+    let t248 = t216.times_fma(t227, t246);
+    let t249 = t219.times_fma(t219, t218.times_fma(t218, t213.times_fma(t213, t212.times_fma(t212, t238))));
+    let t250 = t213.times_fnma(t213 * T::lit(0.5), t212.times_fma(t212 * T::lit(0.5), t207.times_fma(t218, t247)));
+    let t251 = t212.times_fma(t225, t213.times_fnma(t224, t212.times_fma(t213, t207.times_fma(t219, t248))));
+    let t252 = t218.times_fma(t224, t213.times_fma(t219, t212.times_fma(t218, t207.times_fma(t212, t242))));
+    let t253 = t219.times_fnma(t224, t212.times_fma(t219, t213.times_fnma(t218, t207.times_fma(t213, t243))));
+    let t254 = t229.times_fma(t229, t228.times_fma(t228, t225.times_fma(t225, t224.times_fma(t224, t249))));
+    let t255 = t212.times_fma(t228, t213.times_fnma(t219, t212.times_fma(t218, t207.times_fma(t224, t239))));
+    let t256 = t213.times_fnma(t228, t213.times_fma(t218, t212.times_fma(t219, t207.times_fma(t225, t240))));
+    let t257 = t213.times_fma(t229, t255);
+    let t258 = t212.times_fma(t229, t256);
+    let t259 = t225.times_fma(t229, t224.times_fma(t228, t219.times_fma(t225, t252)));
+    let t260 = t224.times_fma(t229, t225.times_fnma(t228, t218.times_fma(t225, t253)));
+    let t261 = t218.times_fma(t218 * T::lit(0.5), t213.times_fnma(t225, t212.times_fma(t224, t207.times_fma(t228, t244))));
+    let t262 = t219.times_fnma(t219 * T::lit(0.5), t261);
+    let t263 = t218.times_fma(t219, t213.times_fma(t224, t212.times_fma(t225, t207.times_fma(t229, t245))));
+    let t264 = t219.times_fma(t229, t218.times_fma(t228, t213.times_fma(t225, t212.times_fma(t224, t250))));
+    let t265 = t218.times_fma(t229, t219.times_fnma(t228, t251));
+    let t266 = t254.fma(T::lit(0.06363009633316428), t91.fma(T::lit(0.006667916939219108), t166 * T::lit(0.031448012985106535)));
+    let t267 = t238.fms(T::lit(2.0), t254);
+    let t268 = t267.fma(T::lit(0.040019378939486226), t178.fma(T::lit(0.036886036168790846), t104.fma(T::lit(0.010391458875082667), t19)));
+    let t269 = t242.fms(T::lit(2.0), t259);
+    let t270 = t243.fms(T::lit(2.0), t260);
+    let t271 = t247.fms(T::lit(2.0), t264);
+    let t272 = t248.fms(T::lit(2.0), t265);
+    let t273 = t239.fms(T::lit(2.0), t257).fma(T::lit(0.11727594304785892), t151.fms(T::lit(2.0), t169).fma(T::lit(0.05323675468153769), t113));
+    let t274 = t240.fms(T::lit(2.0), t258).fma(T::lit(0.11727594304785892), t152.fms(T::lit(2.0), t170).fma(T::lit(0.05323675468153769), t114));
+    let t275 = t244.fms(T::lit(2.0), t262).fma(T::lit(0.1281317017345182), t156.fms(T::lit(2.0), t174).fma(T::lit(0.045933502796793424), t115));
+    let t276 = t245.fms(T::lit(2.0), t263).fma(T::lit(0.1281317017345182), t157.fms(T::lit(2.0), t175).fma(T::lit(0.045933502796793424), t116));
+    let t277 = a[20].fma(T::lit(1.299038105676658), a[0].fms(T::lit(1.1547005383792515), a[6] * T::lit(1.2909944487358056)));
+    let t278 = a[31].fma(T::lit(0.9270248108869579), a[13].fnma(T::lit(0.9354143466934853), a[3]));
+    let t279 = a[29].fma(T::lit(0.9270248108869579), a[11].fnma(T::lit(0.9354143466934853), a[1]));
+    let t280 = a[8].fms(T::lit(1.118033988749895), a[22] * T::lit(0.9682458365518543));
+    let t281 = a[4].fms(T::lit(1.118033988749895), a[18] * T::lit(0.9682458365518543));
+    let t282 = a[15].fms(T::lit(1.20761472884912), a[33] * T::lit(1.0013012367248264));
+    let t283 = a[9].fms(T::lit(1.20761472884912), a[27] * T::lit(1.0013012367248264));
+    let t284 = a[24] * T::lit(1.2808688457449497);
+    let t285 = a[16] * T::lit(1.2808688457449497);
+    let t286 = t279.times_fnma(t279 * T::lit(0.5), t277.times_fma(t280, t278.times(t278 * T::lit(0.5))));
+    let t287 = t278.times(t280);
+    let t288 = t279.times(t280);
+    let t289 = t278.times(t281);
+    let t290 = t282.times_fma(t282, t281.times_fma(t281, t280.times_fma(t280, t278.times_fma(t278, t279.times(t279)))));
+    let t291 = t278.times(t282);
+    let t292 = t278.times(t283);
+    let t293 = t281.times_fma(t283, t280.times_fma(t282, t279.times_fma(t281, t277.times_fma(t278, t287))));
+    let t294 = t285.times_fma(t285, t284.times_fma(t284, t283.times_fma(t283, t290)));
+    let t295 = t279.times_fma(t285, t278.times_fma(t284, t279.times_fnma(t281, t277.times_fma(t282, t287))));
+    let t296 = t278.times_fma(t285, t279.times_fnma(t284, t288 + t277.times_fma(t283, t289)));
+    let t297 = t283.times_fnma(t284, t280.times_fma(t283, t281.times_fnma(t282, t277.times_fms(t279, t288) + t289)));
+    let t298 = t283.times_fma(t285, t282.times_fma(t284, t293));
+    let t299 = t282.times_fma(t285, t297);
+    let t300 = t281.times_fnma(t281 * T::lit(0.5), t280.times_fma(t280 * T::lit(0.5), t279.times_fnma(t283, t277.times_fma(t284, t291))));
+    let t301 = t281.times_fnma(t284, t279.times_fnma(t282, t277.times_fma(t281, t278.times(t279))) + t292);
+    let t302 = t281.times_fma(t285, t280.times_fma(t284, t279.times_fma(t283, t286 + t291)));
+    let t303 = t280.times_fma(t285, t301);
+    let t304 = t294.fnma(T::lit(0.087880534100294), t254.fnma(T::lit(0.04300002584026091), t166.fma(T::lit(0.013211131239356699), t102)));
+    let t305 = t294.fma(T::lit(0.08842808166626058), t254.fnma(T::lit(0.008283072525531045), t166.fnma(T::lit(0.040061436451035166), t103)));
+    let t306 = t302.fma(T::lit(0.1522135500579985), t264.fma(T::lit(0.10697217763267512), t176.fma(T::lit(0.03297176001020201), t107)));
+    let t307 = t303.fma(T::lit(0.1522135500579985), t265.fma(T::lit(0.10697217763267512), t177.fma(T::lit(0.03297176001020201), t108)));
+    let t308 = t302.fnma(T::lit(0.131820801150441), t264.fnma(T::lit(0.0071351763852385095), t176.fma(T::lit(0.06310714827007657), t109)));
+    let t309 = t303.fnma(T::lit(0.131820801150441), t265.fnma(T::lit(0.0071351763852385095), t177.fma(T::lit(0.06310714827007657), t110)));
+    let t310 = t280.times_fma(t281, t279.times_fma(t282, t277.times_fma(t285, t292))).fma(T::lit(0.174382528734682), t263.fma(T::lit(0.10639301471742209), t204));
+    let t311 = (a[30].times_fma(a[30], a[0].times_fma(a[0], t1) + t4 + t8 + t16) + t42).fma(T::lit(0.28209479177387814), t294.fma(T::lit(0.0786027392588983), t266));
     [
-        t297,
-        t286.fma(T::lit(0.13614393801050068), t247.fma(T::lit(0.10268795833690095), t174)),
-        t256,
-        t285.fma(T::lit(0.13614393801050068), t246.fma(T::lit(0.10268795833690095), t173)),
-        t293,
-        t258.fma(T::lit(0.08337803539961304), t182),
-        t290,
-        t257.fma(T::lit(0.08337803539961304), t181),
-        t292,
-        t283.fma(T::lit(0.16440942478500217), t245.fma(T::lit(0.10765657097303928), t192)),
-        t260.fma(T::lit(0.10277015067760649), t188),
-        t286.fnma(T::lit(0.12735099283037085), t247.fnma(T::lit(0.03272894864437775), t176)),
-        t255.fnma(T::lit(0.07154508293542654), t171),
-        t285.fnma(T::lit(0.12735099283037085), t246.fnma(T::lit(0.03272894864437775), t175)),
-        t259.fma(T::lit(0.10277015067760649), t187),
-        t282.fma(T::lit(0.16440942478500217), t244.fma(T::lit(0.10765657097303928), t191)),
-        t296,
-        t262,
-        t295,
-        t258.fnma(T::lit(0.10604933759044412), t184),
-        t291,
-        t257.fnma(T::lit(0.10604933759044412), t183),
-        t294,
-        t261,
-        t287.fma(T::lit(0.174382528734682), t249.fma(T::lit(0.10639301471742209), t195)),
-        t41 + a[25].times(t43),
-        t264,
-        t283.fnma(T::lit(0.13632109350250243), t245.fma(T::lit(0.016664595222106678), t194)),
-        t260.fnma(T::lit(0.1030112054829841), t190),
-        t286.fma(T::lit(0.1262088083875901), t247.fnma(T::lit(0.045775452556025865), t178)),
-        t255.fma(T::lit(0.06576390254683251), t172),
-        t285.fma(T::lit(0.1262088083875901), t246.fnma(T::lit(0.045775452556025865), t177)),
-        t259.fnma(T::lit(0.1030112054829841), t189),
-        t282.fnma(T::lit(0.13632109350250243), t244.fma(T::lit(0.016664595222106678), t193)),
-        t263,
-        t40 + a[35].times(t43),
+        t311,
+        t299.fma(T::lit(0.13614393801050068), t260.fma(T::lit(0.10268795833690095), t182)),
+        t268,
+        t298.fma(T::lit(0.13614393801050068), t259.fma(T::lit(0.10268795833690095), t181)),
+        t307,
+        t270.fma(T::lit(0.08337803539961304), t190),
+        t304,
+        t269.fma(T::lit(0.08337803539961304), t189),
+        t306,
+        t296.fma(T::lit(0.16440942478500217), t258.fma(T::lit(0.10765657097303928), t200)),
+        t272.fma(T::lit(0.10277015067760649), t196),
+        t299.fnma(T::lit(0.12735099283037085), t260.fnma(T::lit(0.03272894864437775), t184)),
+        t267.fnma(T::lit(0.07154508293542654), t179),
+        t298.fnma(T::lit(0.12735099283037085), t259.fnma(T::lit(0.03272894864437775), t183)),
+        t271.fma(T::lit(0.10277015067760649), t195),
+        t295.fma(T::lit(0.16440942478500217), t257.fma(T::lit(0.10765657097303928), t199)),
+        t310,
+        t274,
+        t309,
+        t270.fnma(T::lit(0.10604933759044412), t192),
+        t305,
+        t269.fnma(T::lit(0.10604933759044412), t191),
+        t308,
+        t273,
+        t300.fma(T::lit(0.174382528734682), t262.fma(T::lit(0.10639301471742209), t203)),
+        a[25].times_fma(t43, a[26].times_fma(t38, t41)),
+        t276,
+        t296.fnma(T::lit(0.13632109350250243), t258.fma(T::lit(0.016664595222106678), t202)),
+        t272.fnma(T::lit(0.1030112054829841), t198),
+        t299.fma(T::lit(0.1262088083875901), t260.fnma(T::lit(0.045775452556025865), t186)),
+        t267.fma(T::lit(0.06576390254683251), t180),
+        t298.fma(T::lit(0.1262088083875901), t259.fnma(T::lit(0.045775452556025865), t185)),
+        t271.fnma(T::lit(0.1030112054829841), t197),
+        t295.fnma(T::lit(0.13632109350250243), t257.fma(T::lit(0.016664595222106678), t201)),
+        t275,
+        a[35].times_fma(t43, a[26].times_fnma(t39, t40)),
     ]
 }
 
@@ -7888,14 +7916,15 @@ pub fn square_rgb<T: Real>(a: &[[T; 3]; 36]) -> [[T; 3]; 36] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 36], b: &[V; 36]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
-    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
-    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
-    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
-    let t5 = t4 + a[25].times(b[25]) + a[26].times(b[26]) + a[27].times(b[27]) + a[28].times(b[28]) + a[29].times(b[29]);
-    let t6 = t5 + a[30].times(b[30]) + a[31].times(b[31]) + a[32].times(b[32]) + a[33].times(b[33]) + a[34].times(b[34]);
-    t6 + a[35].times(b[35])
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    let t2 = a[12].times_fma(b[12], a[11].times_fma(b[11], a[10].times_fma(b[10], a[9].times_fma(b[9], t1))));
+    let t3 = a[16].times_fma(b[16], a[15].times_fma(b[15], a[14].times_fma(b[14], a[13].times_fma(b[13], t2))));
+    let t4 = a[20].times_fma(b[20], a[19].times_fma(b[19], a[18].times_fma(b[18], a[17].times_fma(b[17], t3))));
+    let t5 = a[24].times_fma(b[24], a[23].times_fma(b[23], a[22].times_fma(b[22], a[21].times_fma(b[21], t4))));
+    let t6 = a[28].times_fma(b[28], a[27].times_fma(b[27], a[26].times_fma(b[26], a[25].times_fma(b[25], t5))));
+    let t7 = a[32].times_fma(b[32], a[31].times_fma(b[31], a[30].times_fma(b[30], a[29].times_fma(b[29], t6))));
+    a[35].times_fma(b[35], a[34].times_fma(b[34], a[33].times_fma(b[33], t7)))
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.
@@ -7919,44 +7948,44 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 6], b: &[V; 36]) -> [V; 36] 
     let t0 = g[0] * T::lit(0.28209479177387814);
     let t1 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t2 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t3 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
-    let t4 = b[6].times(t1) + b[2].times(g[2].fma(T::lit(0.252313252202016), t0)) + b[12].times(t2) + b[20].times(t3);
+    let t3 = b[12].times_fma(t2, b[2].times_fma(g[2].fma(T::lit(0.252313252202016), t0), b[6].times(t1)));
+    let t4 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
     let t5 = g[4] * T::lit(0.2455320005465369);
     let t6 = b[6].times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t0)));
     let t7 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
     let t8 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
     let t9 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
-    let t10 = b[6].times(t7) + b[2].times(t2) + b[12].times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t0)));
+    let t10 = b[12].times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t0)), b[2].times_fma(t2, b[6].times(t7)));
     let t11 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
     let t12 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
-    let t13 = b[6].times(t8) + b[2].times(t3) + b[12].times(t11) + b[20].times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t0)));
+    let t13 = b[20].times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t0)), b[12].times_fma(t11, b[2].times_fma(t4, b[6].times(t8))));
     let t14 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
-    let t15 = b[6].times(t9) + b[2].times(t5) + b[12].times(t12) + b[20].times(t14) + b[30].times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t0)));
+    let t15 = b[30].times_fma(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t0)), b[20].times_fma(t14, b[12].times_fma(t12, b[2].times_fma(t5, b[6].times(t9)))));
     let t16 = g[2].fnma(T::lit(0.126156626101008), t0);
     let t17 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
     let t18 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
     let t19 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
     let t20 = g[4] * T::lit(0.19018826981554557);
-    let t21 = b[7].times(t17) + b[3].times(t16) + b[13].times(t18) + b[21].times(t19) + b[31].times(t20);
-    let t22 = b[5].times(t17) + b[1].times(t16) + b[11].times(t18) + b[19].times(t19) + b[29].times(t20);
+    let t21 = b[31].times_fma(t20, b[21].times_fma(t19, b[13].times_fma(t18, b[3].times_fma(t16, b[7].times(t17)))));
+    let t22 = b[29].times_fma(t20, b[19].times_fma(t19, b[11].times_fma(t18, b[1].times_fma(t16, b[5].times(t17)))));
     let t23 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t0));
     let t24 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
     let t25 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
     let t26 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
-    let t27 = b[7].times(t23) + b[3].times(t17) + b[13].times(t24) + b[21].times(t25) + b[31].times(t26);
-    let t28 = b[5].times(t23) + b[1].times(t17) + b[11].times(t24) + b[19].times(t25) + b[29].times(t26);
+    let t27 = b[31].times_fma(t26, b[21].times_fma(t25, b[13].times_fma(t24, b[3].times_fma(t17, b[7].times(t23)))));
+    let t28 = b[29].times_fma(t26, b[19].times_fma(t25, b[11].times_fma(t24, b[1].times_fma(t17, b[5].times(t23)))));
     let t29 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t0));
     let t30 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
     let t31 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
-    let t32 = b[7].times(t24) + b[3].times(t18) + b[13].times(t29) + b[21].times(t30) + b[31].times(t31);
-    let t33 = b[5].times(t24) + b[1].times(t18) + b[11].times(t29) + b[19].times(t30) + b[29].times(t31);
+    let t32 = b[31].times_fma(t31, b[21].times_fma(t30, b[13].times_fma(t29, b[3].times_fma(t18, b[7].times(t24)))));
+    let t33 = b[29].times_fma(t31, b[19].times_fma(t30, b[11].times_fma(t29, b[1].times_fma(t18, b[5].times(t24)))));
     let t34 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t0));
     let t35 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
-    let t36 = b[7].times(t25) + b[3].times(t19) + b[13].times(t30) + b[21].times(t34) + b[31].times(t35);
-    let t37 = b[5].times(t25) + b[1].times(t19) + b[11].times(t30) + b[19].times(t34) + b[29].times(t35);
+    let t36 = b[31].times_fma(t35, b[21].times_fma(t34, b[13].times_fma(t30, b[3].times_fma(t19, b[7].times(t25)))));
+    let t37 = b[29].times_fma(t35, b[19].times_fma(t34, b[11].times_fma(t30, b[1].times_fma(t19, b[5].times(t25)))));
     let t38 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t0));
-    let t39 = b[7].times(t26) + b[3].times(t20) + b[13].times(t31) + b[21].times(t35) + b[31].times(t38);
-    let t40 = b[5].times(t26) + b[1].times(t20) + b[11].times(t31) + b[19].times(t35) + b[29].times(t38);
+    let t39 = b[31].times_fma(t38, b[21].times_fma(t35, b[13].times_fma(t31, b[3].times_fma(t20, b[7].times(t26)))));
+    let t40 = b[29].times_fma(t38, b[19].times_fma(t35, b[11].times_fma(t31, b[1].times_fma(t20, b[5].times(t26)))));
     let t41 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t0));
     let t42 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
     let t43 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
@@ -7978,44 +8007,44 @@ pub fn product_zonal<T: Real, V: Signal<T>>(g: &[V; 6], b: &[V; 36]) -> [V; 36] 
     let t59 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t0));
     let t60 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t0));
     let t61 = b[0] * T::lit(0.28209479177387814);
-    let t62 = t6 + b[2].times(t1) + b[12].times(t7) + b[20].times(t8) + b[30].times(t9) + g[2].times(t61);
-    let t63 = g[1].times(b[2]) + g[0].times(b[0]) + g[2].times(b[6]) + g[3].times(b[12]) + g[4].times(b[20]);
+    let t62 = g[2].times_fma(t61, b[30].times_fma(t9, b[20].times_fma(t8, b[12].times_fma(t7, b[2].times_fma(t1, t6)))));
+    let t63 = g[4].times_fma(b[20], g[3].times_fma(b[12], g[2].times_fma(b[6], g[0].times_fma(b[0], g[1].times(b[2])))));
     [
-        (t63 + g[5].times(b[30])) * T::lit(0.28209479177387814),
+        g[5].times_fma(b[30], t63) * T::lit(0.28209479177387814),
         t22,
-        t4 + b[30].times(t5) + g[1].times(t61),
+        g[1].times_fma(t61, b[30].times_fma(t5, b[20].times_fma(t4, t3))),
         t21,
-        b[10].times(t42) + b[4].times(t41) + b[18].times(t43) + b[28].times(t44),
+        b[28].times_fma(t44, b[18].times_fma(t43, b[4].times_fma(t41, b[10].times(t42)))),
         t28,
         t62,
         t27,
-        b[14].times(t42) + b[8].times(t41) + b[22].times(t43) + b[32].times(t44),
-        b[17].times(t52) + b[9].times(t51) + b[27].times(t53),
-        b[10].times(t45) + b[4].times(t42) + b[18].times(t46) + b[28].times(t47),
+        b[32].times_fma(t44, b[22].times_fma(t43, b[8].times_fma(t41, b[14].times(t42)))),
+        b[27].times_fma(t53, b[9].times_fma(t51, b[17].times(t52))),
+        b[28].times_fma(t47, b[18].times_fma(t46, b[4].times_fma(t42, b[10].times(t45)))),
         t33,
-        t10 + b[20].times(t11) + b[30].times(t12) + g[3].times(t61),
+        g[3].times_fma(t61, b[30].times_fma(t12, b[20].times_fma(t11, t10))),
         t32,
-        b[14].times(t45) + b[8].times(t42) + b[22].times(t46) + b[32].times(t47),
-        b[23].times(t52) + b[15].times(t51) + b[33].times(t53),
-        b[26].times(t58) + b[16].times(t57),
-        b[17].times(t54) + b[9].times(t52) + b[27].times(t55),
-        b[10].times(t46) + b[4].times(t43) + b[18].times(t48) + b[28].times(t49),
+        b[32].times_fma(t47, b[22].times_fma(t46, b[8].times_fma(t42, b[14].times(t45)))),
+        b[33].times_fma(t53, b[15].times_fma(t51, b[23].times(t52))),
+        b[16].times_fma(t57, b[26].times(t58)),
+        b[27].times_fma(t55, b[9].times_fma(t52, b[17].times(t54))),
+        b[28].times_fma(t49, b[18].times_fma(t48, b[4].times_fma(t43, b[10].times(t46)))),
         t37,
-        t13 + b[30].times(t14) + g[4].times(t61),
+        g[4].times_fma(t61, b[30].times_fma(t14, t13)),
         t36,
-        b[14].times(t46) + b[8].times(t43) + b[22].times(t48) + b[32].times(t49),
-        b[23].times(t54) + b[15].times(t52) + b[33].times(t55),
-        b[34].times(t58) + b[24].times(t57),
+        b[32].times_fma(t49, b[22].times_fma(t48, b[8].times_fma(t43, b[14].times(t46)))),
+        b[33].times_fma(t55, b[15].times_fma(t52, b[23].times(t54))),
+        b[24].times_fma(t57, b[34].times(t58)),
         b[25].times(t60),
-        b[26].times(t59) + b[16].times(t58),
-        b[17].times(t55) + b[9].times(t53) + b[27].times(t56),
-        b[10].times(t47) + b[4].times(t44) + b[18].times(t49) + b[28].times(t50),
+        b[16].times_fma(t58, b[26].times(t59)),
+        b[27].times_fma(t56, b[9].times_fma(t53, b[17].times(t55))),
+        b[28].times_fma(t50, b[18].times_fma(t49, b[4].times_fma(t44, b[10].times(t47)))),
         t40,
-        t15 + g[5].times(t61),
+        g[5].times_fma(t61, t15),
         t39,
-        b[14].times(t47) + b[8].times(t44) + b[22].times(t49) + b[32].times(t50),
-        b[23].times(t55) + b[15].times(t53) + b[33].times(t56),
-        b[34].times(t59) + b[24].times(t58),
+        b[32].times_fma(t50, b[22].times_fma(t49, b[8].times_fma(t44, b[14].times(t47)))),
+        b[33].times_fma(t56, b[15].times_fma(t53, b[23].times(t55))),
+        b[24].times_fma(t58, b[34].times(t59)),
         b[35].times(t60),
     ]
 }
@@ -8190,212 +8219,216 @@ pub fn product_zonal_about<T: Real, V: Signal<T>>(dir: [T; 3], g: &[V; 6], b: &[
     let t147 = g[0] * T::lit(0.28209479177387814);
     let t148 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t149 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t150 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
-    let t151 = t40.times(t148) - t30.times(g[2].fma(T::lit(0.252313252202016), t147)) + t57.times(t149) + t85.times(t150);
+    let t150 = t57.times_fma(t149, t30.times_fnma(g[2].fma(T::lit(0.252313252202016), t147), t40.times(t148)));
+    let t151 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
     let t152 = g[4] * T::lit(0.2455320005465369);
     let t153 = t40.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t147)));
     let t154 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
     let t155 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
     let t156 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
-    let t157 = t40.times(t154) - t30.times(t149) + t57.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t147)));
-    let t158 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
-    let t159 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
-    let t160 = t40.times(t155) - t30.times(t150) + t57.times(t158) + t85.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t147)));
-    let t161 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
-    let t162 = t40.times(t156) - t30.times(t152) + t57.times(t159) + t85.times(t161) + t128.times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t147)));
-    let t163 = g[2].fnma(T::lit(0.126156626101008), t147);
-    let t164 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
-    let t165 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
-    let t166 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
-    let t167 = g[4] * T::lit(0.19018826981554557);
-    let t168 = t37.times(t164) + t31.times(t163) + t60.times(t165) + t81.times(t166) + t133.times(t167);
-    let t169 = t41.times(t164) + t29.times(t163) + t66.times(t165) - t95.times(t166) + t146.times(t167);
-    let t170 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t147));
-    let t171 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
-    let t172 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
-    let t173 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
-    let t174 = t37.times(t170) + t31.times(t164) + t60.times(t171) + t81.times(t172) + t133.times(t173);
-    let t175 = t41.times(t170) + t29.times(t164) + t66.times(t171) - t95.times(t172) + t146.times(t173);
-    let t176 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t147));
-    let t177 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
-    let t178 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
-    let t179 = t41.times(t171) + t29.times(t165) + t66.times(t176) - t95.times(t177) + t146.times(t178);
-    let t180 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t147));
-    let t181 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
-    let t182 = t41.times(t172) + t29.times(t166) + t66.times(t177) - t95.times(t180) + t146.times(t181);
-    let t183 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t147));
-    let t184 = t41.times(t173) + t29.times(t167) + t66.times(t178) - t95.times(t181) + t146.times(t183);
-    let t185 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t147));
-    let t186 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
-    let t187 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
-    let t188 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
-    let t189 = t58.times(t186) + t39.times(t185) + t84.times(t187) + t127.times(t188);
-    let t190 = t63.times(t186) + t42.times(t185) + t98.times(t187) + t143.times(t188);
-    let t191 = g[4].fnma(T::lit(0.17951486749246792), t147);
-    let t192 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
-    let t193 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
-    let t194 = t58.times(t191) + t39.times(t186) + t84.times(t192) + t127.times(t193);
-    let t195 = t63.times(t191) + t42.times(t186) + t98.times(t192) + t143.times(t193);
-    let t196 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t147));
-    let t197 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
-    let t198 = t58.times(t192) + t39.times(t187) + t84.times(t196) + t127.times(t197);
-    let t199 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t147));
-    let t200 = t58.times(t193) + t39.times(t188) + t84.times(t197) + t127.times(t199);
-    let t201 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t147));
-    let t202 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
-    let t203 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
-    let t204 = t82.times(t202) + t61.times(t201) + t132.times(t203);
-    let t205 = t96.times(t202) + t65.times(t201) + t145.times(t203);
-    let t206 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t147));
-    let t207 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
-    let t208 = t82.times(t206) + t61.times(t202) + t132.times(t207);
-    let t209 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t147));
-    let t210 = t96.times(t207) + t65.times(t203) + t145.times(t209);
-    let t211 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t147));
-    let t212 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
-    let t213 = t126.times(t212) + t83.times(t211);
-    let t214 = t144.times(t212) + t99.times(t211);
-    let t215 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t147));
-    let t216 = t126.times(t215) + t83.times(t212);
-    let t217 = t144.times(t215) + t99.times(t212);
-    let t218 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t147));
-    let t219 = t131.times(t218);
-    let t220 = t141.fma(T::lit(0.6846531968814576), t140.fnma(T::lit(0.19764235376052372), t106)).times(t218);
-    let t221 = b[0] * T::lit(0.28209479177387814);
-    let t222 = t151 + t128.times(t152) + g[1].times(t221);
-    let t223 = t153 - t30.times(t148) + t57.times(t154) + t85.times(t155) + t128.times(t156) + g[2].times(t221);
-    let t224 = t160 + t128.times(t161) + g[4].times(t221);
-    let t225 = g[0].times(b[0]) - g[1].times(t30) + g[2].times(t40) + g[3].times(t57) + g[4].times(t85) + g[5].times(t128);
-    let t226 = t168.fms(dir[2], t222 * t5);
-    let t227 = t223.fnma(T::lit(1.7320508075688772), t189);
-    let t228 = t174.fma(t9, t227 * t6);
-    let t229 = t227.fma(t8, t174 * t6);
-    let t230 = t189 - t229;
-    let t231 = t175.fma(dir[2], t190 * t5);
-    let t232 = t190.fnma(dir[2], t175 * t5);
-    let t233 = t194.fnma(T::lit(0.3419987131196464), t157 + t85.times(t158) + t128.times(t159) + g[3].times(t221));
-    let t234 = t233.fma(T::lit(0.6123724356957945), t194);
-    let t235 = t234.fnma(T::lit(0.3419987131196464), t233);
-    let t236 = t204.fms(T::lit(0.12701665379258312), t37.times(t171) + t31.times(t165) + t60.times(t176) + t81.times(t177) + t133.times(t178));
-    let t237 = t236.fms(T::lit(0.25), t204);
-    let t238 = t237.fnma(T::lit(0.12701665379258312), t236);
-    let t239 = t235.fms(t11, t238 * t12);
-    let t240 = t238.fma(t11, t235 * t12);
-    let t241 = t239.fnma(T::lit(0.3419987131196464), t234.fms(dir[2], t237 * t5));
-    let t242 = t241.fma(T::lit(0.6123724356957945), t239);
-    let t243 = t242.fnma(T::lit(0.3419987131196464), t241);
-    let t244 = t240.fms(T::lit(0.12701665379258312), t237.fma(dir[2], t234 * t5));
-    let t245 = t244.fms(T::lit(0.25), t240);
-    let t246 = t245.fnma(T::lit(0.12701665379258312), t244);
-    let t247 = t205.fnma(T::lit(0.6123724356957945), t179 * T::lit(0.7905694150420949));
-    let t248 = t195.fms(t9, t247 * t10);
-    let t249 = t195.fma(t10, t247.fms(t9, t247));
-    let t250 = t249.fnma(T::lit(0.6123724356957945), t205);
-    let t251 = t249.fma(T::lit(0.7905694150420949), t179);
-    let t252 = t208.fnma(T::lit(0.18267581368159952), t37.times(t172) + t31.times(t166) + t60.times(t177) + t81.times(t180) + t133.times(t181));
-    let t253 = t252.fma(T::lit(0.3535533905932738), t208);
-    let t254 = t253.fnma(T::lit(0.18267581368159952), t252);
-    let t255 = t224.fma(T::lit(0.739509972887452), t213.fms(T::lit(0.125), t198 * T::lit(0.6614378277661477)));
-    let t256 = t224.fma(T::lit(0.5590169943749475), t213.fnma(T::lit(0.6614378277661477), t198 * T::lit(0.5)));
-    let t257 = t254.fms(t14, t255 * t15);
-    let t258 = t254.fma(t15, t255.fms(t14, t255));
-    let t259 = t253.fma(t10, t256.fms(t9, t256));
-    let t260 = t257.fnma(T::lit(0.18267581368159952), t253.fms(t9, t256 * t10));
-    let t261 = t260.fma(T::lit(0.3535533905932738), t257);
-    let t262 = t261.fnma(T::lit(0.18267581368159952), t260);
-    let t263 = t259.fnma(T::lit(0.6614378277661477), t258.fma(T::lit(0.125), t213));
-    let t264 = t259.fma(T::lit(0.5), t258.fnma(T::lit(0.6614378277661477), t198));
-    let t265 = t182.fnma(T::lit(0.37796447300922725), t96.times(t206) + t65.times(t202) + t145.times(t207));
-    let t266 = t265.fma(T::lit(0.6614378277661477), t182);
-    let t267 = t266.fnma(T::lit(0.37796447300922725), t265);
-    let t268 = t214.fnma(T::lit(0.18267581368159952), t63.times(t192) + t42.times(t187) + t98.times(t196) + t143.times(t197));
-    let t269 = t268.fma(T::lit(0.3535533905932738), t214);
-    let t270 = t269.fnma(T::lit(0.18267581368159952), t268);
-    let t271 = t270.fma(t11, t267 * t12);
-    let t272 = t266.fma(dir[2], t269 * t5);
-    let t273 = t272.fma(T::lit(0.37796447300922725), t267.fms(t11, t270 * t12));
-    let t274 = t273.fnma(T::lit(0.6614378277661477), t272);
-    let t275 = t274.fma(T::lit(0.37796447300922725), t273);
-    let t276 = t271.fnma(T::lit(0.18267581368159952), t269.fms(dir[2], t266 * t5));
-    let t277 = t276.fma(T::lit(0.3535533905932738), t271);
-    let t278 = t277.fnma(T::lit(0.18267581368159952), t276);
-    let t279 = t200.fms(T::lit(0.07470077493066175), t162 + g[5].times(t221));
-    let t280 = t279.fms(T::lit(0.14857248482346963), t200);
-    let t281 = t280.fnma(T::lit(0.07470077493066175), t279);
-    let t282 = t280.fma(T::lit(0.4782913363666992), t281.fnma(T::lit(0.6642175991330467), t216));
-    let t283 = t282.fnma(T::lit(1.1976423537605236), t216);
-    let t284 = t282.fma(T::lit(0.795495128834866), t281);
-    let t285 = t282.fnma(T::lit(0.57282196186948), t280);
-    let t286 = t219.fnma(T::lit(0.4472135954999579), t82.times(t207) + t61.times(t203) + t132.times(t209));
-    let t287 = t219.fma(T::lit(0.9660917830792959), t37.times(t173) + t31.times(t167) + t60.times(t178) + t81.times(t181) + t133.times(t183));
-    let t288 = t287.fms(T::lit(0.9057110466368399), t286.fma(T::lit(0.4192627457812106), t219));
-    let t289 = t288.fma(T::lit(0.4472135954999579), t286);
-    let t290 = t288.fnma(T::lit(0.9660917830792959), t287);
-    let t291 = t283.fms(t16, t288 * t17);
-    let t292 = t288.fma(t16, t283 * t17);
-    let t293 = t284.fms(t11, t289 * t12);
-    let t294 = t293.fms(T::lit(0.07470077493066175), t285.fms(dir[2], t290 * t5));
-    let t295 = t294.fms(T::lit(0.14857248482346963), t293);
-    let t296 = t295.fnma(T::lit(0.07470077493066175), t294);
-    let t297 = t295.fma(T::lit(0.5857848612461443), t296.fnma(T::lit(0.5716674888222586), t291));
-    let t298 = t297.fnma(T::lit(1.1976423537605236), t291);
-    let t299 = t297.fma(T::lit(0.6846531968814576), t296);
-    let t300 = t292.fnma(T::lit(0.4472135954999579), t289.fma(t11, t284 * t12));
-    let t301 = t292.fma(T::lit(0.9660917830792959), t290.fma(dir[2], t285 * t5));
-    let t302 = t301.fms(T::lit(0.9057110466368399), t300.fma(T::lit(0.4192627457812106), t292));
-    let t303 = t302.fma(T::lit(0.4472135954999579), t300);
-    let t304 = t302.fnma(T::lit(0.9660917830792959), t301);
-    let t305 = t217.fms(T::lit(0.2679491924311227), t63.times(t193) + t42.times(t188) + t98.times(t197) + t143.times(t199));
-    let t306 = t305.fms(T::lit(0.5), t217);
-    let t307 = t306.fnma(T::lit(0.2679491924311227), t305);
-    let t308 = t184.fnma(T::lit(0.57282196186948), t220.fnma(T::lit(0.19764235376052372), t210 * T::lit(0.795495128834866)));
-    let t309 = t184.fnma(T::lit(0.6614378277661477), t220.fms(T::lit(0.6846531968814576), t210 * T::lit(0.30618621784789724)));
-    let t310 = t307.fms(t14, t308 * t15);
-    let t311 = t307.fma(t15, t308.fms(t14, t308));
-    let t312 = t306.fma(t10, t309.fms(t9, t309));
-    let t313 = t310.fms(T::lit(0.2679491924311227), t306.fms(t9, t309 * t10));
-    let t314 = t313.fms(T::lit(0.5), t310);
-    let t315 = t314.fnma(T::lit(0.2679491924311227), t313);
-    let t316 = t312.fma(T::lit(0.6846531968814576), t311.fnma(T::lit(0.19764235376052372), t220));
-    let t317 = t312.fnma(T::lit(0.30618621784789724), t311.fma(T::lit(0.795495128834866), t210));
-    let t318 = t312.fnma(T::lit(0.6614378277661477), t311.fnma(T::lit(0.57282196186948), t184));
+    let t157 = t128.times_fma(t156, t85.times_fma(t155, t57.times_fma(t154, t30.times_fnma(t148, t153))));
+    let t158 = t57.times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t147)), t30.times_fnma(t149, t40.times(t154)));
+    let t159 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
+    let t160 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
+    let t161 = t85.times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t147)), t57.times_fma(t159, t30.times_fnma(t151, t40.times(t155))));
+    let t162 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
+    let t163 = t128.times_fma(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t147)), t85.times_fma(t162, t57.times_fma(t160, t30.times_fnma(t152, t40.times(t156)))));
+    let t164 = g[2].fnma(T::lit(0.126156626101008), t147);
+    let t165 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t166 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
+    let t167 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
+    let t168 = g[4] * T::lit(0.19018826981554557);
+    let t169 = t133.times_fma(t168, t81.times_fma(t167, t60.times_fma(t166, t31.times_fma(t164, t37.times(t165)))));
+    let t170 = t146.times_fma(t168, t95.times_fnma(t167, t66.times_fma(t166, t29.times_fma(t164, t41.times(t165)))));
+    let t171 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t147));
+    let t172 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
+    let t173 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
+    let t174 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
+    let t175 = t133.times_fma(t174, t81.times_fma(t173, t60.times_fma(t172, t31.times_fma(t165, t37.times(t171)))));
+    let t176 = t146.times_fma(t174, t95.times_fnma(t173, t66.times_fma(t172, t29.times_fma(t165, t41.times(t171)))));
+    let t177 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t147));
+    let t178 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
+    let t179 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
+    let t180 = t133.times_fma(t179, t81.times_fma(t178, t60.times_fma(t177, t31.times_fma(t166, t37.times(t172)))));
+    let t181 = t146.times_fma(t179, t95.times_fnma(t178, t66.times_fma(t177, t29.times_fma(t166, t41.times(t172)))));
+    let t182 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t147));
+    let t183 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
+    let t184 = t133.times_fma(t183, t81.times_fma(t182, t60.times_fma(t178, t31.times_fma(t167, t37.times(t173)))));
+    let t185 = t146.times_fma(t183, t95.times_fnma(t182, t66.times_fma(t178, t29.times_fma(t167, t41.times(t173)))));
+    let t186 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t147));
+    let t187 = t133.times_fma(t186, t81.times_fma(t183, t60.times_fma(t179, t31.times_fma(t168, t37.times(t174)))));
+    let t188 = t146.times_fma(t186, t95.times_fnma(t183, t66.times_fma(t179, t29.times_fma(t168, t41.times(t174)))));
+    let t189 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t147));
+    let t190 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
+    let t191 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
+    let t192 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
+    let t193 = t127.times_fma(t192, t84.times_fma(t191, t39.times_fma(t189, t58.times(t190))));
+    let t194 = t143.times_fma(t192, t98.times_fma(t191, t42.times_fma(t189, t63.times(t190))));
+    let t195 = g[4].fnma(T::lit(0.17951486749246792), t147);
+    let t196 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
+    let t197 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
+    let t198 = t127.times_fma(t197, t84.times_fma(t196, t39.times_fma(t190, t58.times(t195))));
+    let t199 = t143.times_fma(t197, t98.times_fma(t196, t42.times_fma(t190, t63.times(t195))));
+    let t200 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t147));
+    let t201 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
+    let t202 = t127.times_fma(t201, t84.times_fma(t200, t39.times_fma(t191, t58.times(t196))));
+    let t203 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t147));
+    let t204 = t127.times_fma(t203, t84.times_fma(t201, t39.times_fma(t192, t58.times(t197))));
+    let t205 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t147));
+    let t206 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
+    let t207 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
+    let t208 = t132.times_fma(t207, t61.times_fma(t205, t82.times(t206)));
+    let t209 = t145.times_fma(t207, t65.times_fma(t205, t96.times(t206)));
+    let t210 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t147));
+    let t211 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
+    let t212 = t132.times_fma(t211, t61.times_fma(t206, t82.times(t210)));
+    let t213 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t147));
+    let t214 = t145.times_fma(t213, t65.times_fma(t207, t96.times(t211)));
+    let t215 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t147));
+    let t216 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
+    let t217 = t83.times_fma(t215, t126.times(t216));
+    let t218 = t99.times_fma(t215, t144.times(t216));
+    let t219 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t147));
+    let t220 = t83.times_fma(t216, t126.times(t219));
+    let t221 = t99.times_fma(t216, t144.times(t219));
+    let t222 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t147));
+    let t223 = t131.times(t222);
+    let t224 = t141.fma(T::lit(0.6846531968814576), t140.fnma(T::lit(0.19764235376052372), t106)).times(t222);
+    let t225 = b[0] * T::lit(0.28209479177387814);
+    let t226 = g[1].times_fma(t225, t128.times_fma(t152, t85.times_fma(t151, t150)));
+    let t227 = g[2].times_fma(t225, t157);
+    let t228 = g[4].times_fma(t225, t128.times_fma(t162, t161));
+    let t229 = g[4].times_fma(t85, g[3].times_fma(t57, g[2].times_fma(t40, g[0].times_fms(b[0], g[1].times(t30)))));
+    let t230 = t169.fms(dir[2], t226 * t5);
+    let t231 = t227.fnma(T::lit(1.7320508075688772), t193);
+    let t232 = t175.fma(t9, t231 * t6);
+    let t233 = t231.fma(t8, t175 * t6);
+    let t234 = t193 - t233;
+    let t235 = t176.fma(dir[2], t194 * t5);
+    let t236 = t194.fnma(dir[2], t176 * t5);
+    let t237 = t198.fnma(T::lit(0.3419987131196464), g[3].times_fma(t225, t128.times_fma(t160, t85.times_fma(t159, t158))));
+    let t238 = t237.fma(T::lit(0.6123724356957945), t198);
+    let t239 = t238.fnma(T::lit(0.3419987131196464), t237);
+    let t240 = t208.fms(T::lit(0.12701665379258312), t180);
+    let t241 = t240.fms(T::lit(0.25), t208);
+    let t242 = t241.fnma(T::lit(0.12701665379258312), t240);
+    let t243 = t239.fms(t11, t242 * t12);
+    let t244 = t242.fma(t11, t239 * t12);
+    let t245 = t243.fnma(T::lit(0.3419987131196464), t238.fms(dir[2], t241 * t5));
+    let t246 = t245.fma(T::lit(0.6123724356957945), t243);
+    let t247 = t246.fnma(T::lit(0.3419987131196464), t245);
+    let t248 = t244.fms(T::lit(0.12701665379258312), t241.fma(dir[2], t238 * t5));
+    let t249 = t248.fms(T::lit(0.25), t244);
+    let t250 = t249.fnma(T::lit(0.12701665379258312), t248);
+    let t251 = t209.fnma(T::lit(0.6123724356957945), t181 * T::lit(0.7905694150420949));
+    let t252 = t199.fms(t9, t251 * t10);
+    let t253 = t199.fma(t10, t251.fms(t9, t251));
+    let t254 = t253.fnma(T::lit(0.6123724356957945), t209);
+    let t255 = t253.fma(T::lit(0.7905694150420949), t181);
+    let t256 = t212.fnma(T::lit(0.18267581368159952), t184);
+    let t257 = t256.fma(T::lit(0.3535533905932738), t212);
+    let t258 = t257.fnma(T::lit(0.18267581368159952), t256);
+    let t259 = t228.fma(T::lit(0.739509972887452), t217.fms(T::lit(0.125), t202 * T::lit(0.6614378277661477)));
+    let t260 = t228.fma(T::lit(0.5590169943749475), t217.fnma(T::lit(0.6614378277661477), t202 * T::lit(0.5)));
+    let t261 = t258.fms(t14, t259 * t15);
+    let t262 = t258.fma(t15, t259.fms(t14, t259));
+    let t263 = t257.fma(t10, t260.fms(t9, t260));
+    let t264 = t261.fnma(T::lit(0.18267581368159952), t257.fms(t9, t260 * t10));
+    let t265 = t264.fma(T::lit(0.3535533905932738), t261);
+    let t266 = t265.fnma(T::lit(0.18267581368159952), t264);
+    let t267 = t263.fnma(T::lit(0.6614378277661477), t262.fma(T::lit(0.125), t217));
+    let t268 = t263.fma(T::lit(0.5), t262.fnma(T::lit(0.6614378277661477), t202));
+    let t269 = t185.fnma(T::lit(0.37796447300922725), t145.times_fma(t211, t65.times_fma(t206, t96.times(t210))));
+    let t270 = t269.fma(T::lit(0.6614378277661477), t185);
+    let t271 = t270.fnma(T::lit(0.37796447300922725), t269);
+    let t272 = t218.fnma(T::lit(0.18267581368159952), t143.times_fma(t201, t98.times_fma(t200, t42.times_fma(t191, t63.times(t196)))));
+    let t273 = t272.fma(T::lit(0.3535533905932738), t218);
+    let t274 = t273.fnma(T::lit(0.18267581368159952), t272);
+    let t275 = t274.fma(t11, t271 * t12);
+    let t276 = t270.fma(dir[2], t273 * t5);
+    let t277 = t276.fma(T::lit(0.37796447300922725), t271.fms(t11, t274 * t12));
+    let t278 = t277.fnma(T::lit(0.6614378277661477), t276);
+    let t279 = t278.fma(T::lit(0.37796447300922725), t277);
+    let t280 = t275.fnma(T::lit(0.18267581368159952), t273.fms(dir[2], t270 * t5));
+    let t281 = t280.fma(T::lit(0.3535533905932738), t275);
+    let t282 = t281.fnma(T::lit(0.18267581368159952), t280);
+    let t283 = t204.fms(T::lit(0.07470077493066175), g[5].times_fma(t225, t163));
+    let t284 = t283.fms(T::lit(0.14857248482346963), t204);
+    let t285 = t284.fnma(T::lit(0.07470077493066175), t283);
+    let t286 = t284.fma(T::lit(0.4782913363666992), t285.fnma(T::lit(0.6642175991330467), t220));
+    let t287 = t286.fnma(T::lit(1.1976423537605236), t220);
+    let t288 = t286.fma(T::lit(0.795495128834866), t285);
+    let t289 = t286.fnma(T::lit(0.57282196186948), t284);
+    let t290 = t223.fnma(T::lit(0.4472135954999579), t132.times_fma(t213, t61.times_fma(t207, t82.times(t211))));
+    let t291 = t223.fma(T::lit(0.9660917830792959), t187);
+    let t292 = t291.fms(T::lit(0.9057110466368399), t290.fma(T::lit(0.4192627457812106), t223));
+    let t293 = t292.fma(T::lit(0.4472135954999579), t290);
+    let t294 = t292.fnma(T::lit(0.9660917830792959), t291);
+    let t295 = t287.fms(t16, t292 * t17);
+    let t296 = t292.fma(t16, t287 * t17);
+    let t297 = t288.fms(t11, t293 * t12);
+    let t298 = t297.fms(T::lit(0.07470077493066175), t289.fms(dir[2], t294 * t5));
+    let t299 = t298.fms(T::lit(0.14857248482346963), t297);
+    let t300 = t299.fnma(T::lit(0.07470077493066175), t298);
+    let t301 = t299.fma(T::lit(0.5857848612461443), t300.fnma(T::lit(0.5716674888222586), t295));
+    let t302 = t301.fnma(T::lit(1.1976423537605236), t295);
+    let t303 = t301.fma(T::lit(0.6846531968814576), t300);
+    let t304 = t296.fnma(T::lit(0.4472135954999579), t293.fma(t11, t288 * t12));
+    let t305 = t296.fma(T::lit(0.9660917830792959), t294.fma(dir[2], t289 * t5));
+    let t306 = t305.fms(T::lit(0.9057110466368399), t304.fma(T::lit(0.4192627457812106), t296));
+    let t307 = t306.fma(T::lit(0.4472135954999579), t304);
+    let t308 = t306.fnma(T::lit(0.9660917830792959), t305);
+    let t309 = t221.fms(T::lit(0.2679491924311227), t143.times_fma(t203, t98.times_fma(t201, t42.times_fma(t192, t63.times(t197)))));
+    let t310 = t309.fms(T::lit(0.5), t221);
+    let t311 = t310.fnma(T::lit(0.2679491924311227), t309);
+    let t312 = t188.fnma(T::lit(0.57282196186948), t224.fnma(T::lit(0.19764235376052372), t214 * T::lit(0.795495128834866)));
+    let t313 = t188.fnma(T::lit(0.6614378277661477), t224.fms(T::lit(0.6846531968814576), t214 * T::lit(0.30618621784789724)));
+    let t314 = t311.fms(t14, t312 * t15);
+    let t315 = t311.fma(t15, t312.fms(t14, t312));
+    let t316 = t310.fma(t10, t313.fms(t9, t313));
+    let t317 = t314.fms(T::lit(0.2679491924311227), t310.fms(t9, t313 * t10));
+    let t318 = t317.fms(T::lit(0.5), t314);
+    let t319 = t318.fnma(T::lit(0.2679491924311227), t317);
+    let t320 = t316.fma(T::lit(0.6846531968814576), t315.fnma(T::lit(0.19764235376052372), t224));
+    let t321 = t316.fnma(T::lit(0.30618621784789724), t315.fma(T::lit(0.795495128834866), t214));
+    let t322 = t316.fnma(T::lit(0.6614378277661477), t315.fnma(T::lit(0.57282196186948), t188));
     [
-        t225 * T::lit(0.28209479177387814),
-        t169.fma(t3, t226 * t4),
-        t222.fma(dir[2], t168 * t5),
-        t226.fms(t3, t169 * t4),
-        t232.fnma(t19, t230 * t20),
-        t231.fma(t3, t228 * t4),
-        t229.fma(T::lit(1.7320508075688772), t223),
-        t228.fms(t3, t231 * t4),
-        t230.fma(t19, t232 * t20),
-        t250.fma(t21, t246 * t22),
-        t248.fma(t19, t243 * t20),
-        t251.fma(t3, t245 * t4),
-        t242,
-        t245.fms(t3, t251 * t4),
-        t243.fms(t19, t248 * t20),
-        t246.fms(t21, t250 * t22),
-        t278.fma(t24, t263 * t25),
-        t275.fma(t21, t262 * t22),
-        t277.fma(t19, t264 * t20),
-        t274.fma(t3, t261 * t4),
-        t259.fma(T::lit(0.5590169943749475), t258.fma(T::lit(0.739509972887452), t224)),
-        t261.fms(t3, t274 * t4),
-        t264.fms(t19, t277 * t20),
-        t262.fms(t21, t275 * t22),
-        t263.fms(t24, t278 * t25),
-        t316.fma(t26, t302 * t27),
-        t315.fma(t24, t298 * t25),
-        t317.fma(t21, t303 * t22),
-        t314.fma(t19, t299 * t20),
-        t318.fma(t3, t304 * t4),
-        t297.fnma(T::lit(0.701560760020114), t295),
-        t304.fms(t3, t318 * t4),
-        t299.fms(t19, t314 * t20),
-        t303.fms(t21, t317 * t22),
-        t298.fms(t24, t315 * t25),
-        t302.fms(t26, t316 * t27),
+        g[5].times_fma(t128, t229) * T::lit(0.28209479177387814),
+        t170.fma(t3, t230 * t4),
+        t226.fma(dir[2], t169 * t5),
+        t230.fms(t3, t170 * t4),
+        t236.fnma(t19, t234 * t20),
+        t235.fma(t3, t232 * t4),
+        t233.fma(T::lit(1.7320508075688772), t227),
+        t232.fms(t3, t235 * t4),
+        t234.fma(t19, t236 * t20),
+        t254.fma(t21, t250 * t22),
+        t252.fma(t19, t247 * t20),
+        t255.fma(t3, t249 * t4),
+        t246,
+        t249.fms(t3, t255 * t4),
+        t247.fms(t19, t252 * t20),
+        t250.fms(t21, t254 * t22),
+        t282.fma(t24, t267 * t25),
+        t279.fma(t21, t266 * t22),
+        t281.fma(t19, t268 * t20),
+        t278.fma(t3, t265 * t4),
+        t263.fma(T::lit(0.5590169943749475), t262.fma(T::lit(0.739509972887452), t228)),
+        t265.fms(t3, t278 * t4),
+        t268.fms(t19, t281 * t20),
+        t266.fms(t21, t279 * t22),
+        t267.fms(t24, t282 * t25),
+        t320.fma(t26, t306 * t27),
+        t319.fma(t24, t302 * t25),
+        t321.fma(t21, t307 * t22),
+        t318.fma(t19, t303 * t20),
+        t322.fma(t3, t308 * t4),
+        t301.fnma(T::lit(0.701560760020114), t299),
+        t308.fms(t3, t322 * t4),
+        t303.fms(t19, t318 * t20),
+        t307.fms(t21, t321 * t22),
+        t302.fms(t24, t319 * t25),
+        t306.fms(t26, t320 * t27),
     ]
 }
 
@@ -8541,212 +8574,216 @@ pub fn product_zonal_about_angles<T: Real, V: Signal<T>>(cs: &[[T; 2]; 11], g: &
     let t119 = g[0] * T::lit(0.28209479177387814);
     let t120 = g[1].fma(T::lit(0.252313252202016), g[3] * T::lit(0.24776669508347607));
     let t121 = g[2].fma(T::lit(0.24776669508347607), g[4] * T::lit(0.24623252122982908));
-    let t122 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
-    let t123 = t12.times(t120) - t2.times(g[2].fma(T::lit(0.252313252202016), t119)) + t29.times(t121) + t57.times(t122);
+    let t122 = t29.times_fma(t121, t2.times_fnma(g[2].fma(T::lit(0.252313252202016), t119), t12.times(t120)));
+    let t123 = g[3].fma(T::lit(0.24623252122982908), g[5] * T::lit(0.2455320005465369));
     let t124 = g[4] * T::lit(0.2455320005465369);
     let t125 = t12.times(g[4].fma(T::lit(0.24179553580618127), g[2].fma(T::lit(0.18022375157286857), t119)));
     let t126 = g[5].fma(T::lit(0.23961469724456466), g[1].fma(T::lit(0.24776669508347607), g[3] * T::lit(0.168208834801344)));
     let t127 = g[2].fma(T::lit(0.24179553580618127), g[4] * T::lit(0.16383977415715326));
     let t128 = g[3].fma(T::lit(0.23961469724456466), g[5] * T::lit(0.16173926423206153));
-    let t129 = t12.times(t126) - t2.times(t121) + t29.times(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t119)));
-    let t130 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
-    let t131 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
-    let t132 = t12.times(t127) - t2.times(t122) + t29.times(t130) + t57.times(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t119)));
-    let t133 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
-    let t134 = t12.times(t128) - t2.times(t124) + t29.times(t131) + t57.times(t133) + t100.times(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t119)));
-    let t135 = g[2].fnma(T::lit(0.126156626101008), t119);
-    let t136 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
-    let t137 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
-    let t138 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
-    let t139 = g[4] * T::lit(0.19018826981554557);
-    let t140 = t9.times(t136) + t3.times(t135) + t32.times(t137) + t53.times(t138) + t105.times(t139);
-    let t141 = t13.times(t136) + t1.times(t135) + t38.times(t137) - t67.times(t138) + t118.times(t139);
-    let t142 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t119));
-    let t143 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
-    let t144 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
-    let t145 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
-    let t146 = t9.times(t142) + t3.times(t136) + t32.times(t143) + t53.times(t144) + t105.times(t145);
-    let t147 = t13.times(t142) + t1.times(t136) + t38.times(t143) - t67.times(t144) + t118.times(t145);
-    let t148 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t119));
-    let t149 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
-    let t150 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
-    let t151 = t13.times(t143) + t1.times(t137) + t38.times(t148) - t67.times(t149) + t118.times(t150);
-    let t152 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t119));
-    let t153 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
-    let t154 = t13.times(t144) + t1.times(t138) + t38.times(t149) - t67.times(t152) + t118.times(t153);
-    let t155 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t119));
-    let t156 = t13.times(t145) + t1.times(t139) + t38.times(t150) - t67.times(t153) + t118.times(t155);
-    let t157 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t119));
-    let t158 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
-    let t159 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
-    let t160 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
-    let t161 = t30.times(t158) + t11.times(t157) + t56.times(t159) + t99.times(t160);
-    let t162 = t35.times(t158) + t14.times(t157) + t70.times(t159) + t115.times(t160);
-    let t163 = g[4].fnma(T::lit(0.17951486749246792), t119);
-    let t164 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
-    let t165 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
-    let t166 = t30.times(t163) + t11.times(t158) + t56.times(t164) + t99.times(t165);
-    let t167 = t35.times(t163) + t14.times(t158) + t70.times(t164) + t115.times(t165);
-    let t168 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t119));
-    let t169 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
-    let t170 = t30.times(t164) + t11.times(t159) + t56.times(t168) + t99.times(t169);
-    let t171 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t119));
-    let t172 = t30.times(t165) + t11.times(t160) + t56.times(t169) + t99.times(t171);
-    let t173 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t119));
-    let t174 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
-    let t175 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
-    let t176 = t54.times(t174) + t33.times(t173) + t104.times(t175);
-    let t177 = t68.times(t174) + t37.times(t173) + t117.times(t175);
-    let t178 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t119));
-    let t179 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
-    let t180 = t54.times(t178) + t33.times(t174) + t104.times(t179);
-    let t181 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t119));
-    let t182 = t68.times(t179) + t37.times(t175) + t117.times(t181);
-    let t183 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t119));
-    let t184 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
-    let t185 = t98.times(t184) + t55.times(t183);
-    let t186 = t116.times(t184) + t71.times(t183);
-    let t187 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t119));
-    let t188 = t98.times(t187) + t55.times(t184);
-    let t189 = t116.times(t187) + t71.times(t184);
-    let t190 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t119));
-    let t191 = t103.times(t190);
-    let t192 = t113.fma(T::lit(0.6846531968814576), t112.fnma(T::lit(0.19764235376052372), t78)).times(t190);
-    let t193 = b[0] * T::lit(0.28209479177387814);
-    let t194 = t123 + t100.times(t124) + g[1].times(t193);
-    let t195 = t125 - t2.times(t120) + t29.times(t126) + t57.times(t127) + t100.times(t128) + g[2].times(t193);
-    let t196 = t132 + t100.times(t133) + g[4].times(t193);
-    let t197 = g[0].times(b[0]) - g[1].times(t2) + g[2].times(t12) + g[3].times(t29) + g[4].times(t57) + g[5].times(t100);
-    let t198 = t140.fms(cs[5][0], t194 * cs[5][1]);
-    let t199 = t195.fnma(T::lit(1.7320508075688772), t161);
-    let t200 = t146.fma(cs[6][0], t199 * cs[10][1]);
-    let t201 = t199.fma(cs[10][0], t146 * cs[10][1]);
-    let t202 = t161 - t201;
-    let t203 = t147.fma(cs[5][0], t162 * cs[5][1]);
-    let t204 = t162.fnma(cs[5][0], t147 * cs[5][1]);
-    let t205 = t166.fnma(T::lit(0.3419987131196464), t129 + t57.times(t130) + t100.times(t131) + g[3].times(t193));
-    let t206 = t205.fma(T::lit(0.6123724356957945), t166);
-    let t207 = t206.fnma(T::lit(0.3419987131196464), t205);
-    let t208 = t176.fms(T::lit(0.12701665379258312), t9.times(t143) + t3.times(t137) + t32.times(t148) + t53.times(t149) + t105.times(t150));
-    let t209 = t208.fms(T::lit(0.25), t176);
-    let t210 = t209.fnma(T::lit(0.12701665379258312), t208);
-    let t211 = t207.fms(cs[7][0], t210 * cs[7][1]);
-    let t212 = t210.fma(cs[7][0], t207 * cs[7][1]);
-    let t213 = t211.fnma(T::lit(0.3419987131196464), t206.fms(cs[5][0], t209 * cs[5][1]));
-    let t214 = t213.fma(T::lit(0.6123724356957945), t211);
-    let t215 = t214.fnma(T::lit(0.3419987131196464), t213);
-    let t216 = t212.fms(T::lit(0.12701665379258312), t209.fma(cs[5][0], t206 * cs[5][1]));
-    let t217 = t216.fms(T::lit(0.25), t212);
-    let t218 = t217.fnma(T::lit(0.12701665379258312), t216);
-    let t219 = t177.fnma(T::lit(0.6123724356957945), t151 * T::lit(0.7905694150420949));
-    let t220 = t167.fms(cs[6][0], t219 * cs[6][1]);
-    let t221 = t167.fma(cs[6][1], t219.fms(cs[6][0], t219));
-    let t222 = t221.fnma(T::lit(0.6123724356957945), t177);
-    let t223 = t221.fma(T::lit(0.7905694150420949), t151);
-    let t224 = t180.fnma(T::lit(0.18267581368159952), t9.times(t144) + t3.times(t138) + t32.times(t149) + t53.times(t152) + t105.times(t153));
-    let t225 = t224.fma(T::lit(0.3535533905932738), t180);
-    let t226 = t225.fnma(T::lit(0.18267581368159952), t224);
-    let t227 = t196.fma(T::lit(0.739509972887452), t185.fms(T::lit(0.125), t170 * T::lit(0.6614378277661477)));
-    let t228 = t196.fma(T::lit(0.5590169943749475), t185.fnma(T::lit(0.6614378277661477), t170 * T::lit(0.5)));
-    let t229 = t226.fms(cs[8][0], t227 * cs[8][1]);
-    let t230 = t226.fma(cs[8][1], t227.fms(cs[8][0], t227));
-    let t231 = t225.fma(cs[6][1], t228.fms(cs[6][0], t228));
-    let t232 = t229.fnma(T::lit(0.18267581368159952), t225.fms(cs[6][0], t228 * cs[6][1]));
-    let t233 = t232.fma(T::lit(0.3535533905932738), t229);
-    let t234 = t233.fnma(T::lit(0.18267581368159952), t232);
-    let t235 = t231.fnma(T::lit(0.6614378277661477), t230.fma(T::lit(0.125), t185));
-    let t236 = t231.fma(T::lit(0.5), t230.fnma(T::lit(0.6614378277661477), t170));
-    let t237 = t154.fnma(T::lit(0.37796447300922725), t68.times(t178) + t37.times(t174) + t117.times(t179));
-    let t238 = t237.fma(T::lit(0.6614378277661477), t154);
-    let t239 = t238.fnma(T::lit(0.37796447300922725), t237);
-    let t240 = t186.fnma(T::lit(0.18267581368159952), t35.times(t164) + t14.times(t159) + t70.times(t168) + t115.times(t169));
-    let t241 = t240.fma(T::lit(0.3535533905932738), t186);
-    let t242 = t241.fnma(T::lit(0.18267581368159952), t240);
-    let t243 = t242.fma(cs[7][0], t239 * cs[7][1]);
-    let t244 = t238.fma(cs[5][0], t241 * cs[5][1]);
-    let t245 = t244.fma(T::lit(0.37796447300922725), t239.fms(cs[7][0], t242 * cs[7][1]));
-    let t246 = t245.fnma(T::lit(0.6614378277661477), t244);
-    let t247 = t246.fma(T::lit(0.37796447300922725), t245);
-    let t248 = t243.fnma(T::lit(0.18267581368159952), t241.fms(cs[5][0], t238 * cs[5][1]));
-    let t249 = t248.fma(T::lit(0.3535533905932738), t243);
-    let t250 = t249.fnma(T::lit(0.18267581368159952), t248);
-    let t251 = t172.fms(T::lit(0.07470077493066175), t134 + g[5].times(t193));
-    let t252 = t251.fms(T::lit(0.14857248482346963), t172);
-    let t253 = t252.fnma(T::lit(0.07470077493066175), t251);
-    let t254 = t252.fma(T::lit(0.4782913363666992), t253.fnma(T::lit(0.6642175991330467), t188));
-    let t255 = t254.fnma(T::lit(1.1976423537605236), t188);
-    let t256 = t254.fma(T::lit(0.795495128834866), t253);
-    let t257 = t254.fnma(T::lit(0.57282196186948), t252);
-    let t258 = t191.fnma(T::lit(0.4472135954999579), t54.times(t179) + t33.times(t175) + t104.times(t181));
-    let t259 = t191.fma(T::lit(0.9660917830792959), t9.times(t145) + t3.times(t139) + t32.times(t150) + t53.times(t153) + t105.times(t155));
-    let t260 = t259.fms(T::lit(0.9057110466368399), t258.fma(T::lit(0.4192627457812106), t191));
-    let t261 = t260.fma(T::lit(0.4472135954999579), t258);
-    let t262 = t260.fnma(T::lit(0.9660917830792959), t259);
-    let t263 = t255.fms(cs[9][0], t260 * cs[9][1]);
-    let t264 = t260.fma(cs[9][0], t255 * cs[9][1]);
-    let t265 = t256.fms(cs[7][0], t261 * cs[7][1]);
-    let t266 = t265.fms(T::lit(0.07470077493066175), t257.fms(cs[5][0], t262 * cs[5][1]));
-    let t267 = t266.fms(T::lit(0.14857248482346963), t265);
-    let t268 = t267.fnma(T::lit(0.07470077493066175), t266);
-    let t269 = t267.fma(T::lit(0.5857848612461443), t268.fnma(T::lit(0.5716674888222586), t263));
-    let t270 = t269.fnma(T::lit(1.1976423537605236), t263);
-    let t271 = t269.fma(T::lit(0.6846531968814576), t268);
-    let t272 = t264.fnma(T::lit(0.4472135954999579), t261.fma(cs[7][0], t256 * cs[7][1]));
-    let t273 = t264.fma(T::lit(0.9660917830792959), t262.fma(cs[5][0], t257 * cs[5][1]));
-    let t274 = t273.fms(T::lit(0.9057110466368399), t272.fma(T::lit(0.4192627457812106), t264));
-    let t275 = t274.fma(T::lit(0.4472135954999579), t272);
-    let t276 = t274.fnma(T::lit(0.9660917830792959), t273);
-    let t277 = t189.fms(T::lit(0.2679491924311227), t35.times(t165) + t14.times(t160) + t70.times(t169) + t115.times(t171));
-    let t278 = t277.fms(T::lit(0.5), t189);
-    let t279 = t278.fnma(T::lit(0.2679491924311227), t277);
-    let t280 = t156.fnma(T::lit(0.57282196186948), t192.fnma(T::lit(0.19764235376052372), t182 * T::lit(0.795495128834866)));
-    let t281 = t156.fnma(T::lit(0.6614378277661477), t192.fms(T::lit(0.6846531968814576), t182 * T::lit(0.30618621784789724)));
-    let t282 = t279.fms(cs[8][0], t280 * cs[8][1]);
-    let t283 = t279.fma(cs[8][1], t280.fms(cs[8][0], t280));
-    let t284 = t278.fma(cs[6][1], t281.fms(cs[6][0], t281));
-    let t285 = t282.fms(T::lit(0.2679491924311227), t278.fms(cs[6][0], t281 * cs[6][1]));
-    let t286 = t285.fms(T::lit(0.5), t282);
-    let t287 = t286.fnma(T::lit(0.2679491924311227), t285);
-    let t288 = t284.fma(T::lit(0.6846531968814576), t283.fnma(T::lit(0.19764235376052372), t192));
-    let t289 = t284.fnma(T::lit(0.30618621784789724), t283.fma(T::lit(0.795495128834866), t182));
-    let t290 = t284.fnma(T::lit(0.6614378277661477), t283.fnma(T::lit(0.57282196186948), t156));
+    let t129 = t100.times_fma(t128, t57.times_fma(t127, t29.times_fma(t126, t2.times_fnma(t120, t125))));
+    let t130 = t29.times_fma(g[4].fma(T::lit(0.15386988642211535), g[2].fma(T::lit(0.168208834801344), t119)), t2.times_fnma(t121, t12.times(t126)));
+    let t131 = g[5].fma(T::lit(0.14837393116990472), g[1].fma(T::lit(0.24623252122982908), g[3] * T::lit(0.15386988642211535)));
+    let t132 = g[2].fma(T::lit(0.23961469724456466), g[4] * T::lit(0.14837393116990472));
+    let t133 = t57.times_fma(g[4].fma(T::lit(0.13696110769441036), g[2].fma(T::lit(0.16383977415715326), t119)), t29.times_fma(t131, t2.times_fnma(t123, t12.times(t127))));
+    let t134 = g[5].fma(T::lit(0.13019759620332838), g[1].fma(T::lit(0.2455320005465369), g[3] * T::lit(0.14837393116990472)));
+    let t135 = t100.times_fma(g[4].fma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.16173926423206153), t119)), t57.times_fma(t134, t29.times_fma(t132, t2.times_fnma(t124, t12.times(t128)))));
+    let t136 = g[2].fnma(T::lit(0.126156626101008), t119);
+    let t137 = g[1].fms(T::lit(0.2185096861184158), g[3] * T::lit(0.14304816810266882));
+    let t138 = g[2].fms(T::lit(0.20230065940342062), g[4] * T::lit(0.15078600877302686));
+    let t139 = g[3].fms(T::lit(0.19466390027300617), g[5] * T::lit(0.1552880720369528));
+    let t140 = g[4] * T::lit(0.19018826981554557);
+    let t141 = t105.times_fma(t140, t53.times_fma(t139, t32.times_fma(t138, t3.times_fma(t136, t9.times(t137)))));
+    let t142 = t118.times_fma(t140, t67.times_fnma(t139, t38.times_fma(t138, t1.times_fma(t136, t13.times(t137)))));
+    let t143 = g[4].fnma(T::lit(0.16119702387078752), g[2].fma(T::lit(0.09011187578643429), t119));
+    let t144 = g[5].fnma(T::lit(0.1694331772935932), g[1].fma(T::lit(0.2335966803276074), g[3] * T::lit(0.059470803871759036)));
+    let t145 = g[2].fma(T::lit(0.2207281154418226), g[4] * T::lit(0.0448693700612124));
+    let t146 = g[3].fma(T::lit(0.21431790057875125), g[5] * T::lit(0.036165998945368996));
+    let t147 = t105.times_fma(t146, t53.times_fma(t145, t32.times_fma(t144, t3.times_fma(t137, t9.times(t143)))));
+    let t148 = t118.times_fma(t146, t67.times_fnma(t145, t38.times_fma(t144, t1.times_fma(t137, t13.times(t143)))));
+    let t149 = g[4].fma(T::lit(0.025644981070352558), g[2].fma(T::lit(0.126156626101008), t119));
+    let t150 = g[5].fma(T::lit(0.009577496073872776), g[1].fma(T::lit(0.23841361350444806), g[3] * T::lit(0.09932258459927991)));
+    let t151 = g[2].fma(T::lit(0.22731846124334895), g[4] * T::lit(0.08601992077982425));
+    let t152 = t105.times_fma(t151, t53.times_fma(t150, t32.times_fma(t149, t3.times_fma(t138, t9.times(t144)))));
+    let t153 = t118.times_fma(t151, t67.times_fnma(t150, t38.times_fma(t149, t1.times_fma(t138, t13.times(t144)))));
+    let t154 = g[4].fma(T::lit(0.06848055384720518), g[2].fma(T::lit(0.13926380803358027), t119));
+    let t155 = g[5].fma(T::lit(0.05315294607251315), g[1].fma(T::lit(0.24057124674551034), g[3] * T::lit(0.1150894671240813)));
+    let t156 = t105.times_fma(t155, t53.times_fma(t154, t32.times_fma(t150, t3.times_fma(t139, t9.times(t145)))));
+    let t157 = t118.times_fma(t155, t67.times_fnma(t154, t38.times_fma(t150, t1.times_fma(t139, t13.times(t145)))));
+    let t158 = g[4].fma(T::lit(0.08679839746888558), g[2].fma(T::lit(0.1455653378088554), t119));
+    let t159 = t105.times_fma(t158, t53.times_fma(t155, t32.times_fma(t151, t3.times_fma(t140, t9.times(t146)))));
+    let t160 = t118.times_fma(t158, t67.times_fnma(t155, t38.times_fma(t151, t1.times_fma(t140, t13.times(t146)))));
+    let t161 = g[4].fma(T::lit(0.04029925596769688), g[2].fnma(T::lit(0.18022375157286857), t119));
+    let t162 = g[5].fma(T::lit(0.05357947514468781), g[1].fms(T::lit(0.1846743909223718), g[3] * T::lit(0.18806319451591877)));
+    let t163 = g[2].fms(T::lit(0.15607834722743988), g[4] * T::lit(0.19036461502711166));
+    let t164 = g[3].fms(T::lit(0.14175796661021042), g[5] * T::lit(0.19137247825134124));
+    let t165 = t99.times_fma(t164, t56.times_fma(t163, t11.times_fma(t161, t30.times(t162))));
+    let t166 = t115.times_fma(t164, t70.times_fma(t163, t14.times_fma(t161, t35.times(t162))));
+    let t167 = g[4].fnma(T::lit(0.17951486749246792), t119);
+    let t168 = g[5].fnma(T::lit(0.17132745820333498), g[1].fms(T::lit(0.21324361862292307), g[3] * T::lit(0.04441841017299272)));
+    let t169 = g[2].fms(T::lit(0.19018826981554557), g[4] * T::lit(0.06542675382009712));
+    let t170 = t99.times_fma(t169, t56.times_fma(t168, t11.times_fma(t162, t30.times(t167))));
+    let t171 = t115.times_fma(t169, t70.times_fma(t168, t14.times_fma(t162, t35.times(t167))));
+    let t172 = g[4].fnma(T::lit(0.08369845470213967), g[2].fma(T::lit(0.0655359096628613), t119));
+    let t173 = g[5].fnma(T::lit(0.0994400566505079), g[1].fma(T::lit(0.2250337956076888), g[3] * T::lit(0.022664492358141868)));
+    let t174 = t99.times_fma(t173, t56.times_fma(t172, t11.times_fma(t163, t30.times(t168))));
+    let t175 = g[4].fnma(T::lit(0.021699599367221396), g[2].fma(T::lit(0.09704355853923692), t119));
+    let t176 = t99.times_fma(t175, t56.times_fma(t173, t11.times_fma(t164, t30.times(t169))));
+    let t177 = g[4].fma(T::lit(0.07693494321105768), g[2].fnma(T::lit(0.21026104350168), t119));
+    let t178 = g[5].fma(T::lit(0.09814013073014567), g[1].fms(T::lit(0.16286750396763996), g[3] * T::lit(0.20355072686733566)));
+    let t179 = g[2].fms(T::lit(0.12679217987703037), g[4] * T::lit(0.19628026146029134));
+    let t180 = t104.times_fma(t179, t33.times_fma(t177, t54.times(t178)));
+    let t181 = t117.times_fma(t179, t37.times_fma(t177, t68.times(t178)));
+    let t182 = g[4].fnma(T::lit(0.15978795897681208), g[2].fnma(T::lit(0.05734392095500364), t119));
+    let t183 = g[5].fnma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.1964256004372295), g[3] * T::lit(0.1038617518189333)));
+    let t184 = t104.times_fma(t183, t33.times_fma(t178, t54.times(t182)));
+    let t185 = g[4].fnma(T::lit(0.13019759620332838), g[2].fma(T::lit(0.016173926423206156), t119));
+    let t186 = t117.times_fma(t185, t37.times_fma(t179, t68.times(t183)));
+    let t187 = g[4].fma(T::lit(0.1065253059845414), g[2].fnma(T::lit(0.22937568382001455), t119));
+    let t188 = g[5].fma(T::lit(0.13019759620332838), g[1].fms(T::lit(0.14731920032792215), g[3] * T::lit(0.2077235036378666)));
+    let t189 = t55.times_fma(t187, t98.times(t188));
+    let t190 = t71.times_fma(t187, t116.times(t188));
+    let t191 = g[4].fnma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.09704355853923692), t119));
+    let t192 = t55.times_fma(t188, t98.times(t191));
+    let t193 = t71.times_fma(t188, t116.times(t191));
+    let t194 = g[4].fma(T::lit(0.13019759620332838), g[2].fnma(T::lit(0.24260889634809232), t119));
+    let t195 = t103.times(t194);
+    let t196 = t113.fma(T::lit(0.6846531968814576), t112.fnma(T::lit(0.19764235376052372), t78)).times(t194);
+    let t197 = b[0] * T::lit(0.28209479177387814);
+    let t198 = g[1].times_fma(t197, t100.times_fma(t124, t57.times_fma(t123, t122)));
+    let t199 = g[2].times_fma(t197, t129);
+    let t200 = g[4].times_fma(t197, t100.times_fma(t134, t133));
+    let t201 = g[4].times_fma(t57, g[3].times_fma(t29, g[2].times_fma(t12, g[0].times_fms(b[0], g[1].times(t2)))));
+    let t202 = t141.fms(cs[5][0], t198 * cs[5][1]);
+    let t203 = t199.fnma(T::lit(1.7320508075688772), t165);
+    let t204 = t147.fma(cs[6][0], t203 * cs[10][1]);
+    let t205 = t203.fma(cs[10][0], t147 * cs[10][1]);
+    let t206 = t165 - t205;
+    let t207 = t148.fma(cs[5][0], t166 * cs[5][1]);
+    let t208 = t166.fnma(cs[5][0], t148 * cs[5][1]);
+    let t209 = t170.fnma(T::lit(0.3419987131196464), g[3].times_fma(t197, t100.times_fma(t132, t57.times_fma(t131, t130))));
+    let t210 = t209.fma(T::lit(0.6123724356957945), t170);
+    let t211 = t210.fnma(T::lit(0.3419987131196464), t209);
+    let t212 = t180.fms(T::lit(0.12701665379258312), t152);
+    let t213 = t212.fms(T::lit(0.25), t180);
+    let t214 = t213.fnma(T::lit(0.12701665379258312), t212);
+    let t215 = t211.fms(cs[7][0], t214 * cs[7][1]);
+    let t216 = t214.fma(cs[7][0], t211 * cs[7][1]);
+    let t217 = t215.fnma(T::lit(0.3419987131196464), t210.fms(cs[5][0], t213 * cs[5][1]));
+    let t218 = t217.fma(T::lit(0.6123724356957945), t215);
+    let t219 = t218.fnma(T::lit(0.3419987131196464), t217);
+    let t220 = t216.fms(T::lit(0.12701665379258312), t213.fma(cs[5][0], t210 * cs[5][1]));
+    let t221 = t220.fms(T::lit(0.25), t216);
+    let t222 = t221.fnma(T::lit(0.12701665379258312), t220);
+    let t223 = t181.fnma(T::lit(0.6123724356957945), t153 * T::lit(0.7905694150420949));
+    let t224 = t171.fms(cs[6][0], t223 * cs[6][1]);
+    let t225 = t171.fma(cs[6][1], t223.fms(cs[6][0], t223));
+    let t226 = t225.fnma(T::lit(0.6123724356957945), t181);
+    let t227 = t225.fma(T::lit(0.7905694150420949), t153);
+    let t228 = t184.fnma(T::lit(0.18267581368159952), t156);
+    let t229 = t228.fma(T::lit(0.3535533905932738), t184);
+    let t230 = t229.fnma(T::lit(0.18267581368159952), t228);
+    let t231 = t200.fma(T::lit(0.739509972887452), t189.fms(T::lit(0.125), t174 * T::lit(0.6614378277661477)));
+    let t232 = t200.fma(T::lit(0.5590169943749475), t189.fnma(T::lit(0.6614378277661477), t174 * T::lit(0.5)));
+    let t233 = t230.fms(cs[8][0], t231 * cs[8][1]);
+    let t234 = t230.fma(cs[8][1], t231.fms(cs[8][0], t231));
+    let t235 = t229.fma(cs[6][1], t232.fms(cs[6][0], t232));
+    let t236 = t233.fnma(T::lit(0.18267581368159952), t229.fms(cs[6][0], t232 * cs[6][1]));
+    let t237 = t236.fma(T::lit(0.3535533905932738), t233);
+    let t238 = t237.fnma(T::lit(0.18267581368159952), t236);
+    let t239 = t235.fnma(T::lit(0.6614378277661477), t234.fma(T::lit(0.125), t189));
+    let t240 = t235.fma(T::lit(0.5), t234.fnma(T::lit(0.6614378277661477), t174));
+    let t241 = t157.fnma(T::lit(0.37796447300922725), t117.times_fma(t183, t37.times_fma(t178, t68.times(t182))));
+    let t242 = t241.fma(T::lit(0.6614378277661477), t157);
+    let t243 = t242.fnma(T::lit(0.37796447300922725), t241);
+    let t244 = t190.fnma(T::lit(0.18267581368159952), t115.times_fma(t173, t70.times_fma(t172, t14.times_fma(t163, t35.times(t168)))));
+    let t245 = t244.fma(T::lit(0.3535533905932738), t190);
+    let t246 = t245.fnma(T::lit(0.18267581368159952), t244);
+    let t247 = t246.fma(cs[7][0], t243 * cs[7][1]);
+    let t248 = t242.fma(cs[5][0], t245 * cs[5][1]);
+    let t249 = t248.fma(T::lit(0.37796447300922725), t243.fms(cs[7][0], t246 * cs[7][1]));
+    let t250 = t249.fnma(T::lit(0.6614378277661477), t248);
+    let t251 = t250.fma(T::lit(0.37796447300922725), t249);
+    let t252 = t247.fnma(T::lit(0.18267581368159952), t245.fms(cs[5][0], t242 * cs[5][1]));
+    let t253 = t252.fma(T::lit(0.3535533905932738), t247);
+    let t254 = t253.fnma(T::lit(0.18267581368159952), t252);
+    let t255 = t176.fms(T::lit(0.07470077493066175), g[5].times_fma(t197, t135));
+    let t256 = t255.fms(T::lit(0.14857248482346963), t176);
+    let t257 = t256.fnma(T::lit(0.07470077493066175), t255);
+    let t258 = t256.fma(T::lit(0.4782913363666992), t257.fnma(T::lit(0.6642175991330467), t192));
+    let t259 = t258.fnma(T::lit(1.1976423537605236), t192);
+    let t260 = t258.fma(T::lit(0.795495128834866), t257);
+    let t261 = t258.fnma(T::lit(0.57282196186948), t256);
+    let t262 = t195.fnma(T::lit(0.4472135954999579), t104.times_fma(t185, t33.times_fma(t179, t54.times(t183))));
+    let t263 = t195.fma(T::lit(0.9660917830792959), t159);
+    let t264 = t263.fms(T::lit(0.9057110466368399), t262.fma(T::lit(0.4192627457812106), t195));
+    let t265 = t264.fma(T::lit(0.4472135954999579), t262);
+    let t266 = t264.fnma(T::lit(0.9660917830792959), t263);
+    let t267 = t259.fms(cs[9][0], t264 * cs[9][1]);
+    let t268 = t264.fma(cs[9][0], t259 * cs[9][1]);
+    let t269 = t260.fms(cs[7][0], t265 * cs[7][1]);
+    let t270 = t269.fms(T::lit(0.07470077493066175), t261.fms(cs[5][0], t266 * cs[5][1]));
+    let t271 = t270.fms(T::lit(0.14857248482346963), t269);
+    let t272 = t271.fnma(T::lit(0.07470077493066175), t270);
+    let t273 = t271.fma(T::lit(0.5857848612461443), t272.fnma(T::lit(0.5716674888222586), t267));
+    let t274 = t273.fnma(T::lit(1.1976423537605236), t267);
+    let t275 = t273.fma(T::lit(0.6846531968814576), t272);
+    let t276 = t268.fnma(T::lit(0.4472135954999579), t265.fma(cs[7][0], t260 * cs[7][1]));
+    let t277 = t268.fma(T::lit(0.9660917830792959), t266.fma(cs[5][0], t261 * cs[5][1]));
+    let t278 = t277.fms(T::lit(0.9057110466368399), t276.fma(T::lit(0.4192627457812106), t268));
+    let t279 = t278.fma(T::lit(0.4472135954999579), t276);
+    let t280 = t278.fnma(T::lit(0.9660917830792959), t277);
+    let t281 = t193.fms(T::lit(0.2679491924311227), t115.times_fma(t175, t70.times_fma(t173, t14.times_fma(t164, t35.times(t169)))));
+    let t282 = t281.fms(T::lit(0.5), t193);
+    let t283 = t282.fnma(T::lit(0.2679491924311227), t281);
+    let t284 = t160.fnma(T::lit(0.57282196186948), t196.fnma(T::lit(0.19764235376052372), t186 * T::lit(0.795495128834866)));
+    let t285 = t160.fnma(T::lit(0.6614378277661477), t196.fms(T::lit(0.6846531968814576), t186 * T::lit(0.30618621784789724)));
+    let t286 = t283.fms(cs[8][0], t284 * cs[8][1]);
+    let t287 = t283.fma(cs[8][1], t284.fms(cs[8][0], t284));
+    let t288 = t282.fma(cs[6][1], t285.fms(cs[6][0], t285));
+    let t289 = t286.fms(T::lit(0.2679491924311227), t282.fms(cs[6][0], t285 * cs[6][1]));
+    let t290 = t289.fms(T::lit(0.5), t286);
+    let t291 = t290.fnma(T::lit(0.2679491924311227), t289);
+    let t292 = t288.fma(T::lit(0.6846531968814576), t287.fnma(T::lit(0.19764235376052372), t196));
+    let t293 = t288.fnma(T::lit(0.30618621784789724), t287.fma(T::lit(0.795495128834866), t186));
+    let t294 = t288.fnma(T::lit(0.6614378277661477), t287.fnma(T::lit(0.57282196186948), t160));
     [
-        t197 * T::lit(0.28209479177387814),
-        t141.fma(cs[0][0], t198 * cs[0][1]),
-        t194.fma(cs[5][0], t140 * cs[5][1]),
-        t198.fms(cs[0][0], t141 * cs[0][1]),
-        t204.fnma(cs[1][0], t202 * cs[1][1]),
-        t203.fma(cs[0][0], t200 * cs[0][1]),
-        t201.fma(T::lit(1.7320508075688772), t195),
-        t200.fms(cs[0][0], t203 * cs[0][1]),
-        t202.fma(cs[1][0], t204 * cs[1][1]),
-        t222.fma(cs[2][0], t218 * cs[2][1]),
-        t220.fma(cs[1][0], t215 * cs[1][1]),
-        t223.fma(cs[0][0], t217 * cs[0][1]),
-        t214,
-        t217.fms(cs[0][0], t223 * cs[0][1]),
-        t215.fms(cs[1][0], t220 * cs[1][1]),
-        t218.fms(cs[2][0], t222 * cs[2][1]),
-        t250.fma(cs[3][0], t235 * cs[3][1]),
-        t247.fma(cs[2][0], t234 * cs[2][1]),
-        t249.fma(cs[1][0], t236 * cs[1][1]),
-        t246.fma(cs[0][0], t233 * cs[0][1]),
-        t231.fma(T::lit(0.5590169943749475), t230.fma(T::lit(0.739509972887452), t196)),
-        t233.fms(cs[0][0], t246 * cs[0][1]),
-        t236.fms(cs[1][0], t249 * cs[1][1]),
-        t234.fms(cs[2][0], t247 * cs[2][1]),
-        t235.fms(cs[3][0], t250 * cs[3][1]),
-        t288.fma(cs[4][0], t274 * cs[4][1]),
-        t287.fma(cs[3][0], t270 * cs[3][1]),
-        t289.fma(cs[2][0], t275 * cs[2][1]),
-        t286.fma(cs[1][0], t271 * cs[1][1]),
-        t290.fma(cs[0][0], t276 * cs[0][1]),
-        t269.fnma(T::lit(0.701560760020114), t267),
-        t276.fms(cs[0][0], t290 * cs[0][1]),
-        t271.fms(cs[1][0], t286 * cs[1][1]),
-        t275.fms(cs[2][0], t289 * cs[2][1]),
-        t270.fms(cs[3][0], t287 * cs[3][1]),
-        t274.fms(cs[4][0], t288 * cs[4][1]),
+        g[5].times_fma(t100, t201) * T::lit(0.28209479177387814),
+        t142.fma(cs[0][0], t202 * cs[0][1]),
+        t198.fma(cs[5][0], t141 * cs[5][1]),
+        t202.fms(cs[0][0], t142 * cs[0][1]),
+        t208.fnma(cs[1][0], t206 * cs[1][1]),
+        t207.fma(cs[0][0], t204 * cs[0][1]),
+        t205.fma(T::lit(1.7320508075688772), t199),
+        t204.fms(cs[0][0], t207 * cs[0][1]),
+        t206.fma(cs[1][0], t208 * cs[1][1]),
+        t226.fma(cs[2][0], t222 * cs[2][1]),
+        t224.fma(cs[1][0], t219 * cs[1][1]),
+        t227.fma(cs[0][0], t221 * cs[0][1]),
+        t218,
+        t221.fms(cs[0][0], t227 * cs[0][1]),
+        t219.fms(cs[1][0], t224 * cs[1][1]),
+        t222.fms(cs[2][0], t226 * cs[2][1]),
+        t254.fma(cs[3][0], t239 * cs[3][1]),
+        t251.fma(cs[2][0], t238 * cs[2][1]),
+        t253.fma(cs[1][0], t240 * cs[1][1]),
+        t250.fma(cs[0][0], t237 * cs[0][1]),
+        t235.fma(T::lit(0.5590169943749475), t234.fma(T::lit(0.739509972887452), t200)),
+        t237.fms(cs[0][0], t250 * cs[0][1]),
+        t240.fms(cs[1][0], t253 * cs[1][1]),
+        t238.fms(cs[2][0], t251 * cs[2][1]),
+        t239.fms(cs[3][0], t254 * cs[3][1]),
+        t292.fma(cs[4][0], t278 * cs[4][1]),
+        t291.fma(cs[3][0], t274 * cs[3][1]),
+        t293.fma(cs[2][0], t279 * cs[2][1]),
+        t290.fma(cs[1][0], t275 * cs[1][1]),
+        t294.fma(cs[0][0], t280 * cs[0][1]),
+        t273.fnma(T::lit(0.701560760020114), t271),
+        t280.fms(cs[0][0], t294 * cs[0][1]),
+        t275.fms(cs[1][0], t290 * cs[1][1]),
+        t279.fms(cs[2][0], t293 * cs[2][1]),
+        t274.fms(cs[3][0], t291 * cs[3][1]),
+        t278.fms(cs[4][0], t292 * cs[4][1]),
     ]
 }
 
@@ -11543,7 +11580,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 36]) -> V {
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[2].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[6].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[6].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[2].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -11575,7 +11612,7 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 36]) -> V {
     let t53 = t45.fma(t46, t51.fms(t52, t51));
     let t54 = e[20].fma(T::lit(0.5590169943749475), t50.fms(T::lit(0.5), t49 * T::lit(0.6614378277661477)));
     let t55 = t44.fma(t30, t54.fms(t29, t54));
-    let t56 = t24 + c[12].times(t41) + c[20].times(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])));
+    let t56 = c[20].times_fma(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])), c[12].times_fma(t41, t24));
     let t57 = e[32].fms(t15, e[28] * t17);
     let t58 = t57.fms(T::lit(0.07470077493066175), e[30]);
     let t59 = t58.fms(T::lit(0.14857248482346963), t57);
@@ -11610,13 +11647,13 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 36]) -> V {
     let t88 = t37.fma(t31, t28 * t38);
     let t89 = t88.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t90 = t89.fms(T::lit(0.25), t88);
-    let t91 = e[11].fma(t10, e[13] * t12);
-    let t92 = e[10].fma(t15, e[14] * t17);
-    let t93 = e[9].fma(t32, e[15] * t33);
-    let t94 = t91.fms(T::lit(0.7905694150420949), t93 * T::lit(0.6123724356957945));
-    let t95 = t92.fma(t30, t94.fms(t29, t94));
-    let t96 = t95.fma(T::lit(0.7905694150420949), t91);
-    let t97 = c[1].times(t83) + c[3].times(t82) + c[7].times(t84) + c[5].times(t87) + c[13].times(t90) + c[11].times(t96);
+    let t91 = c[13].times_fma(t90, c[5].times_fma(t87, c[7].times_fma(t84, c[3].times_fma(t82, c[1].times(t83)))));
+    let t92 = e[11].fma(t10, e[13] * t12);
+    let t93 = e[10].fma(t15, e[14] * t17);
+    let t94 = e[9].fma(t32, e[15] * t33);
+    let t95 = t92.fms(T::lit(0.7905694150420949), t94 * T::lit(0.6123724356957945));
+    let t96 = t93.fma(t30, t95.fms(t29, t95));
+    let t97 = t96.fma(T::lit(0.7905694150420949), t92);
     let t98 = t45.fms(t52, t51 * t46);
     let t99 = t98.fnma(T::lit(0.18267581368159952), t44.fms(t29, t54 * t30));
     let t100 = t99.fma(T::lit(0.3535533905932738), t98);
@@ -11636,62 +11673,64 @@ pub fn shade<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 36]) -> V {
     let t114 = t112.fnma(T::lit(0.4472135954999579), t70.fma(t31, t63 * t38));
     let t115 = t113.fms(T::lit(0.9057110466368399), t114.fma(T::lit(0.4192627457812106), t112));
     let t116 = t115.fnma(T::lit(0.9660917830792959), t113);
-    let t117 = e[29].fma(t10, e[31] * t12);
-    let t118 = e[26].fma(t47, e[34] * t48);
-    let t119 = t118.fms(T::lit(0.2679491924311227), e[28].fma(t15, e[32] * t17));
-    let t120 = t119.fms(T::lit(0.5), t118);
-    let t121 = t120.fnma(T::lit(0.2679491924311227), t119);
-    let t122 = e[27].fma(t32, e[33] * t33);
-    let t123 = e[25].fma(t64, e[35] * t65);
-    let t124 = t117.fnma(T::lit(0.57282196186948), t122.fms(T::lit(0.795495128834866), t123 * T::lit(0.19764235376052372)));
-    let t125 = t121.fma(t46, t124.fms(t52, t124));
-    let t126 = t117.fnma(T::lit(0.6614378277661477), t123.fms(T::lit(0.6846531968814576), t122 * T::lit(0.30618621784789724)));
-    let t127 = t120.fma(t30, t126.fms(t29, t126));
-    let t128 = t127.fnma(T::lit(0.6614378277661477), t125.fnma(T::lit(0.57282196186948), t117));
-    let t129 = t2.fma(t7, t9);
-    let t130 = c[1].times(t82) - c[3].times(t83) - c[7].times(t87) + c[5].times(t84) - c[13].times(t96) + c[11].times(t90);
-    let t131 = t2.fms(t8, t11);
-    let t132 = (t130 - c[21].times(t111) + c[19].times(t100) - c[31].times(t128) + c[29].times(t116)) * t131;
-    let t133 = (t97 + c[21].times(t100) + c[19].times(t111) + c[31].times(t116) + c[29].times(t128)).fma(t129, t132);
-    let t134 = t18 - t23;
-    let t135 = t85.fms(t14, t86 * t4);
-    let t136 = t41.fnma(T::lit(0.3419987131196464), t40);
-    let t137 = t92.fms(t29, t94 * t30);
-    let t138 = t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50));
-    let t139 = c[8].times(t134) - c[4].times(t135) + c[14].times(t136) + c[10].times(t137) + c[22].times(t138);
-    let t140 = t109.fma(t31, t108 * t38);
-    let t141 = t140.fnma(T::lit(0.18267581368159952), t106.fms(t4, t103 * t14));
-    let t142 = t141.fma(T::lit(0.3535533905932738), t140);
-    let t143 = t81.fma(T::lit(0.6846531968814576), t80);
-    let t144 = t121.fms(t52, t124 * t46);
-    let t145 = t144.fms(T::lit(0.2679491924311227), t120.fms(t29, t126 * t30));
-    let t146 = t145.fms(T::lit(0.5), t144);
-    let t147 = t129.fms(t129, t131 * t131);
-    let t148 = c[4].times(t134) + c[8].times(t135) - c[14].times(t137) + c[10].times(t136) - c[22].times(t142);
-    let t149 = t129 * t131;
-    let t150 = t149 + t149;
-    let t151 = (t139 + c[18].times(t142) + c[32].times(t143) + c[28].times(t146)).fma(t147, (t148 + c[18].times(t138) - c[32].times(t146) + c[28].times(t143)) * t150);
-    let t152 = t90.fnma(T::lit(0.12701665379258312), t89);
-    let t153 = t95.fnma(T::lit(0.6123724356957945), t93);
-    let t154 = t100.fnma(T::lit(0.18267581368159952), t99);
-    let t155 = t111.fma(T::lit(0.37796447300922725), t110);
-    let t156 = t115.fma(T::lit(0.4472135954999579), t114);
-    let t157 = c[9].times(t153) + c[15].times(t152) + c[23].times(t154) + c[17].times(t155) + c[33].times(t156);
-    let t158 = t127.fnma(T::lit(0.30618621784789724), t125.fma(T::lit(0.795495128834866), t122));
-    let t159 = t129.fms(t147, t131 * t150);
-    let t160 = c[9].times(t152) - c[15].times(t153) - c[23].times(t155) + c[17].times(t154) - c[33].times(t158);
-    let t161 = t129.fma(t150, t131 * t147);
-    let t162 = t56 + c[30].times(t81.fnma(T::lit(0.701560760020114), t75)) + t133 + t151 + (t157 + c[27].times(t158)).fma(t159, (t160 + c[27].times(t156)) * t161);
+    let t117 = c[31].times_fma(t116, c[19].times_fma(t111, c[21].times_fma(t100, c[11].times_fma(t97, t91))));
+    let t118 = e[29].fma(t10, e[31] * t12);
+    let t119 = e[26].fma(t47, e[34] * t48);
+    let t120 = t119.fms(T::lit(0.2679491924311227), e[28].fma(t15, e[32] * t17));
+    let t121 = t120.fms(T::lit(0.5), t119);
+    let t122 = t121.fnma(T::lit(0.2679491924311227), t120);
+    let t123 = e[27].fma(t32, e[33] * t33);
+    let t124 = e[25].fma(t64, e[35] * t65);
+    let t125 = t118.fnma(T::lit(0.57282196186948), t123.fms(T::lit(0.795495128834866), t124 * T::lit(0.19764235376052372)));
+    let t126 = t122.fma(t46, t125.fms(t52, t125));
+    let t127 = t118.fnma(T::lit(0.6614378277661477), t124.fms(T::lit(0.6846531968814576), t123 * T::lit(0.30618621784789724)));
+    let t128 = t121.fma(t30, t127.fms(t29, t127));
+    let t129 = t128.fnma(T::lit(0.6614378277661477), t126.fnma(T::lit(0.57282196186948), t118));
+    let t130 = t2.fma(t7, t9);
+    let t131 = c[13].times_fnma(t97, c[5].times_fma(t84, c[7].times_fnma(t87, c[1].times_fms(t82, c[3].times(t83)))));
+    let t132 = c[31].times_fnma(t129, c[19].times_fma(t100, c[21].times_fnma(t111, c[11].times_fma(t90, t131))));
+    let t133 = t2.fms(t8, t11);
+    let t134 = c[30].times_fma(t81.fnma(T::lit(0.701560760020114), t75), t56) + c[29].times_fma(t129, t117).fma(t130, c[29].times_fma(t116, t132) * t133);
+    let t135 = t18 - t23;
+    let t136 = t85.fms(t14, t86 * t4);
+    let t137 = t41.fnma(T::lit(0.3419987131196464), t40);
+    let t138 = t93.fms(t29, t95 * t30);
+    let t139 = t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50));
+    let t140 = c[22].times_fma(t139, c[10].times_fma(t138, c[14].times_fma(t137, c[8].times_fms(t135, c[4].times(t136)))));
+    let t141 = t109.fma(t31, t108 * t38);
+    let t142 = t141.fnma(T::lit(0.18267581368159952), t106.fms(t4, t103 * t14));
+    let t143 = t142.fma(T::lit(0.3535533905932738), t141);
+    let t144 = t81.fma(T::lit(0.6846531968814576), t80);
+    let t145 = t122.fms(t52, t125 * t46);
+    let t146 = t145.fms(T::lit(0.2679491924311227), t121.fms(t29, t127 * t30));
+    let t147 = t146.fms(T::lit(0.5), t145);
+    let t148 = t130.fms(t130, t133 * t133);
+    let t149 = c[22].times_fnma(t143, c[10].times_fma(t137, c[14].times_fnma(t138, c[8].times_fma(t136, c[4].times(t135)))));
+    let t150 = t130 * t133;
+    let t151 = t150 + t150;
+    let t152 = c[28].times_fma(t147, c[32].times_fma(t144, c[18].times_fma(t143, t140))).fma(t148, c[28].times_fma(t144, c[32].times_fnma(t147, c[18].times_fma(t139, t149))) * t151);
+    let t153 = t90.fnma(T::lit(0.12701665379258312), t89);
+    let t154 = t96.fnma(T::lit(0.6123724356957945), t94);
+    let t155 = t100.fnma(T::lit(0.18267581368159952), t99);
+    let t156 = t111.fma(T::lit(0.37796447300922725), t110);
+    let t157 = t115.fma(T::lit(0.4472135954999579), t114);
+    let t158 = c[33].times_fma(t157, c[17].times_fma(t156, c[23].times_fma(t155, c[15].times_fma(t153, c[9].times(t154)))));
+    let t159 = t128.fnma(T::lit(0.30618621784789724), t126.fma(T::lit(0.795495128834866), t123));
+    let t160 = t130.fms(t148, t133 * t151);
+    let t161 = c[33].times_fnma(t159, c[17].times_fma(t155, c[23].times_fnma(t156, c[9].times_fms(t153, c[15].times(t154)))));
+    let t162 = t130.fma(t151, t133 * t148);
     let t163 = t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49));
-    let t164 = t142.fnma(T::lit(0.18267581368159952), t141);
+    let t164 = t143.fnma(T::lit(0.18267581368159952), t142);
     let t165 = t81.fnma(T::lit(1.1976423537605236), t79);
-    let t166 = t146.fnma(T::lit(0.2679491924311227), t145);
-    let t167 = t129.fms(t159, t131 * t161);
-    let t168 = t129.fma(t161, t131 * t159);
-    let t169 = (c[16].times(t164) + c[24].times(t163) + c[34].times(t165) + c[26].times(t166)).fma(t167, (c[16].times(t163) - c[24].times(t164) - c[34].times(t166) + c[26].times(t165)) * t168);
-    let t170 = t127.fma(T::lit(0.6846531968814576), t125.fnma(T::lit(0.19764235376052372), t123));
-    let t171 = (c[25].times(t170) + c[35].times(t115)).fma(t129.fms(t167, t131 * t168), (c[25].times(t115) - c[35].times(t170)) * t129.fma(t168, t131 * t167));
-    t162 + t169 + t171
+    let t166 = t147.fnma(T::lit(0.2679491924311227), t146);
+    let t167 = t130.fms(t160, t133 * t162);
+    let t168 = t130.fma(t162, t133 * t160);
+    let t169 = c[26].times_fma(t165, c[34].times_fnma(t166, c[16].times_fms(t163, c[24].times(t164)))) * t168;
+    let t170 = c[26].times_fma(t166, c[34].times_fma(t165, c[24].times_fma(t163, c[16].times(t164)))).fma(t167, t169);
+    let t171 = t134 + t152 + c[27].times_fma(t159, t158).fma(t160, c[27].times_fma(t157, t161) * t162) + t170;
+    let t172 = t128.fma(T::lit(0.6846531968814576), t126.fnma(T::lit(0.19764235376052372), t124));
+    let t173 = c[35].times_fma(t115, c[25].times(t172)).fma(t130.fms(t167, t133 * t168), c[25].times_fms(t115, c[35].times(t172)) * t130.fma(t168, t133 * t167));
+    t171 + t173
 }
 
 /// [`shade`] of three channels that share the parameters, as plain arrays.
@@ -11739,7 +11778,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 21
     let t21 = e[7].fms(t10, e[5] * t12);
     let t22 = t4 * t14;
     let t23 = t19.fma(T::lit(0.5) * t20, t21 * t22);
-    let t24 = c[1].times(e[2].fma(t4, t13 * t14)) + e[0].times(c[0]) + c[3].times(t23.fma(T::lit(1.7320508075688772), e[6]));
+    let t24 = c[3].times_fma(t23.fma(T::lit(1.7320508075688772), e[6]), e[0].times_fma(c[0], c[1].times(e[2].fma(t4, t13 * t14))));
     let t25 = e[14].fms(t15, e[10] * t17);
     let t26 = t25.fnma(T::lit(0.3419987131196464), e[12]);
     let t27 = t26.fma(T::lit(0.6123724356957945), t25);
@@ -11771,7 +11810,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 21
     let t53 = t45.fma(t46, t51.fms(t52, t51));
     let t54 = e[20].fma(T::lit(0.5590169943749475), t50.fms(T::lit(0.5), t49 * T::lit(0.6614378277661477)));
     let t55 = t44.fma(t30, t54.fms(t29, t54));
-    let t56 = t24 + c[6].times(t41) + c[10].times(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])));
+    let t56 = c[10].times_fma(t55.fma(T::lit(0.5590169943749475), t53.fma(T::lit(0.739509972887452), e[20])), c[6].times_fma(t41, t24));
     let t57 = e[32].fms(t15, e[28] * t17);
     let t58 = t57.fms(T::lit(0.07470077493066175), e[30]);
     let t59 = t58.fms(T::lit(0.14857248482346963), t57);
@@ -11800,7 +11839,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 21
     let t82 = t37.fma(t31, t28 * t38);
     let t83 = t82.fms(T::lit(0.12701665379258312), t36.fma(t4, t27 * t14));
     let t84 = t83.fms(T::lit(0.25), t82);
-    let t85 = c[4].times(t21.fma(t29, t19 * t22)) + c[2].times(t13.fms(t4, e[2] * t14)) + c[7].times(t84);
+    let t85 = c[7].times_fma(t84, c[2].times_fma(t13.fms(t4, e[2] * t14), c[4].times(t21.fma(t29, t19 * t22))));
     let t86 = t45.fms(t52, t51 * t46);
     let t87 = t86.fnma(T::lit(0.18267581368159952), t44.fms(t29, t54 * t30));
     let t88 = t87.fma(T::lit(0.3535533905932738), t86);
@@ -11816,7 +11855,7 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 21
     let t98 = e[9].fma(t32, e[15] * t33);
     let t99 = t96.fms(T::lit(0.7905694150420949), t98 * T::lit(0.6123724356957945));
     let t100 = t97.fma(t30, t99.fms(t29, t99));
-    let t101 = c[4].times(t94.fma(t4, t95 * t14)) + c[2].times(e[1].fma(t10, e[3] * t12)) + c[7].times(t100.fma(T::lit(0.7905694150420949), t96));
+    let t101 = c[7].times_fma(t100.fma(T::lit(0.7905694150420949), t96), c[2].times_fma(e[1].fma(t10, e[3] * t12), c[4].times(t94.fma(t4, t95 * t14))));
     let t102 = e[19].fma(t10, e[21] * t12);
     let t103 = t102.fnma(T::lit(0.37796447300922725), e[17].fma(t32, e[23] * t33));
     let t104 = t103.fma(T::lit(0.6614378277661477), t102);
@@ -11839,33 +11878,33 @@ pub fn shade_isotropic<T: Real, V: Signal<T>>(q: [T; 4], e: &[V; 36], c: &[V; 21
     let t121 = t117.fma(t46, t120.fms(t52, t120));
     let t122 = t113.fnma(T::lit(0.6614378277661477), t119.fms(T::lit(0.6846531968814576), t118 * T::lit(0.30618621784789724)));
     let t123 = t116.fma(t30, t122.fms(t29, t122));
-    let t124 = t101 + c[11].times(t112) + c[16].times(t123.fnma(T::lit(0.6614378277661477), t121.fnma(T::lit(0.57282196186948), t113)));
+    let t124 = c[16].times_fma(t123.fnma(T::lit(0.6614378277661477), t121.fnma(T::lit(0.57282196186948), t113)), c[11].times_fma(t112, t101));
     let t125 = t2.fms(t8, t11);
-    let t126 = (t85 + c[11].times(t88) + c[16].times(t92.fnma(T::lit(0.9660917830792959), t90))).fms(t93, t124 * t125);
-    let t127 = c[8].times(t41.fnma(T::lit(0.3419987131196464), t40)) + c[5].times(t18 - t23) + c[12].times(t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50)));
+    let t126 = c[16].times_fma(t92.fnma(T::lit(0.9660917830792959), t90), c[11].times_fma(t88, t85)).fms(t93, t124 * t125);
+    let t127 = c[12].times_fma(t55.fma(T::lit(0.5), t53.fnma(T::lit(0.6614378277661477), t50)), c[5].times_fma(t18 - t23, c[8].times(t41.fnma(T::lit(0.3419987131196464), t40))));
     let t128 = t93.fms(t93, t125 * t125);
     let t129 = t110.fma(t31, t109 * t38);
     let t130 = t129.fnma(T::lit(0.18267581368159952), t107.fms(t4, t104 * t14));
     let t131 = t130.fma(T::lit(0.3535533905932738), t129);
-    let t132 = c[5].times(t94.fms(t14, t95 * t4)) - c[8].times(t97.fms(t29, t99 * t30)) - c[12].times(t131);
+    let t132 = c[12].times_fnma(t131, c[5].times_fms(t94.fms(t14, t95 * t4), c[8].times(t97.fms(t29, t99 * t30))));
     let t133 = t117.fms(t52, t120 * t46);
     let t134 = t133.fms(T::lit(0.2679491924311227), t116.fms(t29, t122 * t30));
     let t135 = t134.fms(T::lit(0.5), t133);
     let t136 = t93 * t125;
     let t137 = t136 + t136;
-    let t138 = (t127 + c[17].times(t81.fma(T::lit(0.6846531968814576), t80))).fma(t128, (t132 - c[17].times(t135)) * t137);
-    let t139 = c[13].times(t88.fnma(T::lit(0.18267581368159952), t87)) + c[9].times(t84.fnma(T::lit(0.12701665379258312), t83));
+    let t138 = c[17].times_fma(t81.fma(T::lit(0.6846531968814576), t80), t127).fma(t128, c[17].times_fnma(t135, t132) * t137);
+    let t139 = c[9].times_fma(t84.fnma(T::lit(0.12701665379258312), t83), c[13].times(t88.fnma(T::lit(0.18267581368159952), t87)));
     let t140 = t93.fms(t128, t125 * t137);
-    let t141 = c[13].times(t112.fma(T::lit(0.37796447300922725), t111)) + c[9].times(t100.fnma(T::lit(0.6123724356957945), t98));
-    let t142 = t141 + c[18].times(t123.fnma(T::lit(0.30618621784789724), t121.fma(T::lit(0.795495128834866), t118)));
+    let t141 = c[9].times_fma(t100.fnma(T::lit(0.6123724356957945), t98), c[13].times(t112.fma(T::lit(0.37796447300922725), t111)));
+    let t142 = c[18].times_fma(t123.fnma(T::lit(0.30618621784789724), t121.fma(T::lit(0.795495128834866), t118)), t141);
     let t143 = t93.fma(t137, t125 * t128);
-    let t144 = t56 + c[15].times(t81.fnma(T::lit(0.701560760020114), t75)) + t126 + t138 + (t139 + c[18].times(t92.fma(T::lit(0.4472135954999579), t91))).fms(t140, t142 * t143);
-    let t145 = c[19].times(t81.fnma(T::lit(1.1976423537605236), t79)) + c[14].times(t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49)));
+    let t144 = c[15].times_fma(t81.fnma(T::lit(0.701560760020114), t75), t56) + t126 + t138 + c[18].times_fma(t92.fma(T::lit(0.4472135954999579), t91), t139).fms(t140, t142 * t143);
+    let t145 = c[14].times_fma(t55.fnma(T::lit(0.6614378277661477), t53.fma(T::lit(0.125), t49)), c[19].times(t81.fnma(T::lit(1.1976423537605236), t79)));
     let t146 = t93.fms(t140, t125 * t143);
-    let t147 = c[19].times(t135.fnma(T::lit(0.2679491924311227), t134)) + c[14].times(t131.fnma(T::lit(0.18267581368159952), t130));
+    let t147 = c[14].times_fma(t131.fnma(T::lit(0.18267581368159952), t130), c[19].times(t135.fnma(T::lit(0.2679491924311227), t134)));
     let t148 = t93.fma(t143, t125 * t140);
     let t149 = t123.fma(T::lit(0.6846531968814576), t121.fnma(T::lit(0.19764235376052372), t119)) * t93.fma(t148, t125 * t146);
-    let t150 = t144 + t145.fms(t146, t147 * t148) + c[20].times(t92.fms(t93.fms(t146, t125 * t148), t149));
+    let t150 = c[20].times_fma(t92.fms(t93.fms(t146, t125 * t148), t149), t144 + t145.fms(t146, t147 * t148));
     t150
 }
 

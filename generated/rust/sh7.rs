@@ -8053,16 +8053,19 @@ pub fn rotate_x_minus_90deg_rgb<T: Real>(c: &[[T; 3]; 49]) -> [[T; 3]; 49] {
 #[allow(clippy::all, clippy::excessive_precision)]
 #[inline(always)]
 pub fn dot<T: Real, V: Signal<T>>(a: &[V; 49], b: &[V; 49]) -> V {
-    let t0 = a[1].times(b[1]) + a[0].times(b[0]) + a[2].times(b[2]) + a[3].times(b[3]) + a[4].times(b[4]);
-    let t1 = t0 + a[5].times(b[5]) + a[6].times(b[6]) + a[7].times(b[7]) + a[8].times(b[8]) + a[9].times(b[9]);
-    let t2 = t1 + a[10].times(b[10]) + a[11].times(b[11]) + a[12].times(b[12]) + a[13].times(b[13]) + a[14].times(b[14]);
-    let t3 = t2 + a[15].times(b[15]) + a[16].times(b[16]) + a[17].times(b[17]) + a[18].times(b[18]) + a[19].times(b[19]);
-    let t4 = t3 + a[20].times(b[20]) + a[21].times(b[21]) + a[22].times(b[22]) + a[23].times(b[23]) + a[24].times(b[24]);
-    let t5 = t4 + a[25].times(b[25]) + a[26].times(b[26]) + a[27].times(b[27]) + a[28].times(b[28]) + a[29].times(b[29]);
-    let t6 = t5 + a[30].times(b[30]) + a[31].times(b[31]) + a[32].times(b[32]) + a[33].times(b[33]) + a[34].times(b[34]);
-    let t7 = t6 + a[35].times(b[35]) + a[36].times(b[36]) + a[37].times(b[37]) + a[38].times(b[38]) + a[39].times(b[39]);
-    let t8 = t7 + a[40].times(b[40]) + a[41].times(b[41]) + a[42].times(b[42]) + a[43].times(b[43]) + a[44].times(b[44]);
-    t8 + a[45].times(b[45]) + a[46].times(b[46]) + a[47].times(b[47]) + a[48].times(b[48])
+    let t0 = a[4].times_fma(b[4], a[3].times_fma(b[3], a[2].times_fma(b[2], a[0].times_fma(b[0], a[1].times(b[1])))));
+    let t1 = a[8].times_fma(b[8], a[7].times_fma(b[7], a[6].times_fma(b[6], a[5].times_fma(b[5], t0))));
+    let t2 = a[12].times_fma(b[12], a[11].times_fma(b[11], a[10].times_fma(b[10], a[9].times_fma(b[9], t1))));
+    let t3 = a[16].times_fma(b[16], a[15].times_fma(b[15], a[14].times_fma(b[14], a[13].times_fma(b[13], t2))));
+    let t4 = a[20].times_fma(b[20], a[19].times_fma(b[19], a[18].times_fma(b[18], a[17].times_fma(b[17], t3))));
+    let t5 = a[24].times_fma(b[24], a[23].times_fma(b[23], a[22].times_fma(b[22], a[21].times_fma(b[21], t4))));
+    let t6 = a[28].times_fma(b[28], a[27].times_fma(b[27], a[26].times_fma(b[26], a[25].times_fma(b[25], t5))));
+    let t7 = a[32].times_fma(b[32], a[31].times_fma(b[31], a[30].times_fma(b[30], a[29].times_fma(b[29], t6))));
+    let t8 = a[36].times_fma(b[36], a[35].times_fma(b[35], a[34].times_fma(b[34], a[33].times_fma(b[33], t7))));
+    let t9 = a[40].times_fma(b[40], a[39].times_fma(b[39], a[38].times_fma(b[38], a[37].times_fma(b[37], t8))));
+    let t10 = a[44].times_fma(b[44], a[43].times_fma(b[43], a[42].times_fma(b[42], a[41].times_fma(b[41], t9))));
+    let t11 = a[48].times_fma(b[48], a[47].times_fma(b[47], a[46].times_fma(b[46], a[45].times_fma(b[45], t10))));
+    t11
 }
 
 /// [`dot`] of three channels that share the parameters, as plain arrays.

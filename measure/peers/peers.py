@@ -285,6 +285,38 @@ SECTIONS = [
     ),
 ]
 
+# Written by hand: each needs a program of its own.
+SPELLINGS = """## What keeps SLP from a single call
+
+LLVM's SLP pass makes vectors of scalar code. It begins at numbers that are stored side by side, as a kernel's results are, and
+for `rotate` without multiply-add instructions the moves cost more than the vectors save. Rust has no attribute against it. What
+was tried, in copies, compiled for the baseline by rustc 1.95:
+
+| | n = 3 | n = 4 | n = 5 | n = 6 |
+|---|---|---|---|---|
+| DirectXMath, another day | 85 | 63 | 59 | 56 |
+| the kernel by value, its result written in place | 47 | 65 | 66 | 60 |
+| the same, a `compiler_fence` after each number | 40 | 52 | 54 | 56 |
+| a fence after every third number | 54 | 61 | 77 | 73 |
+| fences between numbers of an array that is then returned | 47 | 53 | 55 | 58 |
+| the kernel into a sink, no fence | 47 | 68 | 60 | 65 |
+| into a sink, a fence after each number | 37 | 49 | 52 | 53 |
+| **set-up and bands into a sink, a fence after each number: `rotate_into`** | 36 | 49 | 51 | 52 |
+| the bits of every second number xor a zero that the compiler cannot know | 39 | 52 | 56 | 58 |
+| of every fourth number | 39 | 56 | 61 | 63 |
+| relaxed atomics on the stack, copied out | 50 | 66 | 66 | 60 |
+| `black_box` of every fourth number | 39 | 61 | 70 | 79 |
+| `black_box` of each number's address | 44 | 62 | 65 | 59 |
+
+Operations on `__m128` need `unsafe`: that SSE is on in the build is not enough for rustc, the function has to say so too. A fence
+keeps a loop around the call from being made one of vectors as well, so that `rotate` has none: it takes 12 ns in a loop of order 5
+where it is inlined. By the same means, times of the form by value, baseline and native, in copies, n = 3, 4, 5, 6, 8, 10:
+`tilt` 25, 33, 32, 31, 33, 35 becomes 25, 33, 28, 27, 30, 31 (native 21, 25, 24, 22, 24, 26 becomes 21, 25, 22, 22, 23, 25);
+the basis 7.8, 8.6, 9.1, 8.6, 10.6, 10 becomes 7, 8.6, 7.2, 7.2, 7.7, 8.2 (native 7.4, 7.4, 6.8, 6.7, 6.9, 7.7 becomes 7.1, 8.1, 7,
+7.1, 7.4, 7.9); `rotate` of three channels 124, 134, 113, 112, 218, 243 becomes 97, 106, 107, 107, 128, 230 (native 111, 98, 84, 82,
+121, 218 becomes 90, 86, 76, 75, 83, 161). `Rotation::apply` gains at order 6 and loses at others, and has no such form.
+"""
+
 
 def name_of(worker, form):
     if form in FORMS:
@@ -365,7 +397,7 @@ def page(best, errors, copies, missing, far):
         "largest of any coefficient at the orders of the table, for coefficients from −1 to 1, against zonal in f64 from "
         "the same inputs, of length one. *Baseline*: compiled for the architecture's baseline; *native*: with "
         "`-C target-cpu=native`, which fuses multiply-adds; *without SLP*: the baseline with `-C no-vectorize-slp`. *A call* returns its result by value, *in place* writes it "
-        "where it belongs, *a plain loop* has the kernel inlined; *a batch* works on all "
+        "where it belongs, by `rotate_into`, `tilt_into` or `evaluate_basis_into` where it is one of these, *a plain loop* has the kernel inlined; *a batch* works on all "
         "signals in one call of `zonal::batch`, by the widest vector unit whatever the flags. Absolute times do not carry over to another machine.\n\n"
         f"Compared with {', '.join(versions)}. No test reads these figures.\n"
     )
@@ -385,8 +417,7 @@ def page(best, errors, copies, missing, far):
             shown = [f"{short(x)} ({short(x / copies[order])})" if x else "" for x, order in zip(cells, orders)]
             error = errors.get((function, name))
             text += f"| {name} | {' | '.join(shown)} | {error:.1e} |\n" if error is not None else ""
-    text += "\n" + native(best, far)
-    return text
+    return text + "\n" + native(best, far) + "\n" + SPELLINGS
 
 
 def native(best, far):

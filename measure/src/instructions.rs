@@ -11,16 +11,18 @@ use std::process::{Command, Stdio};
 use zonal_codegen::families::Spec;
 use zonal_codegen::ir::listing::Listing;
 
-/// The functions of the bench, what of the generator they call at order n.
-pub const FUNCTIONS: [(&str, &str); 5] = [
-    ("rotate", "rotate:n"),
-    ("apply", "rotate:n:angles"),
-    ("evaluate_basis", "basis:n"),
-    ("evaluate", "eval:n"),
-    ("tilt", "tilt:n"),
+/// The functions of the bench, their forms, what of the generator they call at order n.
+pub const FUNCTIONS: [(&str, &str, &str); 8] = [
+    ("rotate", "call", "rotate:n"),
+    ("rotate", "into", "rotate:n"),
+    ("apply", "call", "rotate:n:angles"),
+    ("evaluate_basis", "call", "basis:n"),
+    ("evaluate_basis", "into", "basis:n"),
+    ("evaluate", "call", "eval:n"),
+    ("tilt", "call", "tilt:n"),
+    ("tilt", "into", "tilt:n"),
 ];
-/// What a call is named after: the linker keeps one of two functions that are the same to the last instruction, and the call
-/// that returns by value is that which writes its result in place.
+/// The forms of the bench. The linker keeps one of two functions that are the same to the last instruction, under either name.
 const FORMS: [&str; 2] = ["call", "into"];
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=10;
 /// Instructions an operation. A multiply-add is two, and numbers are loaded and stored; what lies outside was counted wrongly.
@@ -32,7 +34,7 @@ const MOST: f64 = 6.0;
 pub struct Instructions {
     /// The kernel.
     pub spec: String,
-    /// The function of the bench.
+    /// The function of zonal: that of the bench, with `_into` where it writes in place.
     pub function: String,
     /// The order.
     pub order: usize,
@@ -43,7 +45,7 @@ pub struct Instructions {
 }
 
 fn spec_of(function: usize, order: usize) -> Spec {
-    FUNCTIONS[function].1.replace(":n", &format!(":{order}")).parse().expect("is of the catalogue")
+    FUNCTIONS[function].2.replace(":n", &format!(":{order}")).parse().expect("is of the catalogue")
 }
 
 fn operations(spec: &Spec) -> usize {
@@ -108,29 +110,34 @@ fn built(root: &Path) -> Result<PathBuf, String> {
 /// which.
 pub fn measure(root: &Path) -> Result<Vec<Instructions>, String> {
     let bench = built(root)?;
-    let file = bench.with_extension("callgrind");
-    let mut command = Command::new("valgrind");
-    command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", file.display()));
-    command.args(FORMS.map(|form| format!("--toggle-collect=*::calls::order*::*::{form}*")));
-    output(command.arg(&bench).stdout(Stdio::null()))
-        .map_err(|error| format!("{error}; valgrind is Debian's package of that name"))?;
-    let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
-    let counted = counted(&text);
-    let count = |order: usize, function: &str| {
+    // Callgrind takes one name at a time.
+    let mut counts = BTreeMap::new();
+    for form in FORMS {
+        let file = bench.with_extension(format!("{form}.callgrind"));
+        let mut command = Command::new("valgrind");
+        command.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", file.display()));
+        command.arg(format!("--toggle-collect=*::calls::order*::*::{form}*"));
+        output(command.arg(&bench).stdout(Stdio::null()))
+            .map_err(|error| format!("{error}; valgrind is Debian's package of that name"))?;
+        let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+        counts.extend(counted(&text).into_iter().filter(|(name, _)| name.contains(&format!("::{form}"))));
+    }
+    let count = |order: usize, function: &str, form: &str| {
         let name = format!("::order{order}::{function}::");
-        let found = counted.iter().find(|(known, _)| FORMS.iter().any(|form| known.contains(&format!("{name}{form}"))));
-        found.map(|(_, &count)| count).ok_or_else(|| format!("callgrind counted no `{name}call`"))
+        let named = |form: &str| counts.iter().find(|(known, _)| known.contains(&format!("{name}{form}")));
+        let found = named(form).or_else(|| FORMS.iter().find_map(|form| named(form)));
+        found.map(|(_, &count)| count).ok_or_else(|| format!("callgrind counted no `{name}{form}`"))
     };
     let mut rows = Vec::new();
-    for (place, (function, _)) in FUNCTIONS.iter().enumerate() {
+    for (place, (function, form, _)) in FUNCTIONS.iter().enumerate() {
         for order in ORDERS {
             let spec = spec_of(place, order);
             rows.push(Instructions {
                 operations: operations(&spec),
                 spec: spec.to_string(),
-                function: (*function).to_owned(),
+                function: format!("{function}{}", if *form == "into" { "_into" } else { "" }),
                 order,
-                count: count(order, function)?,
+                count: count(order, function, form)?,
             });
         }
     }
@@ -222,7 +229,8 @@ mod tests {
             let function = FUNCTIONS[function].0.to_owned();
             Instructions { spec: spec.to_string(), function, order, operations, count }
         };
-        let rows: Vec<Instructions> = (0..5).flat_map(|f| ORDERS.map(move |order| row(f, order, 2.0))).collect();
+        let rows: Vec<Instructions> =
+            (0..FUNCTIONS.len()).flat_map(|f| ORDERS.map(move |order| row(f, order, 2.0))).collect();
         assert_eq!(stale(&rows), [""; 0]);
         assert_eq!(stale(&rows[1..]).len(), 1);
         let mut wrong = rows.clone();

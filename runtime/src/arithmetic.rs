@@ -49,8 +49,8 @@ pub fn lerp<C: Coefficients>(a: &C, b: &C, t: C::Scalar) -> C {
 /// ```
 #[inline]
 pub fn dot<C: Coefficients>(a: &C, b: &C) -> C::Element {
-    let terms = a.as_ref().iter().zip(b.as_ref()).map(|(a, b)| a.signal().times(b.signal()));
-    C::Element::element(terms.fold(Signal::zero(), |sum, term| sum + term))
+    let pairs = a.as_ref().iter().zip(b.as_ref());
+    C::Element::element(pairs.fold(Signal::zero(), |sum, (a, b)| a.signal().times_fma(b.signal(), sum)))
 }
 
 /// Returns the sum of the coefficients of a signal of any number of channels, each times a number: what

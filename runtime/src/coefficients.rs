@@ -157,6 +157,12 @@ pub trait Coefficients:
     #[doc(hidden)]
     fn rotate(q: [Self::Scalar; 4], c: &Self) -> Self;
     #[doc(hidden)]
+    fn basis_into(dir: [Self::Scalar; 3], to: &mut Self::Basis);
+    #[doc(hidden)]
+    fn rotate_into(q: [Self::Scalar; 4], c: &Self, to: &mut Self);
+    #[doc(hidden)]
+    fn tilt_into(n: [Self::Scalar; 3], c: &Self, to: &mut Self);
+    #[doc(hidden)]
     fn rotate_matrix(columns: [[Self::Scalar; 3]; 3], c: &Self) -> Self;
     #[doc(hidden)]
     fn rotate_y(cs: [Self::Scalar; 2], c: &Self) -> Self;
@@ -228,6 +234,21 @@ macro_rules! orders {
                     1 => zonal_kernels::$module::$one(q, c.borrow()),
                     _ => zonal_kernels::$module::$many(q, c.borrow()),
                 })
+            }
+            #[inline]
+            fn basis_into(dir: [E::Scalar; 3], to: &mut Self::Basis) {
+                crate::pieces::$module::basis(dir, to);
+            }
+            #[inline]
+            fn rotate_into(q: [E::Scalar; 4], c: &Self, to: &mut Self) {
+                match E::CHANNELS {
+                    1 => crate::pieces::$module::$one(q, c, to),
+                    _ => crate::pieces::$module::$many(q, c, to),
+                }
+            }
+            #[inline]
+            fn tilt_into(n: [E::Scalar; 3], c: &Self, to: &mut Self) {
+                crate::pieces::$module::tilt(n, c, to);
             }
             #[inline]
             fn rotate_matrix(columns: [[E::Scalar; 3]; 3], c: &Self) -> Self {

@@ -35,7 +35,7 @@
 //!
 //! | what is given | function | exact | costs |
 //! |---|---|---|---|
-//! | a quaternion | [`rotate`] | yes | most |
+//! | a quaternion | [`rotate`], for one signal at a time [`rotate_into`] | yes | most |
 //! | one quaternion for many signals | [`Rotation`] | yes | from the second signal on less than [`rotate`] |
 //! | a matrix | [`rotate_matrix`] | yes | no more at the orders 2 and 3, a root more above |
 //! | an angle about z or y | [`rotate_z`], [`rotate_y`] | yes | less |
@@ -81,9 +81,11 @@
 //! numbers one by one. `docs/measure/peers.md` of the repository has the figures, by function and order. Whoever turns many
 //! signals at once and compiles for this processor keeps single calls apart, in a function that is `#[inline(never)]`.
 //!
-//! On x86-64 without the flag, the compiler packs the numbers of one signal into vectors where it had better not:
-//! `-C no-vectorize-slp` makes a single [`rotate`] of the orders 3 to 5 take a fifth less. A result that is returned by value
-//! to a function that stores it is copied once more, which shows at the orders 3 to 5; inlined it is not.
+//! On x86-64 without the flag, the compiler packs the numbers of one signal into vectors where it had better not, and a
+//! result that is returned by value to a function that stores it is copied once more. [`rotate_into`], [`tilt_into`] and
+//! [`evaluate_basis_into`] write each number where it belongs before the next is computed, which keeps the compiler from both:
+//! [`rotate_into`] takes a quarter less than [`rotate`] at the orders 3 to 5. They keep it too from doing several signals of
+//! a loop at once: they are for one signal at a time.
 //!
 //! # Input that is not unit
 //!
@@ -151,6 +153,7 @@ mod error;
 mod grid;
 mod light;
 mod matrix;
+mod pieces;
 pub mod project;
 mod rotation;
 mod scalar;
@@ -170,7 +173,9 @@ pub use surface::{Frame, Lightmap, h4, h6};
 pub use surface::{h4_at, hl2_at};
 #[cfg(feature = "order3")]
 pub use surface::{h6_at, hl2};
-pub use zonal_kernels::*;
+#[cfg(feature = "shaders")]
+pub use zonal_kernels::shaders;
+pub use zonal_kernels::{conventions, costs, real};
 
 /// Modules of this crate, so that rustc knows of those that are left out, and by which feature.
 macro_rules! kernels {
@@ -209,6 +214,20 @@ pub fn evaluate_basis<C: Coefficients<Basis = C>>(dir: impl Into<[C::Scalar; 3]>
     C::basis(dir.into())
 }
 
+/// Writes all n² harmonics at a direction of unit length, as [`evaluate_basis`] returns them, bit for bit.
+///
+/// For one direction at a time; see [what it is compiled for](crate#what-it-is-compiled-for).
+///
+/// ```
+/// let mut y = [0.0_f32; 9];
+/// zonal::evaluate_basis_into([0.0, 0.6, 0.8], &mut y);
+/// assert_eq!(y, zonal::evaluate_basis::<[f32; 9]>([0.0, 0.6, 0.8]));
+/// ```
+#[inline]
+pub fn evaluate_basis_into<C: Coefficients<Basis = C>>(dir: impl Into<[C::Scalar; 3]>, to: &mut C) {
+    C::basis_into(dir.into(), to);
+}
+
 /// Returns the value of a signal in a direction of unit length: Σ c_i y_i(dir), one number a channel.
 ///
 /// The basis is never stored. The kernel is `eval:n`, `sh5::eval` at order 5.
@@ -230,6 +249,23 @@ pub fn evaluate<C: Coefficients>(dir: impl Into<[C::Scalar; 3]>, c: &C) -> C::El
 #[inline]
 pub fn rotate<C: Coefficients>(q: impl Into<[C::Scalar; 4]>, c: &C) -> C {
     C::rotate(q.into(), c)
+}
+
+/// Writes a signal rotated by a unit quaternion, as [`rotate`] returns it, bit for bit.
+///
+/// For one signal at a time: the fastest single call, of several channels too. The kernel is `rotate:n:pieces`. In a loop over many
+/// signals [`rotate`] may become one of vectors, and `batch` is faster than both; see
+/// [what it is compiled for](crate#what-it-is-compiled-for).
+///
+/// ```
+/// let c = [[1.0_f32, 0.5, 0.25]; 25];
+/// let mut turned = [[0.0; 3]; 25];
+/// zonal::rotate_into([0.28, 0.0, 0.0, 0.96], &c, &mut turned);
+/// assert_eq!(turned, zonal::rotate([0.28, 0.0, 0.0, 0.96], &c));
+/// ```
+#[inline]
+pub fn rotate_into<C: Coefficients>(q: impl Into<[C::Scalar; 4]>, c: &C, to: &mut C) {
+    C::rotate_into(q.into(), c, to);
 }
 
 /// Rotates a signal by a rotation matrix, given by its columns, exactly.
@@ -312,6 +348,14 @@ pub fn swap_yz<C: Coefficients>(c: &C) -> C {
 #[inline]
 pub fn tilt<C: Coefficients>(normal: impl Into<[C::Scalar; 3]>, c: &C) -> C {
     C::tilt(normal.into(), c)
+}
+
+/// Writes a signal tilted to a unit normal, as [`tilt`] returns it, bit for bit.
+///
+/// For one signal at a time; see [what it is compiled for](crate#what-it-is-compiled-for).
+#[inline]
+pub fn tilt_into<C: Coefficients>(normal: impl Into<[C::Scalar; 3]>, c: &C, to: &mut C) {
+    C::tilt_into(normal.into(), c, to);
 }
 
 /// Rotates a signal exactly so that z goes to a unit normal, wherever that points; the spin about the normal is left

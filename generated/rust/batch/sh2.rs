@@ -198,14 +198,14 @@ pub fn product<T: Real, V: Signal<T>>(a: &impl Fn(usize) -> V, b: &impl Fn(usize
     let t3 = t2 * T::lit(0.28209479177387814);
     let t4 = a(2);
     let t5 = b(2);
-    result(2, t4.times(t3) + t5.times(t1));
+    result(2, t5.times_fma(t1, t4.times(t3)));
     let t7 = a(3);
     let t8 = b(3);
     let t9 = a(1);
     let t10 = b(1);
-    result(3, t7.times(t3) + t8.times(t1));
-    result(1, t9.times(t3) + t10.times(t1));
-    let t13 = (t4.times(t5) + t0.times(t2) + t7.times(t8) + t9.times(t10)) * T::lit(0.28209479177387814);
+    result(3, t8.times_fma(t1, t7.times(t3)));
+    result(1, t10.times_fma(t1, t9.times(t3)));
+    let t13 = t9.times_fma(t10, t7.times_fma(t8, t0.times_fma(t2, t4.times(t5)))) * T::lit(0.28209479177387814);
     result(0, t13);
 }
 

@@ -1,6 +1,6 @@
 //! The five calls that everybody makes, at the orders 2 to 10 in f32, in each form that a program has them: `call`,
-//! zonal's function compiled by itself, which returns its result; `into`, the kernel that it calls, writing its result in
-//! place; `loop`, the kernel inlined into a plain loop over slices. Beside them what memory alone takes. Nothing here knows a clock: the
+//! zonal's function compiled by itself, which returns its result; `into`, its result written in place, by the function that does
+//! so where there is one, else by the kernel; `loop`, the kernel inlined into a plain loop over slices. Beside them what memory alone takes. Nothing here knows a clock: the
 //! bench `single` times the rows, `instructions` does each once, and `measure/peers` times them beside others.
 
 /// What a call is given.
@@ -106,7 +106,8 @@ macro_rules! function {
     (
         $name:ident, $order:literal, $each:ident, $results:expr,
         crate |$p:ident: $param:ty, $c:ident| $called:expr, $params:expr;
-        kernel |$q:ident: $own:ty| $kernel:expr, $owns:expr
+        kernel |$q:ident: $own:ty| $kernel:expr, $owns:expr;
+        into |$place:ident| $into:expr
     ) => {
         pub mod $name {
             use super::super::{Batch, Body, Inputs, Make, Row};
@@ -121,8 +122,8 @@ macro_rules! function {
             }
 
             #[inline(never)]
-            pub fn into($q: &$own, $c: &Signal, out: &mut Written) {
-                *out = $kernel;
+            pub fn into($q: &$own, $c: &Signal, $place: &mut Written) {
+                $into;
             }
 
             fn row<P: 'static>(form: &'static str, params: fn(&Inputs) -> Vec<P>, body: Body<P, N, $results>) -> Row {
@@ -178,29 +179,34 @@ macro_rules! orders {
             function!(
                 rotate, $order, many, N,
                 crate |q: [f32; 4], c| zonal::rotate(*q, c), |inputs| inputs.quaternions.clone();
-                kernel |q: [f32; 4]| zonal::$kernels::rotate(*q, c), |inputs| inputs.quaternions.clone()
+                kernel |q: [f32; 4]| zonal::$kernels::rotate(*q, c), |inputs| inputs.quaternions.clone();
+                into |to| zonal::rotate_into(*q, c, to)
             );
             function!(
                 apply, $order, one, N,
                 crate |turn: zonal::Rotation<Signal>, c| turn.apply(c),
                 |inputs| vec![zonal::Rotation::new(inputs.quaternions[0])];
                 kernel |angles: [[f32; 2]; 3 * $order - 2]| zonal::$kernels::rotate_angles(angles, c),
-                |inputs| vec![zonal::$kernels::angles(inputs.quaternions[0])]
+                |inputs| vec![zonal::$kernels::angles(inputs.quaternions[0])];
+                into |to| *to = zonal::$kernels::rotate_angles(angles, c)
             );
             function!(
                 evaluate_basis, $order, many, N,
                 crate |dir: [f32; 3], _c| zonal::evaluate_basis(*dir), |inputs| inputs.directions.clone();
-                kernel |dir: [f32; 3]| zonal::$kernels::basis(*dir), |inputs| inputs.directions.clone()
+                kernel |dir: [f32; 3]| zonal::$kernels::basis(*dir), |inputs| inputs.directions.clone();
+                into |to| zonal::evaluate_basis_into(*dir, to)
             );
             function!(
                 evaluate, $order, many, 1,
                 crate |dir: [f32; 3], c| [zonal::evaluate(*dir, c)], |inputs| inputs.directions.clone();
-                kernel |dir: [f32; 3]| [zonal::$kernels::eval(*dir, c)], |inputs| inputs.directions.clone()
+                kernel |dir: [f32; 3]| [zonal::$kernels::eval(*dir, c)], |inputs| inputs.directions.clone();
+                into |to| *to = [zonal::$kernels::eval(*dir, c)]
             );
             function!(
                 tilt, $order, many, N,
                 crate |n: [f32; 3], c| zonal::tilt(*n, c), |inputs| inputs.normals.clone();
-                kernel |n: [f32; 3]| zonal::$kernels::tilt(*n, c), |inputs| inputs.normals.clone()
+                kernel |n: [f32; 3]| zonal::$kernels::tilt(*n, c), |inputs| inputs.normals.clone();
+                into |to| zonal::tilt_into(*n, c, to)
             );
 
             pub fn rows() -> Vec<Row> {

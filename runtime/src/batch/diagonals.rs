@@ -5,11 +5,12 @@
 
 use super::numbers::Number;
 use super::pass::{Aside, MOST_CHANNELS};
-use super::registers::{BLOCK, source};
+use super::registers::BLOCK;
 use super::rows::Row;
 use super::signals::{Places, View};
 use super::units::{Unit, fence};
 use crate::coefficients::Coefficients;
+use crate::pieces::source;
 use crate::rotation::Rotation;
 use core::arch::x86_64::*;
 

@@ -7,7 +7,8 @@ use core::ops::Range;
 use core::ptr;
 
 use super::pass::{Aside, Pass};
-use super::registers::{BLOCK, Register, sink, source};
+use super::registers::{BLOCK, Register};
+use crate::pieces::{sink, source};
 
 /// The most registers that a line takes: sixteen f64 in pairs.
 const MOST_PARTS: usize = 8;
@@ -419,41 +420,4 @@ macro_rules! orders {
     )* };
 }
 
-orders! {
-    "order2" sh2, 4:
-        each rotate_setup [1 band_1_rotate],
-        all rotate_zyz_setup [1 band_1_rotate_zyz],
-        tilt [1 band_1_tilt], product Product;
-    "order3" sh3, 9:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate],
-        all rotate_zyz_setup [1 band_1_rotate_zyz 2 band_2_rotate_zyz],
-        tilt [1 band_1_tilt 2 band_2_tilt], product Product;
-    "order4" sh4, 16:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt], product Product;
-    "order5" sh5, 25:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt], product Product;
-    "order6" sh6, 36:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt], product Product;
-    "order7" sh7, 49:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt];
-    "order8" sh8, 64:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt];
-    "order9" sh9, 81:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt 8 band_8_tilt];
-    "order10" sh10, 100:
-        each rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate 9 band_9_rotate],
-        all rotate_setup [1 band_1_rotate 2 band_2_rotate 3 band_3_rotate 4 band_4_rotate 5 band_5_rotate 6 band_6_rotate 7 band_7_rotate 8 band_8_rotate 9 band_9_rotate],
-        tilt [1 band_1_tilt 2 band_2_tilt 3 band_3_tilt 4 band_4_tilt 5 band_5_tilt 6 band_6_tilt 7 band_7_tilt 8 band_8_tilt 9 band_9_tilt];
-}
+crate::pieces::table!(orders);

@@ -7,19 +7,7 @@ use zonal_kernels::real::{Real, Signal};
 /// How many signals a block has.
 pub const BLOCK: usize = 16;
 
-/// A function of an index, always inlined: only so is it compiled for the unit of the function around it.
-#[inline(always)]
-pub fn source<V, F: Fn(usize) -> V>(of: F) -> F {
-    of
-}
-
-/// A function that takes an index and a number, always inlined as [`source`] is.
-#[inline(always)]
-pub fn sink<V, F: FnMut(usize, V)>(of: F) -> F {
-    of
-}
-
-/// A function of two registers, always inlined as [`source`] is.
+/// A function of two registers, always inlined as [`source`](crate::pieces::source) is.
 #[inline(always)]
 #[allow(dead_code)]
 fn of_two<V, F: Fn(V, V) -> (V, V)>(of: F) -> F {
@@ -250,6 +238,18 @@ macro_rules! register {
                 self * other
             }
             #[inline(always)]
+            fn times_fma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fma(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fms(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fms(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fnma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fnma(self, other, c)
+            }
+            #[inline(always)]
             fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
                 let ($a, $b, $c, $d) = (a.0, b.0, c.0, d.0);
                 Self(unsafe { $chosen })
@@ -275,6 +275,18 @@ macro_rules! register {
             #[inline(always)]
             fn times(self, other: Self) -> Self {
                 self * other
+            }
+            #[inline(always)]
+            fn times_fma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fma(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fms(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fms(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fnma(self, other: Self, c: Self) -> Self {
+                Signal::<$name>::fnma(self, other, c)
             }
             #[inline(always)]
             fn choose(a: $number, b: $number, c: Self, d: Self) -> Self {

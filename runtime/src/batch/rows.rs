@@ -4,7 +4,8 @@
 use core::mem::MaybeUninit;
 
 use super::pass::MOST_CHANNELS;
-use super::registers::{BLOCK, Quads, sink, source};
+use super::registers::{BLOCK, Quads};
+use crate::pieces::{sink, source};
 
 /// The most coefficients of a channel: order 10.
 pub const MOST_COUNT: usize = 100;

@@ -24,6 +24,8 @@ const OPERATIONS: usize = 1 << 20;
 const EXTREMES: usize = 16;
 /// So many inputs in a row have one kind of signal; a quarter of them have extreme parameters.
 const BLOCK: usize = 4 * EXTREMES;
+/// So few inputs hold the extremes and every kind of signal: enough to notice what is wrong.
+pub const FEW: usize = 8 * BLOCK;
 /// 2^100, about 1.3e30.
 const HUGE: f64 = (1u128 << 100) as f64;
 /// 2^-80, about 8e-25: what a driver loses by flushing subnormal numbers stays far below a rounding.
@@ -156,9 +158,13 @@ pub struct Cases {
 impl Cases {
     /// The cases of a kernel.
     pub fn new(function: &Function) -> Self {
+        Self::some(function, inputs(function))
+    }
+
+    /// Cases of a kernel, of which [`FEW`] hold the extremes and every kind of signal.
+    pub fn some(function: &Function, count: usize) -> Self {
         let (built, order) = (&function.built, function.spec.order);
         let params = built.code.params();
-        let count = inputs(function);
         let samples = samples::inputs(params, 7, count, None);
         // A loop is held to its unrolled twin, which is the faster to run.
         let runner = match &built.code {

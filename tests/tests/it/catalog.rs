@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 use zonal_codegen::catalog::{BESIDE, files_of, standard};
 use zonal_codegen::families::Spec;
 use zonal_codegen::families::zhf;
@@ -10,10 +11,15 @@ use zonal_codegen::generate::build;
 use zonal_codegen::promise::bound::{self, Bound};
 use zonal_tests::{catalogue, repository, spec};
 
+/// The files of the whole catalogue, printed and validated once for all tests.
+fn whole() -> &'static [File] {
+    static WHOLE: LazyLock<Vec<File>> = LazyLock::new(|| files_of(catalogue()).expect("the catalogue is valid"));
+    &WHOLE
+}
+
 #[test]
 fn the_catalogue_is_fresh() {
-    let files = files_of(catalogue()).expect("the catalogue is valid");
-    let found = differences(&repository("generated"), &files, &BESIDE).expect("generated/ can be read");
+    let found = differences(&repository("generated"), whole(), &BESIDE).expect("generated/ can be read");
     let list: Vec<String> = found.iter().map(Difference::to_string).collect();
     assert!(
         list.is_empty(),
@@ -32,9 +38,8 @@ fn twice_generated_is_the_same_to_the_last_byte() {
         (files_of(&build(&specs)).expect("the catalogue is valid"), bounds)
     });
     assert!(first == second, "twice the same");
-    let whole = files_of(catalogue()).expect("the catalogue is valid");
     for file in first.0.iter().filter(|file| file.path.contains("/sh") && !file.path.ends_with("shaders.rs")) {
-        assert!(whole.contains(file), "{} is another in the whole catalogue", file.path);
+        assert!(whole().contains(file), "{} is another in the whole catalogue", file.path);
     }
 }
 

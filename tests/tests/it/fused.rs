@@ -11,13 +11,15 @@ use zonal_codegen::ir::listing::Listing;
 use zonal_codegen::promise::samples::Random;
 use zonal_tests::{repository, spec};
 
-const SPEC: &str = "rotate:5";
+const SPECS: [&str; 2] = ["rotate:5", "product:3"];
 
-/// What the interpreter gives, as bits.
+/// What the interpreter gives, as bits: a rotation of a signal, and the product of its first numbers and of those behind them.
 fn interpreted<T: Number>(q: &[f64], c: &[f64], contraction: Contraction, bits: impl Fn(T) -> u64) -> Vec<u64> {
-    let program = Program::<T>::new(&Listing::new(&spec(SPEC).kernel()));
     let [q, c] = [q, c].map(|row| row.iter().map(|&x| T::from_f64(x)).collect::<Vec<T>>());
-    program.run(&[&q, &c], contraction).into_iter().map(bits).collect()
+    let run = |place: usize, params: &[&[T]]| {
+        Program::<T>::new(&Listing::new(&spec(SPECS[place]).kernel())).run(params, contraction)
+    };
+    [run(0, &[&q, &c]), run(1, &[&c[..9], &c[9..18]])].concat().into_iter().map(bits).collect()
 }
 
 /// Whether this processor has the instruction.
@@ -32,7 +34,7 @@ fn has_fma() -> bool {
 #[test]
 fn numbers_are_fused_where_the_target_is_and_only_there() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fused");
-    Builder::new("fused").spec(SPEC).target(&RUST).write(&folder).expect("is written");
+    SPECS.into_iter().fold(Builder::new("fused"), Builder::spec).target(&RUST).write(&folder).expect("is written");
     let mut random = Random::new(14);
     let (q, c): ([f64; 4], Vec<f64>) = (random.unit(), (0..25).map(|_| random.signed()).collect());
     let input: String = q.iter().chain(&c).map(|x| format!("{x}\n")).collect();

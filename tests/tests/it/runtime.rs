@@ -274,6 +274,35 @@ fn channels_share_one_rotation() {
 }
 
 #[test]
+fn what_is_written_in_place_has_the_bits_of_what_is_returned() {
+    let mut random = Random::new(41);
+    for _ in 0..4 {
+        let (q, n) = (quaternion(&mut random), direction(&mut random));
+        let (q_narrow, n_narrow) = (q.as_quat(), n.as_vec3());
+        every_order!(N, {
+            let (c, wide) = (narrow(&signal::<N>(&mut random)), signal::<N>(&mut random));
+            let rgb: [Vec3; N] = std::array::from_fn(|i| Vec3::new(c[i], wide[i] as f32, c[N - 1 - i]));
+            // What is not written is not a number, and equal to nothing.
+            let mut to = [f32::NAN; N];
+            zonal::rotate_into(q_narrow, &c, &mut to);
+            assert_eq!(to, zonal::rotate(q_narrow, &c));
+            to = [f32::NAN; N];
+            zonal::tilt_into(n_narrow, &c, &mut to);
+            assert_eq!(to, zonal::tilt(n_narrow, &c));
+            to = [f32::NAN; N];
+            zonal::evaluate_basis_into(n_narrow, &mut to);
+            assert_eq!(to, zonal::evaluate_basis::<[f32; N]>(n_narrow));
+            let mut three = [Vec3::NAN; N];
+            zonal::rotate_into(q_narrow, &rgb, &mut three);
+            assert_eq!(three, zonal::rotate(q_narrow, &rgb));
+            let mut double = [f64::NAN; N];
+            zonal::rotate_into(q, &wide, &mut double);
+            assert_eq!(double, zonal::rotate(q, &wide));
+        });
+    }
+}
+
+#[test]
 fn what_is_not_unit_errs_as_documented() {
     let mut random = Random::new(19);
     for _ in 0..10 * TRIALS {

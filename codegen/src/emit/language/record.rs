@@ -234,7 +234,7 @@ pub enum MultiplyAdd {
     /// As a product and a sum, which compilers contract.
     Infix,
     /// As a method of the signal, so that its type decides: `fma`, `fms` and `fnma`. A product of two signals is the method
-    /// `times`, and its sums are written as sums.
+    /// `times`, its sums are `times_fma` and so on.
     Methods,
     /// As a function of this name, of two factors and a summand.
     Call(&'static str),
@@ -359,11 +359,14 @@ impl Language {
             Op::Add(a, b) => Text::infix(&a, "+", &b),
             Op::Sub(a, b) => Text::infix(&a, "-", &b),
             Op::Mul(a, b) => Text { kind, ..product(a, b) },
-            Op::Fma(a, b, c, sign) if methods && !of_signals(&b) => {
-                let name = match sign {
-                    Sign::Plus => "fma",
-                    Sign::MinusAddend => "fms",
-                    Sign::MinusProduct => "fnma",
+            Op::Fma(a, b, c, sign) if methods => {
+                let name = match (of_signals(&b), sign) {
+                    (false, Sign::Plus) => "fma",
+                    (false, Sign::MinusAddend) => "fms",
+                    (false, Sign::MinusProduct) => "fnma",
+                    (true, Sign::Plus) => "times_fma",
+                    (true, Sign::MinusAddend) => "times_fms",
+                    (true, Sign::MinusProduct) => "times_fnma",
                 };
                 method(name, &[a, b, c], kind)
             }

@@ -84,6 +84,18 @@ impl<R: Register> Signal<Self> for Pair<R> {
         self * other
     }
     #[inline(always)]
+    fn times_fma(self, other: Self, c: Self) -> Self {
+        self.fma(other, c)
+    }
+    #[inline(always)]
+    fn times_fms(self, other: Self, c: Self) -> Self {
+        self.fms(other, c)
+    }
+    #[inline(always)]
+    fn times_fnma(self, other: Self, c: Self) -> Self {
+        self.fnma(other, c)
+    }
+    #[inline(always)]
     fn choose(a: Self, b: Self, c: Self, d: Self) -> Self {
         let half = |i: usize| <R as Signal<R>>::choose(a.0[i], b.0[i], c.0[i], d.0[i]);
         Self([half(0), half(1)])
@@ -120,6 +132,18 @@ macro_rules! numbers {
             #[inline(always)]
             fn times(self, other: Self) -> Self {
                 self * other
+            }
+            #[inline(always)]
+            fn times_fma(self, other: Self, c: Self) -> Self {
+                <Self as Signal<Self>>::fma(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fms(self, other: Self, c: Self) -> Self {
+                <Self as Signal<Self>>::fms(self, other, c)
+            }
+            #[inline(always)]
+            fn times_fnma(self, other: Self, c: Self) -> Self {
+                <Self as Signal<Self>>::fnma(self, other, c)
             }
             #[inline(always)]
             fn choose(a: $number, b: $number, c: Self, d: Self) -> Self {

@@ -1,6 +1,7 @@
 //! The registers of x86-64: SSE2, which every processor has, AVX2 with FMA, AVX-512.
 
-use super::{Quads, Register, of_two, source};
+use super::{Quads, Register, of_two};
+use crate::pieces::source;
 use core::arch::x86_64::*;
 use core::ops::{Add, Mul, Neg, Sub};
 use zonal_kernels::real::{Real, Signal};
