@@ -67,7 +67,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
                 continue;
             }
             // A round from memory takes as long as many in a cache.
-            let rounds = if place == Place::Cache { arguments.rounds } else { arguments.rounds.div_ceil(4) };
+            let rounds = if place == Place::Cache { arguments.rounds } else { arguments.rounds.div_ceil(5) };
             let rounds = Rounds { rounds, signals: 20_480 };
             let rows = measure(unit, peak, &arguments.orders, place, rounds, &arguments.only, || ());
             for row in &rows {

@@ -1,6 +1,6 @@
 //! The page of the times and its figures as data.
 
-use crate::time::{IN_CACHE, Measured, Place, STREAMED};
+use crate::time::{CACHED, IN_CACHE, Measured, Place, STREAMED};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -107,9 +107,10 @@ pub fn markdown(report: &Report) -> String {
          many rounds of each. A time means little on another machine, so that it is given as *copies*, how many times as long as the \
          copy, or as a fill of what is written where nothing is read, and as *k*, how many times as long as the slower of the copy and \
          of the multiplications at the peak of the vector unit, which no program beats. In a cache there are \
-         {IN_CACHE} signals, from memory as many as make {} MiB with their results. Each is run once before it is timed, so that it \
+         {IN_CACHE} signals, or as many as make {} KiB with their results if those are fewer, from memory as many as make {} MiB. Each is run once before it is timed, so that it \
          finds the caches as it leaves them, and everything is made anew some times. `rotate_each` has a quaternion for each signal, \
          in blocks. Machine: {}.\n\n",
+        CACHED >> 10,
         STREAMED >> 20,
         report.machine
     );

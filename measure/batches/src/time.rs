@@ -9,8 +9,10 @@ use zonal_codegen::families::family::Spec;
 use zonal_codegen::ir::code::Code;
 use zonal_codegen::promise::samples::Random;
 
-/// How many signals lie in a cache.
+/// How many signals lie in a cache at most.
 pub const IN_CACHE: usize = 1024;
+/// How many bytes of signals and results lie in a core's own cache wherever its pages are: half of one of a mebibyte.
+pub const CACHED: usize = 512 << 10;
 /// How many bytes of signals and results lie in none: twice as many as the last cache of a desktop's processor holds.
 pub const STREAMED: usize = 64 << 20;
 
@@ -21,7 +23,7 @@ pub fn streamed(numbers: usize) -> usize {
 }
 
 /// How often everything is made anew, so that where it comes to lie in memory is luck of one time alone.
-const TAKES: usize = 3;
+const TAKES: usize = 6;
 
 /// Where signals lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -154,7 +156,7 @@ impl Run<'_> {
     /// How many signals of so many numbers there are.
     fn signals(&self, numbers: usize) -> usize {
         match self.place {
-            Place::Cache => IN_CACHE,
+            Place::Cache => IN_CACHE.min(CACHED / (2 * numbers * size_of::<f32>()) / 64 * 64),
             Place::Memory => streamed(numbers),
         }
     }
@@ -326,7 +328,10 @@ pub fn measure(
     unit.at_most();
     let mut rows = Vec::new();
     for &n in orders {
-        for _ in 0..TAKES {
+        for take in 0..TAKES {
+            // What is kept here meanwhile has other pages of memory taken for the signals.
+            let kept = vec![1_u8; take << 20];
+            black_box(&kept);
             let rounds = Rounds { rounds: rounds.rounds.div_ceil(TAKES), ..rounds };
             let mut run = Run { unit, peak, rounds, place, order: n, rows: &mut rows, only };
             match n {
