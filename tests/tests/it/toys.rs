@@ -263,8 +263,8 @@ a[0] * b[1] - a[1] * b[0] - a[2] * b[2]
 ";
 const CROSS_IN_RUST: &str = "
 [
-a[1].times(b[2]) - a[2].times(b[1]) - a[0].times(b[0]),
-a[2].times(b[0]) - a[0].times(b[2]) - a[1].times(b[1]),
-a[0].times(b[1]) - a[1].times(b[0]) - a[2].times(b[2]),
+a[0].times_fnma(b[0], a[1].times_fms(b[2], a[2].times(b[1]))),
+a[1].times_fnma(b[1], a[2].times_fms(b[0], a[0].times(b[2]))),
+a[2].times_fnma(b[2], a[0].times_fms(b[1], a[1].times(b[0]))),
 ]
 ";
