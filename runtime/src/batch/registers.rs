@@ -394,6 +394,7 @@ macro_rules! quads {
     };
 }
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub mod pair;
 
 #[cfg(target_arch = "x86_64")]

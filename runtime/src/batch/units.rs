@@ -6,6 +6,7 @@ use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::kernels::{self, Kernel};
 use super::pass::{Pass, align_stack};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::registers::pair::Pair;
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
@@ -212,6 +213,10 @@ use super::registers::neon::*;
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 use super::registers::plain::*;
 
+// NEON has as many registers as AVX-512.
+#[cfg(target_arch = "aarch64")]
+unit!(base, F32x4, F64x2, Pair<F32x4>, Pair<F64x2>);
+#[cfg(not(target_arch = "aarch64"))]
 unit!(base, F32x4, F64x2, F32x4, F64x2);
 
 /// Takes what a unit has.
