@@ -31,9 +31,7 @@ impl<'t, S: Storage> Moving<'t, S> {
     pub fn new(room: &'t mut Room, view: View<S>, unit: Unit, over: bool, is_far: bool) -> Option<Self> {
         let Places::Rows { stride, row } = view.places else { return None };
         let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-        // Sixteen columns at once are a square of a unit's registers, or four times four columns.
-        let worth_sixteen = if unit == Unit::Avx512 { 9 } else { 13 };
-        let tiles = moves.map(|moves| (Tiles::fill(room, &row, over, worth_sixteen), moves));
+        let tiles = moves.map(|moves| (Tiles::fill(room, &row, over, if moves.is_wide { 9 } else { 13 }), moves));
         let touched = tiles.as_ref().map_or(0, |(tiles, _)| tiles.touched);
         let rows = |length: &usize| length.checked_sub(touched).map_or(0, |rest| rest / stride.max(1) + 1);
         let rows = view.lengths[..view.plane_count].iter().map(rows).min().unwrap_or(0);

@@ -148,15 +148,15 @@ fn direct<S: Storage>(view: &View<S>, blocks: &Range<usize>) -> Option<Lines<*mu
 
 /// Where everything that a task works on lies, if it is lines.
 struct Spots<T> {
-    params: Option<Lines<*mut T>>,
-    from: Option<Lines<*mut T>>,
-    other: Option<Lines<*mut T>>,
+    params: Option<Lines<*const T>>,
+    from: Option<Lines<*const T>>,
+    other: Option<Lines<*const T>>,
     to: Option<Lines<*mut T>>,
 }
 
-/// Numbers that all blocks share.
-fn numbers_of<T>(numbers: &[T]) -> Lines<*const T> {
-    Lines { at: [numbers.as_ptr(); MOST_CHANNELS], step: 0, mask: 0 }
+/// Lines that all blocks share: numbers of each channel, or nothing.
+fn same<T>(at: [*const T; MOST_CHANNELS]) -> Lines<*const T> {
+    Lines { at, step: 0, mask: 0 }
 }
 
 /// Whether lines may be written past the caches.
@@ -166,10 +166,6 @@ fn are_aligned<T>(lines: &Lines<*mut T>) -> bool {
 
 fn shared<T>(lines: &Lines<*mut T>) -> Lines<*const T> {
     Lines { at: lines.at.map(<*mut T>::cast_const), step: lines.step, mask: lines.mask }
-}
-
-fn nowhere<T>() -> Lines<*const T> {
-    Lines { at: [core::ptr::null(); MOST_CHANNELS], step: 0, mask: 0 }
 }
 
 impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
@@ -215,6 +211,11 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         self.from.view().map_or(0, View::bytes) + self.to.bytes()
     }
 
+    /// Whether signals and results lie in no cache of the core's own.
+    fn is_far(&self) -> bool {
+        self.bytes() >= FAR_FROM
+    }
+
     /// Whether results are written past the caches, where they can be: there are many bytes, and they do not lie where the signals
     /// were just read.
     fn streams(&self) -> bool {
@@ -229,7 +230,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         if let Some(diagonals) = self.diagonals() {
             return Moved { params: None, from: None, other: None, to: None, diagonals: Some(diagonals) };
         }
-        let (unit, is_far) = (self.unit, self.bytes() >= FAR_FROM);
+        let (unit, is_far) = (self.unit, self.is_far());
         Moved {
             params: self.params.view().and_then(|view| Moving::new(params, *view, unit, true, is_far)),
             from: self.from.view().and_then(|view| Moving::new(from, *view, unit, true, is_far)),
@@ -299,48 +300,43 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         params.into_iter().chain(self.from.view().into_iter().chain(&self.other).map(|view| view.signals))
     }
 
-    /// Where everything of some blocks lies, if it is lines.
+    /// Where everything of some blocks lies, if it is lines. What all blocks share is lines wherever it is, and so is what there is
+    /// none of.
     fn spots(&self, blocks: &Range<usize>) -> Spots<S::Number> {
+        let nowhere = Some(same([core::ptr::null(); MOST_CHANNELS]));
+        let of_view = |view: &View<S>| direct(view, blocks).as_ref().map(shared);
         Spots {
-            params: self.params.view().and_then(|view| direct(view, blocks)),
-            from: self.from.view().and_then(|view| direct(view, blocks)),
-            other: self.other.as_ref().and_then(|view| direct(view, blocks)),
+            params: match &self.params {
+                Params::None => nowhere,
+                Params::Shared(numbers) => Some(same([numbers.as_ptr(); MOST_CHANNELS])),
+                Params::Each(view) => direct(view, blocks).as_ref().map(shared),
+            },
+            from: match &self.from {
+                Input::None => nowhere,
+                Input::Shared(at) => Some(same(*at)),
+                Input::Each(view) => of_view(view),
+            },
+            other: self.other.as_ref().map_or(nowhere, of_view),
             to: direct(&self.to, blocks),
         }
     }
 
     /// Returns the pass over blocks all of which lie in lines, if they do.
-    fn in_lines(&self, count: usize, spots: &Spots<S::Number>) -> Option<Pass<'static, S::Number>> {
-        let params = match &self.params {
-            Params::None => nowhere(),
-            Params::Shared(numbers) => numbers_of(numbers),
-            Params::Each(_) => shared(spots.params.as_ref()?),
-        };
-        let from = match &self.from {
-            Input::None => nowhere(),
-            Input::Shared(at) => Lines { at: *at, step: 0, mask: 0 },
-            Input::Each(_) => shared(spots.from.as_ref()?),
-        };
-        let other = match &self.other {
-            None => nowhere(),
-            Some(_) => shared(spots.other.as_ref()?),
-        };
-        let (to, channels) = (spots.to?, self.to.channels);
-        let streams = self.streams() && are_aligned(&to);
-        let is_far = self.bytes() >= FAR_FROM;
+    fn in_lines(&self, blocks: usize, spots: &Spots<S::Number>) -> Option<Pass<'static, S::Number>> {
+        let (params, from, other, to) = (spots.params?, spots.from?, spots.other?, spots.to?);
         Some(Pass {
             read: None,
             write: None,
             group: 1,
             within: usize::MAX,
-            blocks: count,
-            channels,
+            blocks,
+            channels: self.to.channels,
             params,
             from,
             other,
             to,
-            is_far,
-            streams,
+            is_far: self.is_far(),
+            streams: self.streams() && are_aligned(&to),
         })
     }
 
@@ -376,9 +372,11 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
 
     /// Returns the lines that a block needs on the stack.
     fn needs(&self, spots: &Spots<S::Number>) -> Needs {
-        let lines = |view: &View<S>, spot: &Option<_>| if spot.is_some() { 0 } else { view.count * view.channels };
-        let from = self.from.view().map_or(0, |view| lines(view, &spots.from));
-        let other = self.other.as_ref().map_or(0, |view| lines(view, &spots.other));
+        let lines = |view: Option<&View<S>>, is_there: bool| {
+            view.filter(|_| !is_there).map_or(0, |view| view.count * view.channels)
+        };
+        let from = lines(self.from.view(), spots.from.is_some());
+        let other = lines(self.other.as_ref(), spots.other.is_some());
         let to = if spots.to.is_some() { 0 } else { self.to.count * self.to.channels };
         // A kernel of one signal to one may write where it reads.
         Needs { from, other, to, is_in_place: from == to && self.other.is_none() }
@@ -400,7 +398,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows, .. } = moves;
         let mut params_room = Aside::<[[S::Number; BLOCK]; GROUPS * MOST_GROUP * MOST_PARAMS]>::new();
         let mut room = Aside::<[[S::Number; BLOCK]; LINES]>::new();
-        let params_first = params_room.first();
+        let params_first: *mut S::Number = params_room.first();
         let needs = self.needs(spots);
         let is_large = self.streams();
         // What goes to memory goes evenly.
@@ -409,25 +407,16 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let [from_first, other_first, to_first, together] =
             needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
 
-        // What is read, and where its lines are.
-        let (params_read, params) = match (&self.params, spots.params) {
-            (Params::None, _) => (None, nowhere()),
-            (Params::Shared(numbers), _) => (None, numbers_of(numbers)),
-            (Params::Each(_), Some(lines)) => (None, shared(&lines)),
-            (Params::Each(view), None) => (Some(view), shared(&aside(params_first, 0, MOST_PARAMS * BLOCK, group))),
-        };
+        // What is no lines is read to some.
+        let params_read = self.params.view().filter(|_| spots.params.is_none());
+        let from_read = self.from.view().filter(|_| spots.from.is_none());
+        let other_read = self.other.as_ref().filter(|_| spots.other.is_none());
         let step = |view: &View<S>| view.count * view.channels * BLOCK;
-        let (from_read, from) = match (&self.from, spots.from) {
-            (Input::None, _) => (None, nowhere()),
-            (Input::Shared(at), _) => (None, Lines { at: *at, step: 0, mask: 0 }),
-            (Input::Each(_), Some(lines)) => (None, shared(&lines)),
-            (Input::Each(view), None) => (Some(view), shared(&aside(from_first, view.count, step(view), group))),
+        let read_to = |first: *mut S::Number, view: Option<&View<S>>| {
+            let (count, step) = view.map_or((0, 0), |view| (view.count, step(view)));
+            shared(&aside(first, count, step, group))
         };
-        let (other_read, other) = match (&self.other, spots.other) {
-            (None, _) => (None, nowhere()),
-            (Some(_), Some(lines)) => (None, shared(&lines)),
-            (Some(view), None) => (Some(view), shared(&aside(other_first, view.count, step(view), group))),
-        };
+        let params = || shared(&aside(params_first, 0, MOST_PARAMS * BLOCK, group));
         let read = |blocks: Range<usize>| {
             let (place, blocks) = (blocks.start % (GROUPS * group), start + blocks.start..start + blocks.end);
             // SAFETY: the caller's; what lies aside has room for the lines of as many blocks as have a place.
@@ -468,9 +457,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             within: group - 1,
             blocks: blocks.len(),
             channels: self.to.channels,
-            params,
-            from,
-            other,
+            params: spots.params.unwrap_or_else(params),
+            from: spots.from.unwrap_or_else(|| read_to(from_first, from_read)),
+            other: spots.other.unwrap_or_else(|| read_to(other_first, other_read)),
             streams: is_large && spots.to.as_ref().is_some_and(are_aligned),
             to,
             is_far: false,

@@ -102,6 +102,8 @@ pub struct Moves<T> {
     pub gather: unsafe fn(tiles: &Tiles, rows: Rows<T>, lines: *mut T, step: usize),
     /// Writes rows.
     pub scatter: unsafe fn(tiles: &Tiles, lines: *const T, step: usize, rows: Rows<T>),
+    /// Whether sixteen columns are a square of registers, and not four times four columns.
+    pub is_wide: bool,
 }
 
 /// A unit: every kernel and every move compiled for it.
@@ -160,7 +162,11 @@ macro_rules! unit {
                 }
             }
 
-            pub const MOVES: Moves<f32> = Moves { gather: gather::<$single>, scatter: scatter::<$single> };
+            pub const MOVES: Moves<f32> = Moves {
+                gather: gather::<$single>,
+                scatter: scatter::<$single>,
+                is_wide: <$single as Quads>::IS_WIDE,
+            };
             pub const STREAM_SINGLE: unsafe fn(*const f32, *mut f32, usize) = stream::<$single>;
             pub const STREAM_DOUBLE: unsafe fn(*const f64, *mut f64, usize) = stream::<$double>;
 
