@@ -29,6 +29,9 @@ struct Arguments {
     /// Time signals in a cache alone, or in memory, and write nothing.
     #[arg(long)]
     place: Option<Place>,
+    /// Fail if anything that was timed takes longer than the page's laws allow.
+    #[arg(long)]
+    check: bool,
     /// The folder of the page and its figures.
     #[arg(long, default_value_os_t = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs"))]
     output: PathBuf,
@@ -69,7 +72,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
             // A round from memory takes as long as many in a cache.
             let rounds = if place == Place::Cache { arguments.rounds } else { arguments.rounds.div_ceil(5) };
             let rounds = Rounds { rounds, signals: 20_480 };
-            let rows = measure(unit, peak, &arguments.orders, place, rounds, &arguments.only, || ());
+            let rows = measure(unit, peak, &arguments.orders, place, rounds, &arguments.only);
             for row in &rows {
                 let Measured { function, layout, order, signals, nanoseconds, copy, multiplications, .. } = row;
                 println!(
@@ -87,7 +90,11 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         std::fs::write(arguments.output.join(page::JSON), page::json(&report)?)?;
         std::fs::write(arguments.output.join(page::PAGE), page::markdown(&report))?;
     }
-    Ok(())
+    let not_held = page::not_held(&report);
+    match arguments.check && !not_held.is_empty() {
+        true => Err(not_held.join("\n").into()),
+        false => Ok(()),
+    }
 }
 
 fn main() -> ExitCode {

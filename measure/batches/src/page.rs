@@ -118,39 +118,18 @@ pub fn markdown(report: &Report) -> String {
         let _ = writeln!(page, "* {unit}: {peak:.0} multiplications, each with an addition, in a nanosecond.");
     }
     page += "\n## What was asked for\n\n| what | at most | found | held by | not by |\n|---|---|---|---|---|\n";
-    for law in &LAWS {
-        let found: Vec<&Measured> = report.rows.iter().filter(|row| law.is_about(row)).collect();
-        let (least, most) = range(found.iter().map(|row| (law.value)(row)));
-        let missed: Vec<String> = found
-            .iter()
-            .filter(|row| (law.value)(row) > law.most)
-            .map(|row| format!("{} {} ({:.2})", row.unit, row.order, (law.value)(row)))
-            .collect();
+    for Verdict { what, most, found } in &verdicts(report) {
+        let missed = missed(*most, found);
+        let (least, worst) =
+            found.iter().fold((f64::INFINITY, 0.0_f64), |(least, worst), (_, x)| (least.min(*x), worst.max(*x)));
         let held = found.len() - missed.len();
         let _ = writeln!(
             page,
-            "| {} | {:.2} | {least:.2} to {most:.2} | {held} of {} | {} |",
-            law.what,
-            law.most,
+            "| {what} | {most:.2} | {least:.2} to {worst:.2} | {held} of {} | {} |",
             found.len(),
             missed.join(", ")
         );
     }
-    let layouts = layouts(report);
-    let (least, most) = range(layouts.iter().map(|(_, times)| *times));
-    let missed: Vec<String> = layouts
-        .iter()
-        .filter(|(_, times)| *times > ARRAYS)
-        .map(|(row, times)| format!("{} {} ({times:.2})", row.unit, row.order))
-        .collect();
-    let _ = writeln!(
-        page,
-        "| `rotate_each` of arrays in a cache, from order 4 on: times as long as of blocks | {ARRAYS:.2} | {least:.2} to {most:.2} | \
-         {} of {} | {} |",
-        layouts.len() - missed.len(),
-        layouts.len(),
-        missed.join(", ")
-    );
     page += "\nWhat does not hold is named by its unit and order, with what was found.\n";
     for (unit, _) in &report.units {
         for place in [Place::Cache, Place::Memory] {
@@ -184,12 +163,39 @@ pub fn markdown(report: &Report) -> String {
     page
 }
 
+/// What was found of what a law asks.
+struct Verdict<'a> {
+    what: &'static str,
+    most: f64,
+    found: Vec<(&'a Measured, f64)>,
+}
+
 /// How many times as long as blocks arrays may take.
 const ARRAYS: f64 = 2.2;
 
-/// The least and the most of some figures.
-fn range(figures: impl Iterator<Item = f64>) -> (f64, f64) {
-    figures.fold((f64::INFINITY, 0.0), |(least, most), x| (least.min(x), most.max(x)))
+/// What was found of each law.
+fn verdicts(report: &Report) -> Vec<Verdict<'_>> {
+    let of_law = |law: &Law| {
+        let rows = report.rows.iter().filter(|row| law.is_about(row));
+        Verdict { what: law.what, most: law.most, found: rows.map(|row| (row, (law.value)(row))).collect() }
+    };
+    let what = "`rotate_each` of arrays in a cache, from order 4 on: times as long as of blocks";
+    LAWS.iter().map(of_law).chain([Verdict { what, most: ARRAYS, found: layouts(report) }]).collect()
+}
+
+/// The units and orders that take more than a law allows.
+fn missed(most: f64, found: &[(&Measured, f64)]) -> Vec<String> {
+    let missed = found.iter().filter(|(_, x)| *x > most);
+    missed.map(|(row, x)| format!("{} {} ({x:.2})", row.unit, row.order)).collect()
+}
+
+/// Returns a sentence for each law that does not hold, with what was found.
+pub fn not_held(report: &Report) -> Vec<String> {
+    let sentence = |Verdict { what, most, found }: &Verdict<'_>| {
+        let missed = missed(*most, found);
+        (!missed.is_empty()).then(|| format!("{what}, at most {most:.2}: {}", missed.join(", ")))
+    };
+    verdicts(report).iter().filter_map(sentence).collect()
 }
 
 /// How many times as long arrays take as blocks.

@@ -323,7 +323,6 @@ pub fn measure(
     place: Place,
     rounds: Rounds,
     only: &[String],
-    mut step: impl FnMut(),
 ) -> Vec<Measured> {
     unit.at_most();
     let mut rows = Vec::new();
@@ -347,7 +346,6 @@ pub fn measure(
                 _ => {}
             }
         }
-        step();
     }
     rows
 }
