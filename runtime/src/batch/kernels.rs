@@ -51,12 +51,6 @@ unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, lines:
     }
 }
 
-/// How many blocks ahead signals are asked for: two are far enough for memory, and of large ones more than one has no room beside
-/// what is worked on.
-const fn blocks_ahead(lines: usize) -> usize {
-    if lines > 64 { 1 } else { 2 }
-}
-
 /// How many bytes a page of memory has at least.
 const PAGE: usize = 4096;
 
@@ -87,7 +81,7 @@ macro_rules! bands {
     ($register:ident, $pass:ident, $block:ident, $of:ty, $set_up:expr, $module:ident, $count:literal, [$($l:literal $band:ident)*]) => {
         for channel in 0..$pass.channels {
             let (from, to) = ($pass.from.block(channel, $block), $pass.to.block(channel, $block));
-            let ahead = $pass.from.block(channel, $block + blocks_ahead($count));
+            let ahead = $pass.ahead.block(channel, $block);
             let mut lines = Aside::<[[<$register as Register>::Number; BLOCK]; $count]>::new();
             let aside: *mut <$register as Register>::Number = lines.first();
             let into = if $pass.streams { aside } else { to };
@@ -106,7 +100,7 @@ macro_rules! bands {
                         $register::prefetch(ahead.wrapping_add(line * BLOCK));
                     }
                     for part in 0..$register::PARTS {
-                        let [from, into] = [from.cast_mut(), into].map(|at| at.add($l * $l * BLOCK + part * $register::LANES));
+                        let [from, into] = [from, into].map(|at| at.add($l * $l * BLOCK + part * $register::LANES));
                         zonal_kernels::batch::$module::$band::<$of, $register>(
                             $set_up(part),
                             &source(#[inline(always)] |i| $register::load(from.add(i * BLOCK))),
@@ -201,6 +195,17 @@ macro_rules! all {
     };
 }
 
+/// The three lines of directions.
+///
+/// # Safety
+///
+/// As [`Kernel::run`]; the lines are there.
+#[inline(always)]
+unsafe fn direction<R: Register>(first: *const R::Number) -> [R; 3] {
+    // SAFETY: the caller's.
+    unsafe { [R::load(first), R::load(first.add(BLOCK)), R::load(first.add(2 * BLOCK))] }
+}
+
 /// The kernels of an order that go by directions: the basis and sums over it.
 macro_rules! directions {
     ($basis:ident $eval:ident $eval_all:ident: $module:ident, $count:literal) => {
@@ -209,52 +214,49 @@ macro_rules! directions {
         impl Kernel for $basis {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
-                pass.begin();
-                for block in 0..pass.blocks {
-                    pass.pass_by(block);
-                    let to = pass.to.block(0, block);
-                    if pass.streams {
-                        look_up::<R>(pass.to.block(0, block + 2), $count * BLOCK);
-                    }
-                    let mut lines = Aside::<[[R::Number; BLOCK]; $count]>::new();
-                    let aside: *mut R::Number = lines.first();
-                    // A line that one register fills is streamed at once, another when it is whole.
-                    let is_aside = pass.streams && R::PARTS > 1;
-                    let into = if is_aside { aside } else { to };
-                    for part in 0..R::PARTS {
-                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
-                        let into = into.wrapping_add(part * R::LANES);
-                        // SAFETY: the caller's.
-                        unsafe {
-                            let params = [0, 1, 2].map(
-                                #[inline(always)]
-                                |i| R::load(params.add(i * BLOCK)),
-                            );
-                            if pass.streams && R::PARTS == 1 {
-                                zonal_kernels::batch::$module::basis::<R>(
-                                    params,
-                                    &mut sink(
-                                        #[inline(always)]
-                                        |i, x: R| x.stream(into.add(i * BLOCK)),
-                                    ),
-                                );
-                            } else {
-                                zonal_kernels::batch::$module::basis::<R>(
-                                    params,
-                                    &mut sink(
-                                        #[inline(always)]
-                                        |i, x: R| x.store(into.add(i * BLOCK)),
-                                    ),
-                                );
+                pass.each(
+                    #[inline(always)]
+                    |place| {
+                        let to = pass.to.of(0, place);
+                        if pass.streams {
+                            look_up::<R>(to.wrapping_add(2 * pass.to.step), $count * BLOCK);
+                        }
+                        let mut lines = Aside::<[[R::Number; BLOCK]; $count]>::new();
+                        let aside: *mut R::Number = lines.first();
+                        // A line that one register fills is streamed at once, another when it is whole.
+                        let is_aside = pass.streams && R::PARTS > 1;
+                        let into = if is_aside { aside } else { to };
+                        for part in 0..R::PARTS {
+                            let params = pass.params.of(0, place).wrapping_add(part * R::LANES);
+                            let into = into.wrapping_add(part * R::LANES);
+                            // SAFETY: the caller's.
+                            unsafe {
+                                let params = direction::<R>(params);
+                                if pass.streams && R::PARTS == 1 {
+                                    zonal_kernels::batch::$module::basis::<R>(
+                                        params,
+                                        &mut sink(
+                                            #[inline(always)]
+                                            |i, x: R| x.stream(into.add(i * BLOCK)),
+                                        ),
+                                    );
+                                } else {
+                                    zonal_kernels::batch::$module::basis::<R>(
+                                        params,
+                                        &mut sink(
+                                            #[inline(always)]
+                                            |i, x: R| x.store(into.add(i * BLOCK)),
+                                        ),
+                                    );
+                                }
                             }
                         }
-                    }
-                    if is_aside {
-                        // SAFETY: every line is written above.
-                        unsafe { stream::<R>(aside, to, 0..$count) }
-                    }
-                }
-                pass.end();
+                        if is_aside {
+                            // SAFETY: every line is written above.
+                            unsafe { stream::<R>(aside, to, 0..$count) }
+                        }
+                    },
+                );
                 if pass.streams {
                     R::fence();
                 }
@@ -266,38 +268,34 @@ macro_rules! directions {
         impl Kernel for $eval {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
-                pass.begin();
-                for block in 0..pass.blocks {
-                    pass.pass_by(block);
-                    if pass.is_far {
-                        for channel in 0..pass.channels {
-                            let ahead = pass.from.block(channel, block + blocks_ahead($count));
-                            (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
-                        }
-                    }
-                    for part in 0..R::PARTS {
-                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
-                        // SAFETY: the caller's.
-                        unsafe {
-                            let dir = [0, 1, 2].map(
-                                #[inline(always)]
-                                |i| R::load(params.add(i * BLOCK)),
-                            );
-                            for channel in 0..pass.channels {
-                                let from = pass.from.block(channel, block).add(part * R::LANES);
-                                let value = zonal_kernels::batch::$module::eval::<R, R>(
-                                    dir,
-                                    &source(
-                                        #[inline(always)]
-                                        |i| R::load(from.add(i * BLOCK)),
-                                    ),
-                                );
-                                value.store(pass.to.block(channel, block).add(part * R::LANES));
+                pass.each_of_channels(
+                    #[inline(always)]
+                    |place, channels| {
+                        if pass.is_far {
+                            for channel in 0..channels {
+                                let ahead = pass.ahead.of(channel, place);
+                                (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
                             }
                         }
-                    }
-                }
-                pass.end();
+                        for part in 0..R::PARTS {
+                            // SAFETY: the caller's.
+                            unsafe {
+                                let params = direction::<R>(pass.params.of(0, place).add(part * R::LANES));
+                                for channel in 0..channels {
+                                    let from = pass.from.of(channel, place).add(part * R::LANES);
+                                    let value = zonal_kernels::batch::$module::eval::<R, R>(
+                                        params,
+                                        &source(
+                                            #[inline(always)]
+                                            |i| R::load(from.add(i * BLOCK)),
+                                        ),
+                                    );
+                                    value.store(pass.to.of(channel, place).add(part * R::LANES));
+                                }
+                            }
+                        }
+                    },
+                );
             }
         }
 
@@ -306,33 +304,28 @@ macro_rules! directions {
         impl Kernel for $eval_all {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
-                pass.begin();
-                for block in 0..pass.blocks {
-                    pass.pass_by(block);
-                    for part in 0..R::PARTS {
-                        let params = pass.params.block(0, block).wrapping_add(part * R::LANES);
-                        // SAFETY: the caller's; a channel's signal is a number a line.
-                        unsafe {
-                            let dir = [0, 1, 2].map(
-                                #[inline(always)]
-                                |i| R::load(params.add(i * BLOCK)),
-                            );
-                            for channel in 0..pass.channels {
-                                let signal = pass.from.at[channel];
-                                let one = R::lit(1.0);
-                                let value = zonal_kernels::batch::$module::eval::<R, R>(
-                                    dir,
-                                    &source(
-                                        #[inline(always)]
-                                        |i| one * *signal.add(i),
-                                    ),
-                                );
-                                value.store(pass.to.block(channel, block).add(part * R::LANES));
+                pass.each_of_channels(
+                    #[inline(always)]
+                    |place, channels| {
+                        for part in 0..R::PARTS {
+                            // SAFETY: the caller's; a channel's signal is a number a line.
+                            unsafe {
+                                let params = direction::<R>(pass.params.of(0, place).add(part * R::LANES));
+                                for channel in 0..channels {
+                                    let (signal, one) = (pass.from.at[channel], R::lit(1.0));
+                                    let value = zonal_kernels::batch::$module::eval::<R, R>(
+                                        params,
+                                        &source(
+                                            #[inline(always)]
+                                            |i| one * *signal.add(i),
+                                        ),
+                                    );
+                                    value.store(pass.to.of(channel, place).add(part * R::LANES));
+                                }
                             }
                         }
-                    }
-                }
-                pass.end();
+                    },
+                );
             }
         }
     };
@@ -346,35 +339,34 @@ macro_rules! product {
         impl Kernel for $product {
             #[inline(always)]
             unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
-                pass.begin();
-                for block in 0..pass.blocks {
-                    pass.pass_by(block);
-                    for channel in 0..pass.channels {
-                        for part in 0..R::PARTS {
-                            let [a, b] = [&pass.from, &pass.other]
-                                .map(|lines| lines.block(channel, block).wrapping_add(part * R::LANES));
-                            let into = pass.to.block(channel, block).wrapping_add(part * R::LANES);
-                            // SAFETY: the caller's.
-                            unsafe {
-                                zonal_kernels::batch::$module::product::<R, R>(
-                                    &source(
-                                        #[inline(always)]
-                                        |i| R::load(a.add(i * BLOCK)),
-                                    ),
-                                    &source(
-                                        #[inline(always)]
-                                        |i| R::load(b.add(i * BLOCK)),
-                                    ),
-                                    &mut sink(
-                                        #[inline(always)]
-                                        |i, x: R| x.store(into.add(i * BLOCK)),
-                                    ),
-                                );
+                pass.each(
+                    #[inline(always)]
+                    |place| {
+                        for channel in 0..pass.channels {
+                            for part in 0..R::PARTS {
+                                let [a, b, into] = [&pass.from, &pass.other, &pass.to]
+                                    .map(|lines| lines.of(channel, place).wrapping_add(part * R::LANES));
+                                // SAFETY: the caller's.
+                                unsafe {
+                                    zonal_kernels::batch::$module::product::<R, R>(
+                                        &source(
+                                            #[inline(always)]
+                                            |i| R::load(a.add(i * BLOCK)),
+                                        ),
+                                        &source(
+                                            #[inline(always)]
+                                            |i| R::load(b.add(i * BLOCK)),
+                                        ),
+                                        &mut sink(
+                                            #[inline(always)]
+                                            |i, x: R| x.store(into.add(i * BLOCK)),
+                                        ),
+                                    );
+                                }
                             }
                         }
-                    }
-                }
-                pass.end();
+                    },
+                );
             }
         }
     };
@@ -386,16 +378,12 @@ macro_rules! product {
 ///
 /// All lines that the pass speaks of are there, those of results nobody else's.
 pub unsafe fn copy_lines<T>(pass: &Pass<'_, T>, lines: usize) {
-    pass.begin();
-    for block in 0..pass.blocks {
-        pass.pass_by(block);
+    pass.each(|place| {
         for channel in 0..pass.channels {
-            let (from, to) = (pass.from.block(channel, block), pass.to.block(channel, block));
             // SAFETY: the caller's.
-            unsafe { ptr::copy(from, to, lines * BLOCK) }
+            unsafe { ptr::copy(pass.from.of(channel, place), pass.to.of(channel, place), lines * BLOCK) }
         }
-    }
-    pass.end();
+    });
 }
 
 /// The kernels of an order.

@@ -5,6 +5,7 @@ use core::mem::MaybeUninit;
 use core::ops::Range;
 
 use super::numbers::{Number, Storage};
+use super::pass::Lines;
 use super::registers::BLOCK;
 use super::rows::{MOST_LINES, Row, Rows, Tiles};
 use super::signals::{Places, View};
@@ -15,28 +16,29 @@ pub type Room = MaybeUninit<Tiles>;
 
 /// Rows that are read or written.
 pub struct Moving<'t, S: Storage> {
-    view: View<S>,
+    view: &'t View<S>,
+    row: &'t Row,
+    stride: usize,
     is_far: bool,
     /// How many blocks are full, and so is what tiles touch of them.
     readable: usize,
     /// How many blocks are full.
     writable: usize,
-    stride: usize,
-    row: Row,
     tiles: Option<(&'t Tiles, Moves<S::Number>)>,
 }
 
 impl<'t, S: Storage> Moving<'t, S> {
     /// Returns the rows of a view, if it is made of rows.
-    pub fn new(room: &'t mut Room, view: View<S>, unit: Unit, over: bool, is_far: bool) -> Option<Self> {
-        let Places::Rows { stride, row } = view.places else { return None };
+    pub fn new(room: &'t mut Room, view: &'t View<S>, unit: Unit, over: bool, is_far: bool) -> Option<Self> {
+        let Places::Rows { stride, row } = &view.places else { return None };
+        let stride = *stride;
         let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-        let tiles = moves.map(|moves| (Tiles::fill(room, &row, over, if moves.is_wide { 9 } else { 13 }), moves));
+        let tiles = moves.map(|moves| (Tiles::fill(room, row, over, if moves.is_wide { 9 } else { 13 }), moves));
         let touched = tiles.as_ref().map_or(0, |(tiles, _)| tiles.touched);
         let rows = |length: &usize| length.checked_sub(touched).map_or(0, |rest| rest / stride.max(1) + 1);
         let rows = view.lengths[..view.plane_count].iter().map(rows).min().unwrap_or(0);
         let (readable, writable) = (rows.min(view.signals) / BLOCK, view.signals / BLOCK);
-        Some(Self { view, is_far, readable, writable, stride, row, tiles })
+        Some(Self { view, row, stride, is_far, readable, writable, tiles })
     }
 
     /// How many signals of a block there are.
@@ -57,6 +59,17 @@ impl<'t, S: Storage> Moving<'t, S> {
             blocks: blocks.len(),
             is_far: self.is_far,
         }
+    }
+
+    /// The rows from a block on, as lines of which a block has as many as of its own: as far as rows have nothing else, all of them.
+    pub fn ahead(&self, block: usize) -> Lines<S::Number> {
+        let mut lines = Lines::NONE;
+        let of_plane = self.row.channels.max(1);
+        for (channel, at) in lines.at.iter_mut().enumerate().take(self.view.channels) {
+            let first: *mut S::Number = self.first(channel / of_plane, block).cast();
+            *at = first.wrapping_add(channel % of_plane * self.row.count * BLOCK);
+        }
+        Lines { step: self.stride * BLOCK * size_of::<S>() / size_of::<S::Number>(), mask: usize::MAX, ..lines }
     }
 
     /// Reads blocks, each to lines of `step` numbers.
@@ -193,7 +206,7 @@ impl<'t, S: Storage> Moving<'t, S> {
     /// Columns side by side that are lines one after the other: the first of both, and how many.
     #[inline(always)]
     fn each_run(&self, mut run: impl FnMut(usize, usize, usize)) {
-        let (row, count) = (&self.row, self.row.count);
+        let (row, count) = (self.row, self.row.count);
         for channel in 0..row.channels {
             let is_dense = count < 3 || row.column(channel, 2) == row.column(channel, 1) + 1;
             for i in 0..if is_dense { 1 } else { count } {

@@ -6,7 +6,7 @@ use super::registers::BLOCK;
 use super::rows::MOST_LINES;
 
 /// The lines of blocks on the stack, in the places of some groups.
-pub fn aside<T>(first: *mut T, count: usize, step: usize, group: usize) -> Lines<*mut T> {
+pub fn aside<T>(first: *mut T, count: usize, step: usize, group: usize) -> Lines<T> {
     let at = [0, 1, 2, 3].map(|channel| first.wrapping_add(channel * count * BLOCK));
     Lines { at, step, mask: GROUPS * group - 1 }
 }

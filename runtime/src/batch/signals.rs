@@ -129,9 +129,14 @@ impl<T> View<T> {
         self.signals.div_ceil(BLOCK)
     }
 
+    /// Whether all channels lie in one plane; else each has one.
+    fn is_one_plane(&self) -> bool {
+        self.plane_count == 1
+    }
+
     /// The channels of a plane.
     pub fn channels_of_plane(&self) -> usize {
-        self.channels / self.plane_count.max(1)
+        if self.is_one_plane() { self.channels } else { 1 }
     }
 
     /// How many numbers of a plane a block has, if it lies in blocks.
@@ -154,9 +159,8 @@ impl<T> View<T> {
 
     /// The first line of a channel of a block.
     pub fn line(&self, channel: usize, block: usize) -> *mut T {
-        let of_plane = self.channels_of_plane().max(1);
-        let within = channel % of_plane * self.count * BLOCK;
-        self.planes[channel / of_plane].wrapping_add(block * self.step() + within)
+        let (plane, within) = if self.is_one_plane() { (0, channel) } else { (channel, 0) };
+        self.planes[plane].wrapping_add(block * self.step() + within * self.count * BLOCK)
     }
 }
 

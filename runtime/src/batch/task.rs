@@ -26,6 +26,12 @@ pub fn stream_from(bytes: usize) {
     STREAMS_FROM.store(bytes, Ordering::Relaxed);
 }
 
+/// How many blocks ahead signals in lines are asked for: two are far enough for memory, and of large ones more than one has no room
+/// beside what is worked on.
+fn blocks_ahead(lines: usize) -> usize {
+    if lines > 64 { 1 } else { 2 }
+}
+
 /// The parameters of a kernel.
 pub(super) enum Params<'a, T> {
     /// There are none.
@@ -134,38 +140,38 @@ pub(super) fn map<S: Storage, D: Storage<Number = S::Number>>(
     Ok(())
 }
 
-/// Where a view's blocks lie, if a kernel may work on them there.
-fn direct<S: Storage>(view: &View<S>, blocks: &Range<usize>) -> Option<Lines<*mut S::Number>> {
+/// Says where a view's blocks lie, if a kernel may work on them there.
+#[inline]
+fn direct<S: Storage>(view: &View<S>, blocks: &Range<usize>, lines: &mut Lines<S::Number>) -> bool {
     let is_whole = view.signals.is_multiple_of(BLOCK) || blocks.end < view.block_count();
-    (S::IS_NUMBER && view.is_lines() && is_whole).then(|| {
-        let mut at = [core::ptr::null_mut(); MOST_CHANNELS];
-        for (channel, at) in at.iter_mut().enumerate().take(view.channels) {
-            *at = view.line(channel, blocks.start).cast();
+    let is_there = S::IS_NUMBER && view.is_lines() && is_whole;
+    if is_there {
+        for channel in 0..view.channels.min(MOST_CHANNELS) {
+            lines.at[channel] = view.line(channel, blocks.start).cast();
         }
-        Lines { at, step: view.step(), mask: usize::MAX }
-    })
+        (lines.step, lines.mask) = (view.step(), usize::MAX);
+    }
+    is_there
 }
 
-/// Where everything that a task works on lies, if it is lines.
-struct Spots<T> {
-    params: Option<Lines<*const T>>,
-    from: Option<Lines<*const T>>,
-    other: Option<Lines<*const T>>,
-    to: Option<Lines<*mut T>>,
+/// What of a task lies in lines, so that a kernel may work on it where it lies.
+#[derive(Clone, Copy)]
+struct There {
+    params: bool,
+    from: bool,
+    other: bool,
+    to: bool,
 }
 
-/// Lines that all blocks share: numbers of each channel, or nothing.
-fn same<T>(at: [*const T; MOST_CHANNELS]) -> Lines<*const T> {
-    Lines { at, step: 0, mask: 0 }
+impl There {
+    fn is_all(self) -> bool {
+        self.params && self.from && self.other && self.to
+    }
 }
 
 /// Whether lines may be written past the caches.
-fn are_aligned<T>(lines: &Lines<*mut T>) -> bool {
+fn are_aligned<T>(lines: &Lines<T>) -> bool {
     lines.at.iter().all(|at| at.is_null() || at.align_offset(64) == 0)
-}
-
-fn shared<T>(lines: &Lines<*mut T>) -> Lines<*const T> {
-    Lines { at: lines.at.map(<*mut T>::cast_const), step: lines.step, mask: lines.mask }
 }
 
 impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
@@ -225,17 +231,17 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     }
 
     /// Returns what reads and writes rows, for all of the blocks.
-    pub fn moves<'t>(&self, [params, from, other, to]: &'t mut Rooms) -> Moved<'t, S, D> {
+    pub fn moves<'t>(&'t self, [params, from, other, to]: &'t mut Rooms) -> Moved<'t, S, D> {
         #[cfg(all(target_arch = "x86_64", feature = "order4"))]
         if let Some(diagonals) = self.diagonals() {
             return Moved { params: None, from: None, other: None, to: None, diagonals: Some(diagonals) };
         }
         let (unit, is_far) = (self.unit, self.is_far());
         Moved {
-            params: self.params.view().and_then(|view| Moving::new(params, *view, unit, true, is_far)),
-            from: self.from.view().and_then(|view| Moving::new(from, *view, unit, true, is_far)),
-            other: self.other.and_then(|view| Moving::new(other, view, unit, true, is_far)),
-            to: Moving::new(to, self.to, unit, false, is_far),
+            params: self.params.view().and_then(|view| Moving::new(params, view, unit, true, is_far)),
+            from: self.from.view().and_then(|view| Moving::new(from, view, unit, true, is_far)),
+            other: self.other.as_ref().and_then(|view| Moving::new(other, view, unit, true, is_far)),
+            to: Moving::new(to, &self.to, unit, false, is_far),
             #[cfg(all(target_arch = "x86_64", feature = "order4"))]
             diagonals: None,
         }
@@ -250,9 +256,10 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let blocks = 0..self.to.block_count();
         // SAFETY: the caller's. What lies in lines needs none of the tables for rows.
         unsafe {
-            match self.in_lines(blocks.len(), &self.spots(&blocks)) {
-                Some(pass) => self.call(&pass),
-                None => self.all_over(blocks),
+            let mut pass = self.pass(&blocks);
+            match self.place(&mut pass, &blocks).is_all() {
+                true => self.call(&pass),
+                false => self.all_over(blocks),
             }
         }
     }
@@ -300,44 +307,42 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         params.into_iter().chain(self.from.view().into_iter().chain(&self.other).map(|view| view.signals))
     }
 
-    /// Where everything of some blocks lies, if it is lines. What all blocks share is lines wherever it is, and so is what there is
-    /// none of.
-    fn spots(&self, blocks: &Range<usize>) -> Spots<S::Number> {
-        let nowhere = Some(same([core::ptr::null(); MOST_CHANNELS]));
-        let of_view = |view: &View<S>| direct(view, blocks).as_ref().map(shared);
-        Spots {
-            params: match &self.params {
-                Params::None => nowhere,
-                Params::Shared(numbers) => Some(same([numbers.as_ptr(); MOST_CHANNELS])),
-                Params::Each(view) => direct(view, blocks).as_ref().map(shared),
-            },
-            from: match &self.from {
-                Input::None => nowhere,
-                Input::Shared(at) => Some(same(*at)),
-                Input::Each(view) => of_view(view),
-            },
-            other: self.other.as_ref().map_or(nowhere, of_view),
-            to: direct(&self.to, blocks),
+    /// Returns a pass over some blocks, of which nothing has a place.
+    fn pass(&self, blocks: &Range<usize>) -> Pass<'static, S::Number> {
+        Pass {
+            blocks: blocks.len(),
+            group: blocks.len(),
+            channels: self.to.channels,
+            is_far: self.is_far(),
+            ..Pass::nowhere()
         }
     }
 
-    /// Returns the pass over blocks all of which lie in lines, if they do.
-    fn in_lines(&self, blocks: usize, spots: &Spots<S::Number>) -> Option<Pass<'static, S::Number>> {
-        let (params, from, other, to) = (spots.params?, spots.from?, spots.other?, spots.to?);
-        Some(Pass {
-            read: None,
-            write: None,
-            group: 1,
-            within: usize::MAX,
-            blocks,
-            channels: self.to.channels,
-            params,
-            from,
-            other,
-            to,
-            is_far: self.is_far(),
-            streams: self.streams() && are_aligned(&to),
-        })
+    /// Places what lies in lines. What all blocks share is lines wherever it is, and so is what there is none of.
+    fn place(&self, pass: &mut Pass<'_, S::Number>, blocks: &Range<usize>) -> There {
+        let there = There {
+            params: match &self.params {
+                Params::None => true,
+                Params::Shared(numbers) => {
+                    pass.params.at[0] = numbers.as_ptr().cast_mut();
+                    true
+                }
+                Params::Each(view) => direct(view, blocks, &mut pass.params),
+            },
+            from: match &self.from {
+                Input::None => true,
+                Input::Shared(at) => {
+                    pass.from.at = at.map(<*const S::Number>::cast_mut);
+                    true
+                }
+                Input::Each(view) => direct(view, blocks, &mut pass.from),
+            },
+            other: self.other.as_ref().is_none_or(|view| direct(view, blocks, &mut pass.other)),
+            to: direct(&self.to, blocks, &mut pass.to),
+        };
+        pass.ahead = pass.from.later(blocks_ahead(self.to.count));
+        pass.streams = there.to && self.streams() && are_aligned(&pass.to);
+        there
     }
 
     /// # Safety
@@ -346,13 +351,14 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     unsafe fn part(&self, moves: &Moved<'_, S, D>, blocks: Range<usize>) {
         // SAFETY: the caller's.
         unsafe {
-            let spots = self.spots(&blocks);
-            match self.in_lines(blocks.len(), &spots) {
-                Some(pass) => self.call(&pass),
-                None if self.needs(&spots).lines(1) <= FEW_LINES => {
-                    self.through_lines::<FEW_LINES>(moves, blocks, &spots)
-                }
-                None => self.through_lines::<ROOM_LINES>(moves, blocks, &spots),
+            let mut pass = self.pass(&blocks);
+            let there = self.place(&mut pass, &blocks);
+            if there.is_all() {
+                self.call(&pass);
+            } else if self.needs(there).lines(1) <= FEW_LINES {
+                self.through_lines::<FEW_LINES>(moves, blocks, &pass, there);
+            } else {
+                self.through_lines::<ROOM_LINES>(moves, blocks, &pass, there);
             }
         }
     }
@@ -371,13 +377,13 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     }
 
     /// Returns the lines that a block needs on the stack.
-    fn needs(&self, spots: &Spots<S::Number>) -> Needs {
+    fn needs(&self, there: There) -> Needs {
         let lines = |view: Option<&View<S>>, is_there: bool| {
             view.filter(|_| !is_there).map_or(0, |view| view.count * view.channels)
         };
-        let from = lines(self.from.view(), spots.from.is_some());
-        let other = lines(self.other.as_ref(), spots.other.is_some());
-        let to = if spots.to.is_some() { 0 } else { self.to.count * self.to.channels };
+        let from = lines(self.from.view(), there.from);
+        let other = lines(self.other.as_ref(), there.other);
+        let to = if there.to { 0 } else { self.to.count * self.to.channels };
         // A kernel of one signal to one may write where it reads.
         Needs { from, other, to, is_in_place: from == to && self.other.is_none() }
     }
@@ -392,14 +398,15 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         &self,
         moves: &Moved<'_, S, D>,
         blocks: Range<usize>,
-        spots: &Spots<S::Number>,
+        placed: &Pass<'_, S::Number>,
+        there: There,
     ) {
         let (unit, start, count) = (self.unit, blocks.start, self.to.count);
         let Moved { params: param_rows, from: from_rows, other: other_rows, to: to_rows, .. } = moves;
         let mut params_room = Aside::<[[S::Number; BLOCK]; GROUPS * MOST_GROUP * MOST_PARAMS]>::new();
         let mut room = Aside::<[[S::Number; BLOCK]; LINES]>::new();
         let params_first: *mut S::Number = params_room.first();
-        let needs = self.needs(spots);
+        let needs = self.needs(there);
         let is_large = self.streams();
         // What goes to memory goes evenly.
         let group = if is_large { 1 } else { needs.group(LINES) };
@@ -408,15 +415,14 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             needs.places(group).map(|line| first.wrapping_add(line * BLOCK));
 
         // What is no lines is read to some.
-        let params_read = self.params.view().filter(|_| spots.params.is_none());
-        let from_read = self.from.view().filter(|_| spots.from.is_none());
-        let other_read = self.other.as_ref().filter(|_| spots.other.is_none());
+        let params_read = self.params.view().filter(|_| !there.params);
+        let from_read = self.from.view().filter(|_| !there.from);
+        let other_read = self.other.as_ref().filter(|_| !there.other);
         let step = |view: &View<S>| view.count * view.channels * BLOCK;
         let read_to = |first: *mut S::Number, view: Option<&View<S>>| {
             let (count, step) = view.map_or((0, 0), |view| (view.count, step(view)));
-            shared(&aside(first, count, step, group))
+            aside(first, count, step, group)
         };
-        let params = || shared(&aside(params_first, 0, MOST_PARAMS * BLOCK, group));
         let read = |blocks: Range<usize>| {
             let (place, blocks) = (blocks.start % (GROUPS * group), start + blocks.start..start + blocks.end);
             // SAFETY: the caller's; what lies aside has room for the lines of as many blocks as have a place.
@@ -435,7 +441,6 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
 
         let to_step = count * self.to.channels * BLOCK;
         let to_aside = aside(to_first, count, to_step, group);
-        let to = spots.to.unwrap_or(to_aside);
         let write = |blocks: Range<usize>| {
             let (lines, blocks) = (to_aside.block(0, blocks.start), start + blocks.start..start + blocks.end);
             let line = |block: usize| lines.wrapping_add((block - blocks.start) * to_step).cast_const();
@@ -450,20 +455,28 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
                 }
             }
         };
-        let pass = Pass {
+        let mut pass = Pass {
             read: (params_read.is_some() || from_read.is_some() || other_read.is_some()).then_some(&read),
-            write: spots.to.is_none().then_some(&write),
+            write: (!there.to).then_some(&write),
             group,
             within: group - 1,
-            blocks: blocks.len(),
-            channels: self.to.channels,
-            params: spots.params.unwrap_or_else(params),
-            from: spots.from.unwrap_or_else(|| read_to(from_first, from_read)),
-            other: spots.other.unwrap_or_else(|| read_to(other_first, other_read)),
-            streams: is_large && spots.to.as_ref().is_some_and(are_aligned),
-            to,
             is_far: false,
+            ..*placed
         };
+        if !there.params {
+            pass.params = aside(params_first, 0, MOST_PARAMS * BLOCK, group);
+        }
+        if !there.from {
+            pass.from = read_to(from_first, from_read);
+            // What is read next is in the nearest cache by then, or on its way.
+            pass.ahead = from_rows.as_ref().map_or(pass.from, |rows| rows.ahead(start + GROUPS * group));
+        }
+        if !there.other {
+            pass.other = read_to(other_first, other_read);
+        }
+        if !there.to {
+            pass.to = to_aside;
+        }
         // SAFETY: the caller's.
         unsafe { self.call(&pass) }
         if is_large {

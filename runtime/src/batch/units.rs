@@ -178,12 +178,12 @@ macro_rules! unit {
         /// The kernels of an order.
         pub fn $name(order: usize) -> Option<Kernels<$number>> {
             unit!(@ orders $register, $several, order,
-                "order2" 2 sh2 single product, "order3" 3 sh3 single product, "order4" 4 sh4 single product,
-                "order5" 5 sh5 single product, "order6" 6 sh6 single product, "order7" 7 sh7 several none,
-                "order8" 8 sh8 several none, "order9" 9 sh9 several none, "order10" 10 sh10 several none)
+                "order2" 2 sh2 product, "order3" 3 sh3 product, "order4" 4 sh4 product,
+                "order5" 5 sh5 product, "order6" 6 sh6 product, "order7" 7 sh7 none,
+                "order8" 8 sh8 none, "order9" 9 sh9 none, "order10" 10 sh10 none)
         }
     };
-    (@ orders $register:ty, $several:ty, $order:ident, $($feature:literal $number:literal $module:ident $eval:ident $product:ident),*) => {
+    (@ orders $register:ty, $several:ty, $order:ident, $($feature:literal $number:literal $module:ident $product:ident),*) => {
         match $order {
             $(
                 #[cfg(feature = $feature)]
@@ -192,7 +192,7 @@ macro_rules! unit {
                     rotate_all: run::<kernels::$module::RotateAll, $register>,
                     tilt: run::<kernels::$module::Tilt, $register>,
                     basis: run::<kernels::$module::Basis, $several>,
-                    eval: unit!(@ $eval $module $register, $several),
+                    eval: run::<kernels::$module::Eval, $several>,
                     eval_all: run::<kernels::$module::EvalAll, $several>,
                     product: unit!(@ $product $module $register),
                 }),
@@ -200,9 +200,6 @@ macro_rules! unit {
             _ => None,
         }
     };
-    // A pair of registers at once pays where there is much to do between two signals that are read.
-    (@ single $module:ident $register:ty, $several:ty) => { run::<kernels::$module::Eval, $register> };
-    (@ several $module:ident $register:ty, $several:ty) => { run::<kernels::$module::Eval, $several> };
     (@ product $module:ident $register:ty) => { Some(run::<kernels::$module::Product, $register>) };
     (@ none $module:ident $register:ty) => { None };
 }
