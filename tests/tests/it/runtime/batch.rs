@@ -2,6 +2,7 @@
 //! time, within the kernel's own bound; the same bits in every layout; nothing touched that is not a result, and nothing at all
 //! where sizes do not fit.
 
+mod channels;
 mod strided;
 
 use super::{narrow, quaternion, signal, wide};
