@@ -43,6 +43,7 @@ mod registers;
 mod room;
 mod rows;
 mod signals;
+mod squares;
 mod task;
 mod units;
 

@@ -32,8 +32,15 @@ impl<'t, S: Storage> Moving<'t, S> {
     pub fn new(room: &'t mut Room, view: &'t View<S>, unit: Unit, over: bool, is_far: bool) -> Option<Self> {
         let Places::Rows { stride, row } = &view.places else { return None };
         let stride = *stride;
-        let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
-        let tiles = moves.map(|moves| (Tiles::fill(room, row, over, if moves.is_wide { 9 } else { 13 }), moves));
+        let array = row.is_array(stride).then_some(stride);
+        let arrays = array.and_then(|count| <S::Number as Number>::arrays(unit, count));
+        let tiles = match arrays {
+            Some(moves) if S::IS_NUMBER => Some((&*Tiles::none(room), moves)),
+            _ => {
+                let moves = <S::Number as Number>::moves(unit).filter(|_| S::IS_NUMBER);
+                moves.map(|moves| (Tiles::fill(room, row, over, moves.is_wide), moves))
+            }
+        };
         let touched = tiles.as_ref().map_or(0, |(tiles, _)| tiles.touched);
         let rows = |length: &usize| length.checked_sub(touched).map_or(0, |rest| rest / stride.max(1) + 1);
         let rows = view.lengths[..view.plane_count].iter().map(rows).min().unwrap_or(0);

@@ -69,6 +69,9 @@ pub trait Number: zonal_kernels::real::Real + Storage<Number = Self> + Into<f64>
     /// Returns how rows are read and written, if a unit does it.
     #[doc(hidden)]
     fn moves(unit: Unit) -> Option<Moves<Self>>;
+    /// Returns how arrays of so many numbers are read and written, without tiles, if a unit does it.
+    #[doc(hidden)]
+    fn arrays(unit: Unit, count: usize) -> Option<Moves<Self>>;
     /// Returns what writes so many numbers past the caches; a [`fence`] makes them seen.
     #[doc(hidden)]
     fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize);
@@ -81,6 +84,9 @@ impl Number for f32 {
     fn moves(unit: Unit) -> Option<Moves<Self>> {
         Some(units::moves(unit))
     }
+    fn arrays(unit: Unit, count: usize) -> Option<Moves<Self>> {
+        units::arrays(unit, count)
+    }
     fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {
         units::stream_single(unit)
     }
@@ -91,6 +97,9 @@ impl Number for f64 {
         units::doubles(unit, order)
     }
     fn moves(_: Unit) -> Option<Moves<Self>> {
+        None
+    }
+    fn arrays(_: Unit, _: usize) -> Option<Moves<Self>> {
         None
     }
     fn stream(unit: Unit) -> unsafe fn(*const Self, *mut Self, usize) {

@@ -4,8 +4,9 @@
 use core::mem::MaybeUninit;
 
 use super::pass::MOST_CHANNELS;
-use super::registers::{BLOCK, Quads};
-use crate::pieces::{sink, source};
+use super::registers::{BLOCK, Quads, Register};
+use super::squares::{read_four, read_square, worth_a_square, write_four, write_square};
+use crate::pieces::source;
 
 /// The most coefficients of a channel: order 10.
 pub const MOST_COUNT: usize = 100;
@@ -64,6 +65,12 @@ impl Row {
             None => self.first[0] + channel * self.first[1],
             Some(above) => self.rest[0] + channel * self.rest[1] + above * self.rest[2],
         }
+    }
+
+    /// Whether rows of so many numbers are the signal and nothing else, one number after the other.
+    pub(super) const fn is_array(&self, stride: usize) -> bool {
+        let is_dense = self.count == 1 || self.rest[0] == 1 && self.rest[2] == 1;
+        self.count == stride && self.channels == 1 && self.first[0] == 0 && is_dense
     }
 
     /// Returns how many numbers a row has at least.
@@ -178,24 +185,29 @@ impl Row {
 }
 
 impl Tiles {
-    /// Puts the columns of a row there, of which so many that are left over are worth sixteen. Where `over` is so, fewer than four
-    /// columns side by side are a tile too, which touches what lies behind them.
-    pub fn fill<'t>(at: &'t mut MaybeUninit<Self>, row: &Row, over: bool, worth_sixteen: usize) -> &'t Self {
+    /// Puts no columns there.
+    pub fn none(at: &mut MaybeUninit<Self>) -> &mut Self {
         let at = at.as_mut_ptr();
         // SAFETY: what is not written may be without meaning; thousands of bytes are not copied.
-        let tiles = unsafe {
+        unsafe {
             (&raw mut (*at).wide.count).write(0);
             (&raw mut (*at).tiles.count).write(0);
             (&raw mut (*at).alone.count).write(0);
             (&raw mut (*at).touched).write(0);
             &mut *at
-        };
+        }
+    }
+
+    /// Puts the columns of a row there, for a unit that is wide or not. Where `over` is so, fewer than four columns side by side are
+    /// a tile too, which touches what lies behind them.
+    pub fn fill<'t>(at: &'t mut MaybeUninit<Self>, row: &Row, over: bool, is_wide: bool) -> &'t Self {
+        let tiles = Self::none(at);
         let mut lines = Few::<u16, MOST_LINES>::new();
         let pieces = row.pieces();
         let mut first = 0;
         for piece in pieces.get() {
             if lines.count > 0 && piece.column != first + lines.count as u32 {
-                tiles.add(first, lines.get(), over, worth_sixteen);
+                tiles.add(first, lines.get(), over, is_wide);
                 lines.count = 0;
             }
             if lines.count == 0 {
@@ -215,12 +227,12 @@ impl Tiles {
                 }
             }
         }
-        tiles.add(first, lines.get(), over, worth_sixteen);
+        tiles.add(first, lines.get(), over, is_wide);
         tiles
     }
 
     /// Adds columns side by side, with their lines.
-    fn add(&mut self, first: u32, lines: &[u16], over: bool, worth_sixteen: usize) {
+    fn add(&mut self, first: u32, lines: &[u16], over: bool, is_wide: bool) {
         let count = lines.len();
         if count < 4 && !(over && count > 1) {
             (0..count).for_each(|i| self.alone.push((first + i as u32, lines[i])));
@@ -231,7 +243,7 @@ impl Tiles {
             self.wide.push(Tile::new(first + (i * BLOCK) as u32, *lines));
         }
         self.touched = self.touched.max(first as usize + count.max(4));
-        if let Some(lines) = lines.last_chunk::<BLOCK>().filter(|_| rest.len() >= worth_sixteen) {
+        if let Some(lines) = lines.last_chunk::<BLOCK>().filter(|_| rest.len() >= worth_a_square(is_wide)) {
             self.wide.push(Tile::new(first + (count - BLOCK) as u32, *lines));
             return;
         }
@@ -257,78 +269,37 @@ impl Tiles {
     /// unit of the register, which the processor has.
     #[inline(always)]
     pub unsafe fn gather<R: Quads>(&self, rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
-        let Rows { first, stride, blocks, is_far } = rows;
-        for block in 0..blocks {
-            let rows = first.wrapping_add(block * BLOCK * stride).cast_const();
-            let lines = lines.wrapping_add(block * step);
-            if is_far {
-                // What is read next is far enough for memory.
-                let ahead = rows.wrapping_add((blocks + 1) * BLOCK * stride);
-                for at in (0..BLOCK * stride.min(MOST_LINES)).step_by(BLOCK) {
-                    R::prefetch(ahead.wrapping_add(at));
-                }
-            }
+        for block in 0..rows.blocks {
+            let (lines, stride) = (lines.wrapping_add(block * step), rows.stride);
+            let first = rows.block::<R>(block);
+            let line = |lines_of: &[u16], i: usize| lines.wrapping_add(lines_of[i] as usize * BLOCK);
             for wide in self.wide.get() {
-                let line = source(
-                    #[inline(always)]
-                    |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
-                );
-                let first = rows.wrapping_add(wide.column as usize);
-                let row = source(
-                    #[inline(always)]
-                    |i: usize| first.wrapping_add(i * stride),
-                );
+                let column = first.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
-                    if R::IS_WIDE {
-                        if wide.is_dense {
-                            let lines = line(0);
-                            let dense = source(
-                                #[inline(always)]
-                                |i: usize| lines.wrapping_add(i * BLOCK),
-                            );
-                            turn::<R>(row, dense);
-                        } else {
-                            turn::<R>(row, line);
-                        }
-                        continue;
-                    }
-                    for part in 0..R::PARTS {
-                        for x in [0, 4, 8, 12] {
-                            let first = first.add(part * R::LANES * stride + x);
-                            let row = source(
-                                #[inline(always)]
-                                |i: usize| R::gather(first.add(i * stride), 4 * stride),
-                            );
-                            let columns = R::transpose([row(0), row(1), row(2), row(3)]);
-                            for i in 0..4 {
-                                columns[i].store(line(x + i).add(part * R::LANES));
-                            }
-                        }
+                    if wide.is_dense {
+                        let lines = line(&wide.lines, 0);
+                        let dense = source(
+                            #[inline(always)]
+                            |i: usize| lines.wrapping_add(i * BLOCK),
+                        );
+                        read_square::<R>(column, stride, dense);
+                    } else {
+                        let apart = source(
+                            #[inline(always)]
+                            |i: usize| line(&wide.lines, i),
+                        );
+                        read_square::<R>(column, stride, apart);
                     }
                 }
             }
-            for part in 0..R::PARTS {
-                let (rows, lines) = (rows.wrapping_add(part * R::LANES * stride), lines.wrapping_add(part * R::LANES));
-                for tile in self.tiles.get() {
-                    // SAFETY: the caller's.
-                    unsafe {
-                        let first = rows.add(tile.column as usize);
-                        let row = source(
-                            #[inline(always)]
-                            |i: usize| R::gather(first.add(i * stride), 4 * stride),
-                        );
-                        let columns = R::transpose([row(0), row(1), row(2), row(3)]);
-                        let line = source(
-                            #[inline(always)]
-                            |i: usize| lines.add(tile.lines[i] as usize * BLOCK),
-                        );
-                        columns[3].store(line(3));
-                        columns[2].store(line(2));
-                        columns[1].store(line(1));
-                        columns[0].store(line(0));
-                    }
-                }
+            for tile in self.tiles.get() {
+                let apart = source(
+                    #[inline(always)]
+                    |i: usize| line(&tile.lines, i),
+                );
+                // SAFETY: the caller's.
+                unsafe { read_four::<R>(first.wrapping_add(tile.column as usize), stride, apart) }
             }
         }
     }
@@ -340,136 +311,39 @@ impl Tiles {
     /// As [`gather`](Self::gather), and the rows are nobody else's.
     #[inline(always)]
     pub unsafe fn scatter<R: Quads>(&self, lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
-        let Rows { first, stride, blocks, .. } = rows;
-        for block in 0..blocks {
-            let (rows, lines) = (first.wrapping_add(block * BLOCK * stride), lines.wrapping_add(block * step));
+        for block in 0..rows.blocks {
+            let (lines, stride) = (lines.wrapping_add(block * step), rows.stride);
+            let first = rows.first.wrapping_add(block * BLOCK * stride);
+            let line = |lines_of: &[u16], i: usize| lines.wrapping_add(lines_of[i] as usize * BLOCK);
             for wide in self.wide.get() {
-                let line = source(
-                    #[inline(always)]
-                    |i: usize| lines.wrapping_add(wide.lines[i] as usize * BLOCK),
-                );
-                let first = rows.wrapping_add(wide.column as usize);
-                let row = source(
-                    #[inline(always)]
-                    |i: usize| first.wrapping_add(i * stride),
-                );
+                let column = first.wrapping_add(wide.column as usize);
                 // SAFETY: the caller's.
                 unsafe {
-                    if R::IS_WIDE {
-                        if wide.is_dense {
-                            let lines = line(0);
-                            let dense = source(
-                                #[inline(always)]
-                                |i: usize| lines.wrapping_add(i * BLOCK),
-                            );
-                            turn_in_order::<R>(dense, row);
-                        } else {
-                            turn_in_order::<R>(line, row);
-                        }
-                        continue;
-                    }
-                    for part in 0..R::PARTS {
-                        for x in [0, 4, 8, 12] {
-                            let first = first.add(part * R::LANES * stride + x);
-                            let column = source(
-                                #[inline(always)]
-                                |i: usize| R::load(line(x + i).add(part * R::LANES)),
-                            );
-                            let quads = R::transpose([column(0), column(1), column(2), column(3)]);
-                            for i in 0..4 {
-                                quads[i].scatter(first.add(i * stride), 4 * stride);
-                            }
-                        }
+                    if wide.is_dense {
+                        let lines = line(&wide.lines, 0);
+                        let dense = source(
+                            #[inline(always)]
+                            |i: usize| lines.wrapping_add(i * BLOCK),
+                        );
+                        write_square::<R>(dense, column, stride);
+                    } else {
+                        let apart = source(
+                            #[inline(always)]
+                            |i: usize| line(&wide.lines, i),
+                        );
+                        write_square::<R>(apart, column, stride);
                     }
                 }
             }
-            for part in 0..R::PARTS {
-                let (rows, lines) = (rows.wrapping_add(part * R::LANES * stride), lines.wrapping_add(part * R::LANES));
-                for tile in self.tiles.get() {
-                    // SAFETY: the caller's.
-                    unsafe {
-                        let line = source(
-                            #[inline(always)]
-                            |i: usize| R::load(lines.add(tile.lines[i] as usize * BLOCK)),
-                        );
-                        let [p, q, r, s] = R::transpose([line(0), line(1), line(2), line(3)]);
-                        let first = rows.add(tile.column as usize);
-                        p.scatter(first, 4 * stride);
-                        q.scatter(first.add(stride), 4 * stride);
-                        r.scatter(first.add(2 * stride), 4 * stride);
-                        s.scatter(first.add(3 * stride), 4 * stride);
-                    }
-                }
+            for tile in self.tiles.get() {
+                let apart = source(
+                    #[inline(always)]
+                    |i: usize| line(&tile.lines, i),
+                );
+                // SAFETY: the caller's.
+                unsafe { write_four::<R>(apart, first.wrapping_add(tile.column as usize), stride) }
             }
         }
-    }
-}
-
-/// Exchanges rows and columns of sixteen by sixteen numbers, of which a register holds a row.
-///
-/// # Safety
-///
-/// There are sixteen numbers at each place that is read and room at each that is written; the function around is compiled for
-/// the unit of the register, which the processor has.
-#[inline(always)]
-unsafe fn turn<R: Quads>(from: impl Fn(usize) -> *const R::Number, to: impl Fn(usize) -> *mut R::Number) {
-    // SAFETY: the caller's. What is written out is not left to a loop, so that all of it stays in registers.
-    unsafe {
-        let four = source(
-            #[inline(always)]
-            |i: usize| {
-                R::transpose([R::load(from(i)), R::load(from(i + 1)), R::load(from(i + 2)), R::load(from(i + 3))])
-            },
-        );
-        let ([a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]) =
-            (four(0), four(4), four(8), four(12));
-        let mut store = sink(
-            #[inline(always)]
-            |x: usize, quads: [R; 4]| {
-                let [p, q, r, s] = R::cross(quads);
-                p.store(to(x));
-                q.store(to(x + 4));
-                r.store(to(x + 8));
-                s.store(to(x + 12));
-            },
-        );
-        store(0, [a0, b0, c0, d0]);
-        store(1, [a1, b1, c1, d1]);
-        store(2, [a2, b2, c2, d2]);
-        store(3, [a3, b3, c3, d3]);
-    }
-}
-
-/// As [`turn`], but what is written is written in its order: rows that share a line of the cache one after the other, which is worth
-/// more than a few registers.
-///
-/// # Safety
-///
-/// As [`turn`].
-#[inline(always)]
-unsafe fn turn_in_order<R: Quads>(from: impl Fn(usize) -> *const R::Number, to: impl Fn(usize) -> *mut R::Number) {
-    // SAFETY: the caller's.
-    unsafe {
-        let four = source(
-            #[inline(always)]
-            |i: usize| R::cross([R::load(from(i)), R::load(from(i + 4)), R::load(from(i + 8)), R::load(from(i + 12))]),
-        );
-        let ([a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3], [d0, d1, d2, d3]) =
-            (four(0), four(1), four(2), four(3));
-        let mut store = sink(
-            #[inline(always)]
-            |x: usize, quads: [R; 4]| {
-                let [p, q, r, s] = R::transpose(quads);
-                p.store(to(x));
-                q.store(to(x + 1));
-                r.store(to(x + 2));
-                s.store(to(x + 3));
-            },
-        );
-        store(0, [a0, b0, c0, d0]);
-        store(4, [a1, b1, c1, d1]);
-        store(8, [a2, b2, c2, d2]);
-        store(12, [a3, b3, c3, d3]);
     }
 }
 
@@ -484,4 +358,21 @@ pub struct Rows<T> {
     pub blocks: usize,
     /// Whether rows are asked for ahead, since they lie in no near cache.
     pub is_far: bool,
+}
+
+impl<T> Rows<T> {
+    /// The first row of a block that is read now; what is read next is asked for, if it is far.
+    #[inline(always)]
+    pub fn block<R: Register<Number = T>>(&self, block: usize) -> *const T {
+        let of_block = BLOCK * self.stride;
+        let first = self.first.wrapping_add(block * of_block).cast_const();
+        if self.is_far {
+            // Far enough for memory.
+            let ahead = first.wrapping_add((self.blocks + 1) * of_block);
+            for at in (0..BLOCK * self.stride.min(MOST_LINES)).step_by(BLOCK) {
+                R::prefetch(ahead.wrapping_add(at));
+            }
+        }
+        first
+    }
 }

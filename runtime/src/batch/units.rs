@@ -10,6 +10,7 @@ use super::pass::{Pass, align_stack};
 use super::registers::pair::Pair;
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
+use super::squares;
 
 /// A vector unit, by what it needs of the processor; later ones are wider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -144,6 +145,24 @@ macro_rules! unit {
 
             /// # Safety
             ///
+            /// As [`Tiles::gather`]; the processor has the unit.
+            $(#[$features])?
+            unsafe fn gather_arrays<R: Quads, const N: usize>(_: &Tiles, rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
+                // SAFETY: the caller's, and this function is compiled for the unit.
+                unsafe { squares::gather_arrays::<R, N>(rows, lines, step) }
+            }
+
+            /// # Safety
+            ///
+            /// As [`Tiles::scatter`]; the processor has the unit.
+            $(#[$features])?
+            unsafe fn scatter_arrays<R: Quads, const N: usize>(_: &Tiles, lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
+                // SAFETY: the caller's, and this function is compiled for the unit.
+                unsafe { squares::scatter_arrays::<R, N>(lines, step, rows) }
+            }
+
+            /// # Safety
+            ///
             /// There are so many numbers, and room for them; the processor has the unit.
             $(#[$features])?
             unsafe fn stream<R: Register>(from: *const R::Number, to: *mut R::Number, count: usize) {
@@ -167,6 +186,12 @@ macro_rules! unit {
                 scatter: scatter::<$single>,
                 is_wide: <$single as Quads>::IS_WIDE,
             };
+
+            /// The same of arrays of so many numbers, if they are an order's that is compiled.
+            pub fn arrays(count: usize) -> Option<Moves<f32>> {
+                unit!(@ arrays $single, count, "order2" 4, "order3" 9, "order4" 16, "order5" 25, "order6" 36, "order7" 49, "order8" 64,
+                    "order9" 81, "order10" 100)
+            }
             pub const STREAM_SINGLE: unsafe fn(*const f32, *mut f32, usize) = stream::<$single>;
             pub const STREAM_DOUBLE: unsafe fn(*const f64, *mut f64, usize) = stream::<$double>;
 
@@ -195,6 +220,19 @@ macro_rules! unit {
                     eval: run::<kernels::$module::Eval, $several>,
                     eval_all: run::<kernels::$module::EvalAll, $several>,
                     product: unit!(@ $product $module $register),
+                }),
+            )*
+            _ => None,
+        }
+    };
+    (@ arrays $register:ty, $count:ident, $($feature:literal $number:literal),*) => {
+        match $count {
+            $(
+                #[cfg(feature = $feature)]
+                $number => Some(Moves {
+                    gather: gather_arrays::<$register, $number>,
+                    scatter: scatter_arrays::<$register, $number>,
+                    ..MOVES
                 }),
             )*
             _ => None,
@@ -253,6 +291,11 @@ pub fn doubles(unit: Unit, order: usize) -> Option<Kernels<f64>> {
 /// How rows of f32 are read and written.
 pub fn moves(unit: Unit) -> Moves<f32> {
     of!(unit, MOVES)
+}
+
+/// How arrays of so many f32 are read and written, without tiles, if an order that is compiled has so many.
+pub fn arrays(unit: Unit, count: usize) -> Option<Moves<f32>> {
+    of!(unit, arrays(count))
 }
 
 /// What writes so many f32 past the caches; a [`fence`] makes them seen.
