@@ -22,6 +22,8 @@ const DIAGONALS: usize = 7;
 const MASK: __mmask16 = (1 << COUNT) - 1;
 /// The numbers of the bands 1 and 2, which are a register of AVX2; band 3 is in another, behind the last number of these.
 const LOW: usize = 8;
+/// The diagonals of band 2, the larger of those.
+const LOW_DIAGONALS: usize = 5;
 
 /// A rotation as diagonals, and the rows that it turns.
 pub struct Diagonals {
@@ -40,6 +42,43 @@ fn rows(view: &View<f32>) -> Option<(usize, Row)> {
     let Places::Rows { stride, row } = view.places else { return None };
     let is_dense = row.count == COUNT + 1 && row.column(0, COUNT) == row.column(0, 1) + COUNT - 1;
     is_dense.then_some((stride, row))
+}
+
+/// What the lower or the higher eight numbers need.
+struct Half {
+    places: [[i32; LOW]; DIAGONALS],
+    factors: [[f32; LOW]; DIAGONALS],
+}
+
+impl Half {
+    /// Returns what turns the eight numbers by the first so many diagonals. It is made anew for the rows of a block, so that all that
+    /// it needs stays in registers for so long and no longer.
+    #[inline(always)]
+    fn turn<const COUNT: usize>(&self) -> impl Fn(__m256) -> __m256 {
+        let half = core::hint::black_box(self);
+        // SAFETY: the arrays are as long as a register; the function that this is inlined into is compiled for AVX2 and FMA.
+        let (mut places, mut factors) = unsafe { ([_mm256_setzero_si256(); COUNT], [_mm256_setzero_ps(); COUNT]) };
+        for d in 0..COUNT {
+            // SAFETY: as above.
+            unsafe {
+                places[d] = _mm256_loadu_si256(half.places[d].as_ptr().cast());
+                factors[d] = _mm256_loadu_ps(half.factors[d].as_ptr());
+            }
+        }
+        of_eight(
+            #[inline(always)]
+            move |x| {
+                // SAFETY: as above.
+                unsafe {
+                    let mut sum = _mm256_mul_ps(x, factors[0]);
+                    for d in 1..COUNT {
+                        sum = _mm256_fmadd_ps(_mm256_permutevar8x32_ps(x, places[d]), factors[d], sum);
+                    }
+                    sum
+                }
+            },
+        )
+    }
 }
 
 impl Diagonals {
@@ -127,7 +166,7 @@ impl Diagonals {
             },
         );
         // SAFETY: the caller's.
-        unsafe { self.each(blocks, turn, |_, _| ()) }
+        unsafe { self.each(blocks, || &turn, || |_: *const f32, _: *mut f32| ()) }
     }
 
     /// # Safety
@@ -135,67 +174,44 @@ impl Diagonals {
     /// As [`over`](Self::over).
     #[target_feature(enable = "avx2,fma")]
     unsafe fn over_avx2(&self, blocks: core::ops::Range<usize>) {
-        let (mut places, mut factors) =
-            ([[_mm256_setzero_si256(); DIAGONALS]; 2], [[_mm256_setzero_ps(); DIAGONALS]; 2]);
-        for d in 0..DIAGONALS {
-            // The higher register begins with the last number of the lower one, which stays as it is there.
-            let (mut high_places, mut high_factors) = ([0; LOW], [0.0; LOW]);
-            for i in 1..LOW {
-                high_places[i] = self.places[d][i + LOW - 1] - (LOW as i32 - 1);
-                high_factors[i] = self.factors[d][i + LOW - 1];
-            }
-            // SAFETY: the arrays are as long as a register.
-            unsafe {
-                places[0][d] = _mm256_loadu_si256(self.places[d].as_ptr().cast());
-                factors[0][d] = _mm256_loadu_ps(self.factors[d].as_ptr());
-                places[1][d] = _mm256_loadu_si256(high_places.as_ptr().cast());
-                factors[1][d] = _mm256_loadu_ps(high_factors.as_ptr());
-            }
-        }
-        let low = of_rows(
+        // The higher eight numbers begin with the last of the lower ones.
+        let half = |first: usize| Half {
+            places: self.places.map(|places| core::array::from_fn(|i| places[first + i] - first as i32)),
+            factors: self.factors.map(|factors| core::array::from_fn(|i| factors[first + i])),
+        };
+        let [low, high] = [half(0), half(LOW - 1)];
+        let lower = of_block(
             #[inline(always)]
-            |from: *const f32, to: *mut f32| {
-                // SAFETY: there are fifteen numbers.
-                let x = unsafe { _mm256_loadu_ps(from) };
-                let term = source(
+            || {
+                let turn = low.turn::<LOW_DIAGONALS>();
+                of_rows(
                     #[inline(always)]
-                    |d: usize| _mm256_permutevar8x32_ps(x, places[0][d]),
-                );
-                let mut even = _mm256_mul_ps(x, factors[0][0]);
-                let mut odd = _mm256_mul_ps(term(1), factors[0][1]);
-                even = _mm256_fmadd_ps(term(2), factors[0][2], even);
-                odd = _mm256_fmadd_ps(term(3), factors[0][3], odd);
-                even = _mm256_fmadd_ps(term(4), factors[0][4], even);
-                // SAFETY: as above.
-                unsafe { _mm256_storeu_ps(to, _mm256_add_ps(even, odd)) }
+                    move |from: *const f32, to: *mut f32| {
+                        // SAFETY: there are fifteen numbers.
+                        unsafe { _mm256_storeu_ps(to, turn(_mm256_loadu_ps(from))) }
+                    },
+                )
             },
         );
-        let high = of_rows(
+        let higher = of_block(
             #[inline(always)]
-            |from: *const f32, to: *mut f32| {
-                // SAFETY: there are fifteen numbers, of which these are the last eight.
-                let x = unsafe { _mm256_loadu_ps(from.add(LOW - 1)) };
-                let term = source(
+            || {
+                let turn = high.turn::<DIAGONALS>();
+                of_rows(
                     #[inline(always)]
-                    |d: usize| _mm256_permutevar8x32_ps(x, places[1][d]),
-                );
-                let mut even = _mm256_mul_ps(x, factors[1][0]);
-                let mut odd = _mm256_mul_ps(term(1), factors[1][1]);
-                even = _mm256_fmadd_ps(term(2), factors[1][2], even);
-                odd = _mm256_fmadd_ps(term(3), factors[1][3], odd);
-                even = _mm256_fmadd_ps(term(4), factors[1][4], even);
-                odd = _mm256_fmadd_ps(term(5), factors[1][5], odd);
-                even = _mm256_fmadd_ps(term(6), factors[1][6], even);
-                // SAFETY: as above.
-                unsafe {
-                    let to = to.add(LOW - 1);
-                    let done = _mm256_castps128_ps256(_mm_load_ss(to));
-                    _mm256_storeu_ps(to, _mm256_blend_ps::<1>(_mm256_add_ps(even, odd), done));
-                }
+                    move |from: *const f32, to: *mut f32| {
+                        // SAFETY: there are fifteen numbers, of which these are the last eight. The first of them is written with
+                        // the lower ones, for which it stays as it is where rows are turned in place.
+                        unsafe {
+                            let x = _mm256_loadu_ps(from.add(LOW - 1));
+                            _mm256_storeu_ps(to.add(LOW - 1), _mm256_blend_ps::<1>(turn(x), x));
+                        }
+                    },
+                )
             },
         );
         // SAFETY: the caller's.
-        unsafe { self.each(blocks, low, high) }
+        unsafe { self.each(blocks, higher, lower) }
     }
 
     /// Turns the rows of some blocks by two functions of where the bands 1 to 3 of a channel are read and written: the first of all
@@ -205,19 +221,19 @@ impl Diagonals {
     ///
     /// As [`over`](Self::over).
     #[inline(always)]
-    unsafe fn each(
+    unsafe fn each<F: Fn(*const f32, *mut f32), G: Fn(*const f32, *mut f32)>(
         &self,
         blocks: core::ops::Range<usize>,
-        turn: impl Fn(*const f32, *mut f32),
-        then: impl Fn(*const f32, *mut f32),
+        turn: impl Fn() -> F,
+        then: impl Fn() -> G,
     ) {
         // SAFETY: the caller's.
         unsafe {
             match self.rows[0].channels {
-                1 => self.each_of::<1>(blocks, turn, then),
-                3 => self.each_of::<3>(blocks, turn, then),
-                2 => self.each_of::<2>(blocks, turn, then),
-                _ => self.each_of::<MOST_CHANNELS>(blocks, turn, then),
+                1 => self.each_of::<1, F, G>(blocks, turn, then),
+                3 => self.each_of::<3, F, G>(blocks, turn, then),
+                2 => self.each_of::<2, F, G>(blocks, turn, then),
+                _ => self.each_of::<MOST_CHANNELS, F, G>(blocks, turn, then),
             }
         }
     }
@@ -228,11 +244,11 @@ impl Diagonals {
     ///
     /// As [`over`](Self::over).
     #[inline(always)]
-    unsafe fn each_of<const CHANNELS: usize>(
+    unsafe fn each_of<const CHANNELS: usize, F: Fn(*const f32, *mut f32), G: Fn(*const f32, *mut f32)>(
         &self,
         blocks: core::ops::Range<usize>,
-        turn: impl Fn(*const f32, *mut f32),
-        then: impl Fn(*const f32, *mut f32),
+        turn: impl Fn() -> F,
+        then: impl Fn() -> G,
     ) {
         let [from_stride, to_stride] = self.strides;
         let places =
@@ -257,6 +273,7 @@ impl Diagonals {
                 let into = if streams { aside(block) } else { to };
                 // SAFETY: the caller's.
                 unsafe {
+                    let turn = turn();
                     for k in 0..count {
                         let (from, into) = (from.add(k * from_stride), into.add(k * to_stride));
                         let ahead = from.wrapping_add(BLOCK * from_stride);
@@ -268,6 +285,7 @@ impl Diagonals {
                             turn(from.add(from_rest[channel]), into.add(to_rest[channel]));
                         }
                     }
+                    let then = then();
                     for k in 0..count {
                         let (from, into) = (from.add(k * from_stride), into.add(k * to_stride));
                         for channel in 0..CHANNELS {
@@ -292,5 +310,17 @@ impl Diagonals {
 /// A function of where a row is read and written, always inlined: only so is it compiled for the unit of the function around it.
 #[inline(always)]
 fn of_rows<F: Fn(*const f32, *mut f32)>(of: F) -> F {
+    of
+}
+
+/// A function that gives one of rows for a block's.
+#[inline(always)]
+fn of_block<F: Fn() -> G, G: Fn(*const f32, *mut f32)>(of: F) -> F {
+    of
+}
+
+/// A function of eight numbers.
+#[inline(always)]
+fn of_eight<F: Fn(__m256) -> __m256>(of: F) -> F {
     of
 }
