@@ -83,18 +83,22 @@ unsafe impl<T: Send> Send for View<T> {}
 unsafe impl<T: Sync> Sync for View<T> {}
 
 impl<T> View<T> {
+    // Views are made where they stay: moving one costs more than all that a call does with it.
+    #[inline(always)]
     fn blocks(planes: [(*mut T, usize); MOST_CHANNELS], plane_count: usize, count: usize, channels: usize) -> Self {
         let of_a_block = BLOCK * count * channels / plane_count.max(1);
         let blocks = planes[..plane_count].iter().map(|plane| plane.1 / of_a_block.max(1)).min().unwrap_or(0);
         Self::new(planes, plane_count, Places::Blocks, [count, channels], blocks * BLOCK)
     }
 
+    #[inline(always)]
     fn rows(planes: [(*mut T, usize); MOST_CHANNELS], plane_count: usize, stride: usize, row: Row) -> Self {
         let signals = planes[..plane_count].iter().map(|plane| plane.1 / stride.max(1)).min().unwrap_or(0);
         let channels = row.channels * plane_count;
         Self::new(planes, plane_count, Places::Rows { stride, row }, [row.count, channels], signals)
     }
 
+    #[inline(always)]
     fn new(
         planes: [(*mut T, usize); MOST_CHANNELS],
         plane_count: usize,
@@ -144,9 +148,14 @@ impl<T> View<T> {
         BLOCK * self.count * self.channels_of_plane()
     }
 
-    /// How many bytes all signals take.
+    /// How many bytes all signals take, which is no more than memory has.
     pub fn bytes(&self) -> usize {
-        self.signals.saturating_mul(self.count * self.channels * size_of::<T>())
+        self.signals * self.count * self.channels * size_of::<T>()
+    }
+
+    /// Whether all planes have as many numbers.
+    pub fn is_even(&self) -> bool {
+        self.is_one_plane() || self.lengths[..self.plane_count].windows(2).all(|pair| pair[0] == pair[1])
     }
 
     /// Returns whether sixteen signals are lines as they lie, from a block on that is whole.
@@ -207,6 +216,7 @@ fn checked(numbers: usize, stride: usize, row: &Row) -> Result<(), Error> {
 const EMPTY: usize = 0;
 
 /// One plane for all channels.
+#[inline(always)]
 fn one<T>(at: *mut T, length: usize) -> [(*mut T, usize); MOST_CHANNELS] {
     let mut planes = [(core::ptr::null_mut(), EMPTY); MOST_CHANNELS];
     planes[0] = (at, length);
@@ -214,6 +224,7 @@ fn one<T>(at: *mut T, length: usize) -> [(*mut T, usize); MOST_CHANNELS] {
 }
 
 /// A plane a channel.
+#[inline(always)]
 fn each<T>(of: impl IntoIterator<Item = (*mut T, usize)>) -> [(*mut T, usize); MOST_CHANNELS] {
     let mut planes = [(core::ptr::null_mut(), EMPTY); MOST_CHANNELS];
     for (plane, known) in planes.iter_mut().zip(of) {

@@ -174,6 +174,14 @@ fn are_aligned<T>(lines: &Lines<T>) -> bool {
     lines.at.iter().all(|at| at.is_null() || at.align_offset(64) == 0)
 }
 
+/// How many signals a view has, if they are not as many as there are results: blocks may have some too many.
+fn misfit<T, D>(view: Option<&View<T>>, to: &View<D>) -> Option<usize> {
+    let view = view?;
+    let are_blocks = matches!((&view.places, &to.places), (Places::Blocks, _) | (_, Places::Blocks));
+    let fits = if are_blocks { view.block_count() == to.block_count() } else { view.signals == to.signals };
+    (!fits).then_some(view.signals)
+}
+
 impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     /// Checks that there are as many of everything.
     ///
@@ -181,26 +189,17 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
     ///
     /// If there are not.
     pub fn check(&self) -> Result<(), Error> {
-        let planes = |lengths: &[usize]| lengths.windows(2).all(|pair| pair[0] == pair[1]);
-        let is_even = |view: &View<S>| planes(&view.lengths[..view.plane_count]);
-        let of_from = self.from.view();
-        let are_even = of_from.is_none_or(is_even)
-            && self.other.as_ref().is_none_or(is_even)
-            && planes(&self.to.lengths[..self.to.plane_count]);
+        let are_even = self.from.view().is_none_or(View::is_even)
+            && self.other.as_ref().is_none_or(View::is_even)
+            && self.to.is_even();
         if !are_even {
             return Err(Error::Planes);
         }
-        let is_blocks = |places: &Places| *places == Places::Blocks;
-        let fits = |places: &Places, found: usize| match is_blocks(places) || is_blocks(&self.to.places) {
-            true => found.div_ceil(BLOCK) == self.to.block_count(),
-            false => found == self.to.signals,
-        };
-        let params = self.params.view().map(|view| (&view.places, view.signals));
-        let signals = of_from.into_iter().chain(&self.other).map(|view| (&view.places, view.signals));
-        match params.into_iter().chain(signals).find(|(places, found)| !fits(places, *found)) {
-            Some((_, found)) => Err(Error::Batch { found, results: self.to.signals }),
-            None => Ok(()),
-        }
+        let to = &self.to;
+        let misfit = misfit(self.params.view(), to)
+            .or_else(|| misfit(self.from.view(), to))
+            .or_else(|| misfit(self.other.as_ref(), to));
+        misfit.map_or(Ok(()), |found| Err(Error::Batch { found, results: to.signals }))
     }
 
     /// Returns the rotation of all rows as diagonals, if it is one and they are rows for it.
@@ -209,7 +208,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let (Params::Shared(quaternion), Input::Each(from)) = (&self.params, &self.from) else { return None };
         let (from, to) = (from.singles()?, self.to.singles()?);
         let q = <[S::Number; 4]>::try_from(*quaternion).ok()?.map(|x| x.into() as f32);
-        super::diagonals::Diagonals::new(self.unit, q, &from, &to, self.streams())
+        super::diagonals::Diagonals::new(self.unit, q, &from, &to, self.streams(self.bytes()))
     }
 
     /// How many bytes signals and results are.
@@ -217,17 +216,12 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         self.from.view().map_or(0, View::bytes) + self.to.bytes()
     }
 
-    /// Whether signals and results lie in no cache of the core's own.
-    fn is_far(&self) -> bool {
-        self.bytes() >= FAR_FROM
-    }
-
     /// Whether results are written past the caches, where they can be: there are many bytes, and they do not lie where the signals
     /// were just read.
-    fn streams(&self) -> bool {
+    fn streams(&self, bytes: usize) -> bool {
         let view = self.from.view();
         let is_in_place = view.is_some_and(|view| view.planes[0].cast::<D>() == self.to.planes[0]);
-        !is_in_place && self.bytes() >= STREAMS_FROM.load(Ordering::Relaxed)
+        bytes >= STREAMS_FROM.load(Ordering::Relaxed) && !is_in_place
     }
 
     /// Returns what reads and writes rows, for all of the blocks.
@@ -236,7 +230,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         if let Some(diagonals) = self.diagonals() {
             return Moved { params: None, from: None, other: None, to: None, diagonals: Some(diagonals) };
         }
-        let (unit, is_far) = (self.unit, self.is_far());
+        let (unit, is_far) = (self.unit, self.bytes() >= FAR_FROM);
         Moved {
             params: self.params.view().and_then(|view| Moving::new(params, view, unit, true, is_far)),
             from: self.from.view().and_then(|view| Moving::new(from, view, unit, true, is_far)),
@@ -309,13 +303,9 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
 
     /// Returns a pass over some blocks, of which nothing has a place.
     fn pass(&self, blocks: &Range<usize>) -> Pass<'static, S::Number> {
-        Pass {
-            blocks: blocks.len(),
-            group: blocks.len(),
-            channels: self.to.channels,
-            is_far: self.is_far(),
-            ..Pass::nowhere()
-        }
+        let (count, bytes) = (blocks.len(), self.bytes());
+        let (is_far, streams) = (bytes >= FAR_FROM, self.streams(bytes));
+        Pass { blocks: count, group: count, channels: self.to.channels, is_far, streams, ..Pass::nowhere() }
     }
 
     /// Places what lies in lines. What all blocks share is lines wherever it is, and so is what there is none of.
@@ -341,7 +331,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             to: direct(&self.to, blocks, &mut pass.to),
         };
         pass.ahead = pass.from.later(blocks_ahead(self.to.count));
-        pass.streams = there.to && self.streams() && are_aligned(&pass.to);
+        pass.streams &= there.to && are_aligned(&pass.to);
         there
     }
 
@@ -407,7 +397,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
         let mut room = Aside::<[[S::Number; BLOCK]; LINES]>::new();
         let params_first: *mut S::Number = params_room.first();
         let needs = self.needs(there);
-        let is_large = self.streams();
+        let is_large = self.streams(self.bytes());
         // What goes to memory goes evenly.
         let group = if is_large { 1 } else { needs.group(LINES) };
         let first: *mut S::Number = room.first();
