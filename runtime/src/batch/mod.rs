@@ -33,6 +33,7 @@
 //!
 //! Every function checks all sizes before it touches anything.
 
+mod arrays;
 #[cfg(all(target_arch = "x86_64", feature = "order4"))]
 mod diagonals;
 mod kernels;

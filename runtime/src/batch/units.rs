@@ -4,13 +4,13 @@
 use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};
 
+use super::arrays;
 use super::kernels::{self, Kernel};
 use super::pass::{Pass, align_stack};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::registers::pair::Pair;
 use super::registers::{Quads, Register};
 use super::rows::{Rows, Tiles};
-use super::squares;
 
 /// A vector unit, by what it needs of the processor; later ones are wider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -149,7 +149,7 @@ macro_rules! unit {
             $(#[$features])?
             unsafe fn gather_arrays<R: Quads, const N: usize>(_: &Tiles, rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
-                unsafe { squares::gather_arrays::<R, N>(rows, lines, step) }
+                unsafe { arrays::gather::<R, N>(rows, lines, step) }
             }
 
             /// # Safety
@@ -158,7 +158,7 @@ macro_rules! unit {
             $(#[$features])?
             unsafe fn scatter_arrays<R: Quads, const N: usize>(_: &Tiles, lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
                 // SAFETY: the caller's, and this function is compiled for the unit.
-                unsafe { squares::scatter_arrays::<R, N>(lines, step, rows) }
+                unsafe { arrays::scatter::<R, N>(lines, step, rows) }
             }
 
             /// # Safety
