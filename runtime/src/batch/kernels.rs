@@ -195,6 +195,9 @@ macro_rules! all {
     };
 }
 
+/// How many lines ahead signals in memory are asked for with which little is done.
+const LINES_AHEAD: usize = 144;
+
 /// The three lines of directions.
 ///
 /// # Safety
@@ -272,10 +275,13 @@ macro_rules! directions {
                     #[inline(always)]
                     |place, channels| {
                         if pass.is_far {
+                            let blocks = LINES_AHEAD / $count;
                             for channel in 0..channels {
-                                let ahead = pass.ahead.of(channel, place);
+                                let ahead = pass.from.of(channel, place).wrapping_add(blocks * pass.from.step);
                                 (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
                             }
+                            let ahead = pass.params.of(0, place).wrapping_add(blocks * pass.params.step);
+                            (0..3).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
                         }
                         for part in 0..R::PARTS {
                             // SAFETY: the caller's.
