@@ -6,7 +6,7 @@ use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr;
 
-use super::pass::{Aside, Pass};
+use super::pass::{Aside, Pass, blocks_ahead};
 use super::registers::{BLOCK, Register};
 use crate::pieces::{sink, source};
 
@@ -195,9 +195,6 @@ macro_rules! all {
     };
 }
 
-/// How many lines ahead signals in memory are asked for with which little is done.
-const LINES_AHEAD: usize = 144;
-
 /// The three lines of directions.
 ///
 /// # Safety
@@ -275,12 +272,11 @@ macro_rules! directions {
                     #[inline(always)]
                     |place, channels| {
                         if pass.is_far {
-                            let blocks = LINES_AHEAD / $count;
                             for channel in 0..channels {
-                                let ahead = pass.from.of(channel, place).wrapping_add(blocks * pass.from.step);
+                                let ahead = pass.ahead.of(channel, place);
                                 (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
                             }
-                            let ahead = pass.params.of(0, place).wrapping_add(blocks * pass.params.step);
+                            let ahead = pass.params.of(0, place).wrapping_add(blocks_ahead($count) * pass.params.step);
                             (0..3).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));
                         }
                         for part in 0..R::PARTS {

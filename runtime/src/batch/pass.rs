@@ -18,6 +18,13 @@ pub struct Lines<T> {
     pub mask: usize,
 }
 
+/// How many blocks ahead those of so many lines are asked for where they lie: memory is so far, and more has no room beside what is
+/// worked on.
+#[inline(always)]
+pub fn blocks_ahead(lines: usize) -> usize {
+    (144 / lines.max(1)).max(1)
+}
+
 /// How many groups of blocks have places: one is worked on, and the next is read.
 pub const GROUPS: usize = 2;
 

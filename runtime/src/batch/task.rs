@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::moving::{Moving, Room, narrow, read};
 use super::numbers::Storage;
-use super::pass::{Aside, GROUPS, Lines, MOST_CHANNELS, Pass};
+use super::pass::{Aside, GROUPS, Lines, MOST_CHANNELS, Pass, blocks_ahead};
 use super::registers::BLOCK;
 use super::room::{FEW_LINES, MOST_GROUP, Needs, ROOM_LINES, aside};
 use super::rows::MOST_LINES;
@@ -24,12 +24,6 @@ const FAR_FROM: usize = 1 << 20;
 /// last cache is a good value, and 16 MiB what is used if nothing is said. Only blocks, and rows without gaps, can be written so.
 pub fn stream_from(bytes: usize) {
     STREAMS_FROM.store(bytes, Ordering::Relaxed);
-}
-
-/// How many blocks ahead signals in lines are asked for: two are far enough for memory, and of large ones more than one has no room
-/// beside what is worked on.
-fn blocks_ahead(lines: usize) -> usize {
-    if lines > 64 { 1 } else { 2 }
 }
 
 /// The parameters of a kernel.
@@ -330,7 +324,7 @@ impl<S: Storage, D: Storage<Number = S::Number>> Task<'_, S, D> {
             other: self.other.as_ref().is_none_or(|view| direct(view, blocks, &mut pass.other)),
             to: direct(&self.to, blocks, &mut pass.to),
         };
-        pass.ahead = pass.from.later(blocks_ahead(self.to.count));
+        pass.ahead = pass.from.later(blocks_ahead(self.from.view().map_or(1, |view| view.count)));
         pass.streams &= there.to && are_aligned(&pass.to);
         there
     }
