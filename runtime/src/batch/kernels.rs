@@ -334,6 +334,7 @@ macro_rules! directions {
 }
 
 /// The product of each two signals.
+#[allow(unused_macros)]
 macro_rules! product {
     ($product:ident: $module:ident) => {
         /// The product of each two signals.
