@@ -195,6 +195,11 @@ macro_rules! all {
     };
 }
 
+/// Whether so little is done with signals of so many lines, one register a line, that what the second cache has is asked for too.
+const fn is_brief<R: Register>(lines: usize) -> bool {
+    R::PARTS == 1 && R::COUNT == 1 && lines <= 9
+}
+
 /// The three lines of directions.
 ///
 /// # Safety
@@ -271,7 +276,7 @@ macro_rules! directions {
                 pass.each_of_channels(
                     #[inline(always)]
                     |place, channels| {
-                        if pass.is_far {
+                        if pass.is_far || is_brief::<R>($count) {
                             for channel in 0..channels {
                                 let ahead = pass.ahead.of(channel, place);
                                 (0..$count).for_each(|line| R::prefetch(ahead.wrapping_add(line * BLOCK)));

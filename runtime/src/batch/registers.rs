@@ -21,7 +21,9 @@ pub trait Register: Real + Signal<Self::Number> {
     type Number: Real;
     /// How many lanes there are.
     const LANES: usize;
-    /// How many registers a line of a block takes.
+    /// How many registers of the processor it is.
+    const COUNT: usize = 1;
+    /// How many of these a line of a block takes.
     const PARTS: usize = BLOCK / Self::LANES;
 
     /// Reads the lanes.

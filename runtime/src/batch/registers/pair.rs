@@ -161,6 +161,7 @@ where
 {
     type Number = R::Number;
     const LANES: usize = 2 * R::LANES;
+    const COUNT: usize = 2 * R::COUNT;
     #[inline(always)]
     unsafe fn load(from: *const R::Number) -> Self {
         // SAFETY: the caller knows that the numbers and the unit are there.
