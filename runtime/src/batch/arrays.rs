@@ -6,11 +6,12 @@ use super::rows::Rows;
 use super::squares::{read_four, read_square, worth_a_square, write_four, write_square};
 use crate::pieces::source;
 
-/// Where the columns begin that are left over of so many: a square's, or those of four each.
-const fn left_over(count: usize, is_wide: bool) -> (Option<usize>, usize) {
+/// How many columns of so many are read as squares; the others, fours each, are behind them. What is left over and worth a square
+/// or four begins with columns that are done already.
+const fn in_squares(count: usize, is_wide: bool) -> usize {
     match count % BLOCK {
-        rest if count > BLOCK && rest >= worth_a_square(is_wide) => (Some(count - BLOCK), count),
-        rest => (None, count - rest),
+        rest if count > BLOCK && rest >= worth_a_square(is_wide) => count,
+        rest => count - rest,
     }
 }
 
@@ -21,7 +22,7 @@ const fn left_over(count: usize, is_wide: bool) -> (Option<usize>, usize) {
 /// As that.
 #[inline(always)]
 pub unsafe fn gather<R: Quads, const N: usize>(rows: Rows<R::Number>, lines: *mut R::Number, step: usize) {
-    let (square, fours) = const { left_over(N, R::IS_WIDE) };
+    let squares = const { in_squares(N, R::IS_WIDE) };
     for block in 0..rows.blocks {
         let lines = lines.wrapping_add(block * step);
         let first = rows.block::<R>(block);
@@ -31,7 +32,8 @@ pub unsafe fn gather<R: Quads, const N: usize>(rows: Rows<R::Number>, lines: *mu
         );
         // SAFETY: the caller's.
         unsafe {
-            for x in (0..N / BLOCK * BLOCK).step_by(BLOCK) {
+            for x in (0..squares).step_by(BLOCK) {
+                let x = x.min(N.saturating_sub(BLOCK));
                 read_square::<R>(
                     first.add(x),
                     N,
@@ -39,15 +41,7 @@ pub unsafe fn gather<R: Quads, const N: usize>(rows: Rows<R::Number>, lines: *mu
                     |i| line(x + i),
                 );
             }
-            if let Some(x) = square {
-                read_square::<R>(
-                    first.add(x),
-                    N,
-                    #[inline(always)]
-                    |i| line(x + i),
-                );
-            }
-            for x in (fours..N).step_by(4) {
+            for x in (squares..N).step_by(4) {
                 let x = x.min(N - 4);
                 read_four::<R>(
                     first.add(x),
@@ -67,7 +61,7 @@ pub unsafe fn gather<R: Quads, const N: usize>(rows: Rows<R::Number>, lines: *mu
 /// As that.
 #[inline(always)]
 pub unsafe fn scatter<R: Quads, const N: usize>(lines: *const R::Number, step: usize, rows: Rows<R::Number>) {
-    let (square, fours) = const { left_over(N, R::IS_WIDE) };
+    let squares = const { in_squares(N, R::IS_WIDE) };
     for block in 0..rows.blocks {
         let lines = lines.wrapping_add(block * step);
         let first = rows.first.wrapping_add(block * BLOCK * N);
@@ -77,7 +71,8 @@ pub unsafe fn scatter<R: Quads, const N: usize>(lines: *const R::Number, step: u
         );
         // SAFETY: the caller's.
         unsafe {
-            for x in (0..N / BLOCK * BLOCK).step_by(BLOCK) {
+            for x in (0..squares).step_by(BLOCK) {
+                let x = x.min(N.saturating_sub(BLOCK));
                 write_square::<R>(
                     #[inline(always)]
                     |i| line(x + i),
@@ -85,15 +80,7 @@ pub unsafe fn scatter<R: Quads, const N: usize>(lines: *const R::Number, step: u
                     N,
                 );
             }
-            if let Some(x) = square {
-                write_square::<R>(
-                    #[inline(always)]
-                    |i| line(x + i),
-                    first.add(x),
-                    N,
-                );
-            }
-            for x in (fours..N).step_by(4) {
+            for x in (squares..N).step_by(4) {
                 let x = x.min(N - 4);
                 write_four::<R>(
                     #[inline(always)]

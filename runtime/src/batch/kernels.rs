@@ -338,48 +338,6 @@ macro_rules! directions {
     };
 }
 
-/// The product of each two signals.
-#[allow(unused_macros)]
-macro_rules! product {
-    ($product:ident: $module:ident) => {
-        /// The product of each two signals.
-        pub struct $product;
-        impl Kernel for $product {
-            #[inline(always)]
-            unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
-                pass.each(
-                    #[inline(always)]
-                    |place| {
-                        for channel in 0..pass.channels {
-                            for part in 0..R::PARTS {
-                                let [a, b, into] = [&pass.from, &pass.other, &pass.to]
-                                    .map(|lines| lines.of(channel, place).wrapping_add(part * R::LANES));
-                                // SAFETY: the caller's.
-                                unsafe {
-                                    zonal_kernels::batch::$module::product::<R, R>(
-                                        &source(
-                                            #[inline(always)]
-                                            |i| R::load(a.add(i * BLOCK)),
-                                        ),
-                                        &source(
-                                            #[inline(always)]
-                                            |i| R::load(b.add(i * BLOCK)),
-                                        ),
-                                        &mut sink(
-                                            #[inline(always)]
-                                            |i, x: R| x.store(into.add(i * BLOCK)),
-                                        ),
-                                    );
-                                }
-                            }
-                        }
-                    },
-                );
-            }
-        }
-    };
-}
-
 /// Copies `lines` lines of each block and channel: what changes where numbers lie and nothing else.
 ///
 /// # Safety
@@ -411,7 +369,43 @@ macro_rules! orders {
             all!(RotateAll: "All by one quaternion.", $module, $count, $all_set_up(0 1 2 3), $all_bands);
             each!(Tilt: "Each to a normal of its own.", $module, $count, 0, tilt_setup(0 1 2), $tilt_bands);
             directions!(Basis Eval EvalAll: $module, $count);
-            $(product!($product: $module);)?
+            $(
+                /// The product of each two signals.
+                pub struct $product;
+                impl Kernel for $product {
+                    #[inline(always)]
+                    unsafe fn run<R: Register>(pass: &Pass<'_, R::Number>) {
+                        pass.each(
+                            #[inline(always)]
+                            |place| {
+                                for channel in 0..pass.channels {
+                                    for part in 0..R::PARTS {
+                                        let [a, b, into] = [&pass.from, &pass.other, &pass.to]
+                                            .map(|lines| lines.of(channel, place).wrapping_add(part * R::LANES));
+                                        // SAFETY: the caller's.
+                                        unsafe {
+                                            zonal_kernels::batch::$module::product::<R, R>(
+                                                &source(
+                                                    #[inline(always)]
+                                                    |i| R::load(a.add(i * BLOCK)),
+                                                ),
+                                                &source(
+                                                    #[inline(always)]
+                                                    |i| R::load(b.add(i * BLOCK)),
+                                                ),
+                                                &mut sink(
+                                                    #[inline(always)]
+                                                    |i, x: R| x.store(into.add(i * BLOCK)),
+                                                ),
+                                            );
+                                        }
+                                    }
+                                }
+                            },
+                        );
+                    }
+                }
+            )?
         }
     )* };
 }
